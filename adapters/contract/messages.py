@@ -1,0 +1,110 @@
+"""The wire protocol: one JSON message a line, versioned; the types here are its schema.
+
+The harness sends ``hello`` once and then any number of ``run`` without waiting for answers; the host answers each in
+order. A whole scenario travels in one message and its whole trace comes back in one. With ``stream`` the host sends
+each event as it happens, before the trace message; the harness asks for that when it takes a second look at a crash.
+``protocol.schema.json`` beside this file is generated from these types (``python -m ucm_cts.adapters.contract.messages``).
+"""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import msgspec
+
+from ucm_cts.adapters.contract.scenario import Scenario, Value
+from ucm_cts.adapters.contract.trace import Event
+
+PROTOCOL = 1
+
+
+class Message(Value, tag_field="type"):
+    """Base of all messages."""
+
+
+class Hello(Message, tag="hello"):
+    """Harness to host, first: the protocol version the harness speaks."""
+
+    protocol: int
+
+
+class Welcome(Message, tag="welcome"):
+    """Host to harness, answering hello: who is there.
+
+    ``port_element_name`` says how the framework spells port element names from ``{port}`` and ``{element}``.
+    """
+
+    protocol: int
+    product: str
+    version: str
+    port_element_name: str = "{port}_{element}"
+
+
+class Run(Message, tag="run"):
+    """Harness to host: run ``scenario`` on a fresh runtime; ``id`` comes back in the answer."""
+
+    id: int
+    scenario: Scenario
+    stream: bool = False
+
+
+class Traced(Message, tag="trace"):
+    """Host to harness: what happened. ``stuck`` names the threads that never came back."""
+
+    id: int
+    events: tuple[Event, ...]
+    stuck: tuple[str, ...] = ()
+
+
+class Happened(Message, tag="event"):
+    """Host to harness, streaming only: one event, as soon as it happened."""
+
+    id: int
+    event: Event
+
+
+class Refused(Message, tag="refused"):
+    """Host to harness: the message just received breaks the protocol, or the adapter could not set up its framework."""
+
+    reason: str
+    id: int | None = None
+
+
+ToHost = Hello | Run
+FromHost = Welcome | Traced | Happened | Refused
+
+encode = msgspec.json.Encoder().encode
+"""Any message as one line of JSON, without the newline."""
+
+
+@functools.cache
+def to_host_decoder() -> msgspec.json.Decoder[ToHost]:
+    """Strict decoder of what a host receives; raises ``msgspec.ValidationError`` naming the offending field."""
+    return msgspec.json.Decoder(ToHost)
+
+
+@functools.cache
+def from_host_decoder() -> msgspec.json.Decoder[FromHost]:
+    """Strict decoder of what a host sends; raises ``msgspec.ValidationError`` naming the offending field."""
+    return msgspec.json.Decoder(FromHost)
+
+
+def protocol_schema() -> dict[str, Any]:
+    """JSON Schema of both directions, for adapters in other languages."""
+    (to_host, from_host), definitions = msgspec.json.schema_components(
+        [ToHost, FromHost], ref_template="#/$defs/{name}"
+    )
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": f"UCM-CTS wire protocol, version {PROTOCOL}",
+        "description": "One message a line. A host reads to_host and writes from_host.",
+        "anyOf": [{"$ref": "#/$defs/to_host"}, {"$ref": "#/$defs/from_host"}],
+        "$defs": {"to_host": to_host, "from_host": from_host, **definitions},
+    }
+
+
+if __name__ == "__main__":
+    import sys
+
+    sys.stdout.buffer.write(msgspec.json.format(msgspec.json.encode(protocol_schema()), indent=2) + b"\n")

@@ -1,0 +1,110 @@
+"""Clause 11's component interfaces in Python: what a framework sees of the bodies it hosts.
+
+Names are those of 12.10. The SDK's probes implement these classes; a framework or its adapter only calls them.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+
+class NotFound(Exception):
+    """NOT_FOUND of 12.10."""
+
+
+class BadParameter(Exception):
+    """BAD_PARAMETER of 12.10."""
+
+
+class UcmError(Exception):
+    """UCM_ERROR of 12.10."""
+
+
+class PortElementObject(ABC):
+    """A provided port element (11.2.1.1). Probes have one business method."""
+
+    @abstractmethod
+    def exchange(self, value: int) -> int:
+        """The business method of the probe models' only interface: a signed 32-bit value in, one out."""
+
+
+@dataclass(frozen=True)
+class PortConnection:
+    """One required port element and the references connected to it (12.10)."""
+
+    from_port: str
+    to_port: Sequence[PortElementObject | None]
+
+
+class ComponentObject(ABC):
+    """A component body (11.2.1.2)."""
+
+    @abstractmethod
+    def on_init(self) -> None:
+        """Called once, when the attributes have their configured values."""
+
+    @abstractmethod
+    def on_startup(self, dependencies: Sequence[PortConnection]) -> None:
+        """Called when the operational phase begins, with the references of the required port elements."""
+
+    @abstractmethod
+    def on_shutdown(self) -> None:
+        """Called when the operational phase ends."""
+
+    @abstractmethod
+    def on_remove(self) -> None:
+        """Called when the instance is about to be removed."""
+
+    @abstractmethod
+    def get_portElement(self, provided: str) -> PortElementObject | None:
+        """The body's own object for the provided port element of that name, or None if it has none."""
+
+    @abstractmethod
+    def set_attribute(self, name: str, value: str) -> None:
+        """Set a component attribute. Clause 13.5 spells one mutator an attribute; generic bodies have this one."""
+
+
+class Connectable(ABC):
+    """Bodies that want to hear of each connection (11.2.1.3)."""
+
+    @abstractmethod
+    def on_connect(self, port_name: str, required: PortElementObject | None) -> None:
+        """The required port element ``port_name`` has been connected to ``required``."""
+
+    @abstractmethod
+    def on_disconnect(self, port_name: str) -> None:
+        """The required port element ``port_name`` has been disconnected."""
+
+
+class ContainerInterface(Protocol):
+    """The least a fragment gets to see of its container (11.2.1.4)."""
+
+    def get_components(self) -> Sequence[int]:
+        """Ids of the container's members."""
+
+
+class FragmentObject(ABC):
+    """What a fragment implements beside ComponentObject (11.2.1.4)."""
+
+    @abstractmethod
+    def set_container_interface(self, container: ContainerInterface) -> None:
+        """Gives the fragment access to the container that holds it."""
+
+
+@dataclass(frozen=True)
+class Implementation:
+    """A component implementation a framework can instantiate: what its model says, and a factory for bodies.
+
+    ``connectable`` bodies also implement Connectable, ``fragment`` bodies also FragmentObject.
+    """
+
+    name: str
+    provides: Sequence[str]
+    requires: Sequence[str]
+    attributes: Sequence[str]
+    connectable: bool
+    fragment: bool
+    create: Callable[[], ComponentObject]

@@ -1,0 +1,241 @@
+"""Scenario: a plain list of steps with symbolic variables, as it travels to a host.
+
+A scenario never says what to expect. Its component declarations describe the probe bodies the framework shall host;
+its steps are Container API calls (clause 12.10), stimuli through provided port elements, and gates.
+
+Variables are names bound by a step (``bind``) and used by later ones. Two are always there: ``UNKNOWN`` designates an
+identifier the framework never gave out, ``NIL`` a null reference. ``MANAGER`` is the runtime's root container.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+MANAGER = "manager"
+UNKNOWN = "unknown"
+NIL = "nil"
+
+PortElementName = str
+"""How a port element is spelled at the Container API, ``<port>_<element>`` unless the adapter says otherwise."""
+
+
+class Value(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
+    """Base of all scenario values: immutable, and an unknown or wrong-typed field is an error."""
+
+
+class RaiseError(Value, tag_field="do", tag="raise"):
+    """The probe leaves the hook with an exception that no interface declares."""
+
+
+class ReturnValue(Value, tag_field="do", tag="return"):
+    """The probe's ``exchange`` returns ``value`` instead of its own computation."""
+
+    value: int
+
+
+class CallPort(Value, tag_field="do", tag="call"):
+    """The probe calls ``exchange(value)`` on every reference it holds for its required port element ``port``."""
+
+    port: PortElementName
+    value: int
+
+
+class HoldAtGate(Value, tag_field="do", tag="hold"):
+    """The probe waits inside the hook until the scenario opens ``gate``."""
+
+    gate: str
+
+
+class QuerySiblings(Value, tag_field="do", tag="siblings"):
+    """A fragment asks the container interface it was given for ``get_components`` (11.2.1.4)."""
+
+
+Action = RaiseError | ReturnValue | CallPort | HoldAtGate | QuerySiblings
+
+Hook = Literal[
+    "on_init",
+    "on_startup",
+    "on_shutdown",
+    "on_remove",
+    "on_connect",
+    "on_disconnect",
+    "set_container_interface",
+    "exchange",
+]
+"""Where a probe is entered: the callbacks of clause 11.2.1, and ``exchange``, the probes' one business method."""
+
+
+class Declaration(Value):
+    """One component implementation the framework shall be able to instantiate: a probe body and its plan.
+
+    ``provides`` and ``requires`` list port element names; ``attributes`` maps attribute names to configured values;
+    ``connectable`` bodies implement Connectable (11.2.1.3), ``fragment`` bodies FragmentObject (11.2.1.4).
+    ``plan`` lists, per hook, the actions the probe performs each time it is entered there.
+    """
+
+    provides: tuple[PortElementName, ...] = ()
+    requires: tuple[PortElementName, ...] = ()
+    attributes: dict[str, str] = {}
+    connectable: bool = False
+    fragment: bool = False
+    plan: dict[Hook, tuple[Action, ...]] = {}
+
+
+class StepBase(Value, kw_only=True):
+    """Common to all steps. With ``thread`` the step runs on that worker thread and the scenario goes on at once."""
+
+    thread: str | None = None
+
+
+class AddComponent(StepBase, tag_field="op", tag="add_component"):
+    """``add_component`` for an instance of declaration ``component``; the id is bound to ``bind`` or ``component``.
+
+    A ``component`` that the scenario does not declare asks for an implementation nobody registered.
+    """
+
+    component: str
+    container: str = MANAGER
+    bind: str = ""
+
+
+class RemoveComponent(StepBase, tag_field="op", tag="remove_component"):
+    """``remove_component`` of the component bound to ``id``."""
+
+    id: str
+    container: str = MANAGER
+
+
+class GetPortElement(StepBase, tag_field="op", tag="get_port_element"):
+    """``get_port_element``; the reference is bound to ``bind``."""
+
+    id: str
+    port: PortElementName
+    bind: str
+    container: str = MANAGER
+
+
+class Connect(StepBase, tag_field="op", tag="connect"):
+    """``connect`` required port element ``port`` of ``id`` to the reference bound to ``to``; binds the connection id."""
+
+    id: str
+    port: PortElementName
+    to: str
+    bind: str
+    container: str = MANAGER
+
+
+class Disconnect(StepBase, tag_field="op", tag="disconnect"):
+    """``disconnect`` the connection bound to ``connection``."""
+
+    connection: str
+    container: str = MANAGER
+
+
+class Start(StepBase, tag_field="op", tag="start"):
+    """``start`` the container."""
+
+    container: str = MANAGER
+
+
+class Stop(StepBase, tag_field="op", tag="stop"):
+    """``stop`` the container."""
+
+    container: str = MANAGER
+
+
+class GetComponents(StepBase, tag_field="op", tag="get_components"):
+    """``get_components`` of the container."""
+
+    container: str = MANAGER
+
+
+class CreateContainer(StepBase, tag_field="op", tag="create_container"):
+    """``create_container`` on the manager; the new container is bound to ``bind``."""
+
+    bind: str
+
+
+class RemoveContainer(StepBase, tag_field="op", tag="remove_container"):
+    """``remove_container`` of the container bound to ``container``."""
+
+    container: str
+
+
+class Destroy(StepBase, tag_field="op", tag="destroy"):
+    """``destroy`` the runtime."""
+
+
+class Invoke(StepBase, tag_field="op", tag="invoke"):
+    """Stimulus: call ``exchange(value)`` on the provided port element reference bound to ``ref``."""
+
+    ref: str
+    value: int
+
+
+class OpenGate(StepBase, tag_field="op", tag="open"):
+    """Let every probe held at ``gate`` go on, now and later."""
+
+    gate: str
+
+
+class ReachGate(StepBase, tag_field="op", tag="reach"):
+    """Wait until some probe is held at ``gate``, for at most the scenario's patience."""
+
+    gate: str
+
+
+class Join(StepBase, tag_field="op", tag="join"):
+    """Wait until worker ``worker`` has done all its steps, for at most the scenario's patience."""
+
+    worker: str
+
+
+Step = (
+    AddComponent
+    | RemoveComponent
+    | GetPortElement
+    | Connect
+    | Disconnect
+    | Start
+    | Stop
+    | GetComponents
+    | CreateContainer
+    | RemoveContainer
+    | Destroy
+    | Invoke
+    | OpenGate
+    | ReachGate
+    | Join
+)
+
+ContainerCall = (
+    AddComponent
+    | RemoveComponent
+    | GetPortElement
+    | Connect
+    | Disconnect
+    | Start
+    | Stop
+    | GetComponents
+    | CreateContainer
+    | RemoveContainer
+    | Destroy
+)
+"""The steps that are operations of Container or ContainerManager (12.10)."""
+
+
+class Scenario(Value):
+    """Component declarations by name, steps in order, and ``patience``: milliseconds a wait step may take."""
+
+    components: dict[str, Declaration]
+    steps: tuple[Step, ...]
+    patience: int = 2000
+
+
+def operation(step: Step) -> str:
+    """The step's operation as it is spelled in 12.10 and on the wire."""
+    name = type(step).__struct_config__.tag
+    assert isinstance(name, str)
+    return name

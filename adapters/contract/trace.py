@@ -1,0 +1,169 @@
+"""Trace: the totally ordered events that really happened while a scenario ran.
+
+Every event has ``n``, drawn from ONE atomic counter of the host process and starting at 1 in each trace, so that order
+means happened-before; ``t``, the host's monotonic clock in nanoseconds; and ``thread``, 0 for the scenario's own thread.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+from ucm_cts.adapters.contract.scenario import Hook, PortElementName, Value
+
+DeclaredError = Literal["NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"]
+"""The three exceptions of 12.10."""
+
+ErrorName = Literal["NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR", "UNDECLARED"]
+"""What left an operation: one of 12.10's exceptions, or anything else."""
+
+
+class Reference(Value):
+    """A provided port element that the SDK recognised: ``port`` of the ``instance``-th body made for ``component``."""
+
+    component: str
+    instance: int
+    port: PortElementName
+
+
+Opaque = Literal["opaque"]
+"""A reference that is not a probe's own object, for instance a framework's proxy: judged by behaviour only."""
+
+MaybeReference = Reference | Opaque | None
+
+
+class Dependency(Value):
+    """One PortConnection of ``on_startup``: the name the framework used and the references it handed over."""
+
+    port: PortElementName
+    references: tuple[MaybeReference, ...]
+
+
+class EventBase(Value, tag_field="kind"):
+    """Common to all events."""
+
+    n: int
+    t: int
+    thread: int
+
+
+class Call(EventBase, tag="call"):
+    """Scenario step number ``step`` (from 0) is handed to the framework."""
+
+    step: int
+
+
+class Return(EventBase, tag="return"):
+    """The step's operation came back; ``value`` is an id, a list of ids, a reference, or a business result."""
+
+    step: int
+    value: int | tuple[int, ...] | Reference | Opaque | None = None
+
+
+class Raise(EventBase, tag="raise"):
+    """The step's operation ended with an exception; ``detail`` is its text, for people."""
+
+    step: int
+    error: ErrorName
+    detail: str = ""
+
+
+class Skip(EventBase, tag="skip"):
+    """The step was not tried, because ``variable`` was never bound."""
+
+    step: int
+    variable: str
+
+
+class Timeout(EventBase, tag="timeout"):
+    """A wait step ran out of patience."""
+
+    step: int
+
+
+class BodyEvent(EventBase):
+    """Common to events inside the ``instance``-th body (from 1) that the framework made for ``component``."""
+
+    component: str
+    instance: int
+
+
+class Create(BodyEvent, tag="create"):
+    """The framework instantiated the body."""
+
+
+class Enter(BodyEvent, tag="enter"):
+    """The framework entered the body at ``hook``.
+
+    ``port`` and ``reference`` are the arguments of the Connectable callbacks, ``port`` and ``value`` those of
+    ``exchange``, ``dependencies`` that of ``on_startup``; ``attributes`` are the values the body holds at ``on_init``.
+    """
+
+    hook: Hook
+    port: PortElementName | None = None
+    value: int | None = None
+    reference: MaybeReference = None
+    dependencies: tuple[Dependency, ...] | None = None
+    attributes: dict[str, str] | None = None
+
+
+class Exit(BodyEvent, tag="exit"):
+    """The body left ``hook``: with ``value``, or with an exception when ``raised``."""
+
+    hook: Hook
+    value: int | None = None
+    raised: bool = False
+
+
+class Request(BodyEvent, tag="request"):
+    """The body is about to call ``exchange(value)`` through its required port element ``port``."""
+
+    port: PortElementName
+    value: int
+
+
+class Reply(BodyEvent, tag="reply"):
+    """That call came back with ``value``, or with an exception when ``raised``."""
+
+    port: PortElementName
+    value: int | None = None
+    raised: bool = False
+
+
+class Siblings(BodyEvent, tag="siblings"):
+    """A fragment asked its container interface for ``get_components``: the ids, or an exception when ``raised``."""
+
+    ids: tuple[int, ...] = ()
+    raised: bool = False
+
+
+class Held(BodyEvent, tag="held"):
+    """The body waits at ``gate``."""
+
+    gate: str
+
+
+class Opened(EventBase, tag="opened"):
+    """The scenario opened ``gate``."""
+
+    gate: str
+
+
+Event = (
+    Call
+    | Return
+    | Raise
+    | Skip
+    | Timeout
+    | Create
+    | Enter
+    | Exit
+    | Request
+    | Reply
+    | Siblings
+    | Held
+    | Opened
+)
+
+Trace = tuple[Event, ...]

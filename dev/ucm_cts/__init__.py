@@ -1,0 +1,1 @@
+../../src/ucm_cts/__init__.py

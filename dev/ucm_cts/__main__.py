@@ -1,0 +1,1 @@
+../../src/ucm_cts/__main__.py

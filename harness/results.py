@@ -1,0 +1,97 @@
+"""The values a run produces, from single traces to the whole report. No behaviour: who computes them says so."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from ucm_cts.adapters.contract.scenario import Scenario, Value
+from ucm_cts.adapters.contract.trace import Trace
+from ucm_cts.reference_models.findings import Finding
+
+Verdict = Literal["pass", "fail", "inconclusive", "not applicable", "error"]
+"""A requirement's verdict, in the words of ISO/IEC 9646 (docs/verdicts.md)."""
+
+Overall = Literal["conformant", "not conformant", "inconclusive"]
+"""A run's verdict: not conformant if any requirement failed, conformant if all that apply passed."""
+
+IncidentKind = Literal["crash", "exit", "hang", "memory", "flood", "garbage", "protocol", "refused"]
+"""How a host can fail to answer: killed by a signal; ended; silent past the deadline; too much memory; too much output;
+not JSON; JSON that breaks the schema; refused by the adapter itself."""
+
+
+class Incident(Value):
+    """A scenario that did not come back with a trace, or came back with one that cannot be true.
+
+    ``detail`` names the signal, exit status, limit or offending field; ``stacks`` is what the host printed while it
+    was interrupted or died, empty if nothing; ``reproduced`` tells whether the second look met the incident again.
+    """
+
+    kind: IncidentKind
+    detail: str
+    stacks: str = ""
+    reproduced: bool = True
+
+
+class Execution(Value):
+    """One scenario run once: the trace, whole or (after an incident) as far as it is known, in the script's own names."""
+
+    name: str
+    scenario: Scenario
+    trace: Trace
+    incident: Incident | None = None
+
+
+class FailedExecution(Value):
+    """A finding with the shortest execution that shows it, and how many executions of the run showed the same cause."""
+
+    finding: Finding
+    execution: Execution
+    occurrences: int = 1
+    waived: str = ""
+
+
+class RequirementResult(Value):
+    """Verdict and evidence for one requirement of the catalogue. ``reason`` says why it is not ``pass`` or ``fail``."""
+
+    id: str
+    clause: str
+    title: str
+    verdict: Verdict
+    exercised: int
+    findings: tuple[FailedExecution, ...] = ()
+    reason: str = ""
+
+
+class TransitionResult(Value):
+    """How often one row of the life-cycle table was exercised and violated, and which readings were observed."""
+
+    row: str
+    exercised: int
+    violated: int
+    readings: tuple[str, ...] = ()
+
+
+class IncidentReport(Value):
+    """An incident with the execution it cost."""
+
+    incident: Incident
+    execution: Execution
+
+
+class Report(Value):
+    """Everything one run says, ready to be written as HTML, JSON and JUnit."""
+
+    product: str
+    version: str
+    profile: str
+    verdict: Overall
+    requirements: tuple[RequirementResult, ...]
+    transitions: tuple[TransitionResult, ...]
+    incidents: tuple[IncidentReport, ...]
+    adapter: str
+    suite_version: str
+    seed: int
+    started: str
+    seconds: float
+    scenarios: int
+    events: int
