@@ -1,0 +1,115 @@
+"""Random spellings: a framework sees names and payloads that are different in each run, so nothing can be hard-coded.
+
+Traces are judged in the disguised spelling, against the disguised scenario; only what people read is revealed.
+A name the framework made up stays as it is and therefore never equals a name of the scenario.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+from typing import TypeVar
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Scenario, Step
+
+T = TypeVar("T")
+
+_LETTERS = "bcdfghjklmnpqrstvwxz"
+_LONGEST_PAYLOAD = 2**31 - 1
+
+
+class Disguise:
+    """A reversible renaming of all names and payloads, drawn from ``seed``; grows as scenarios are disguised.
+
+    ``port_element_name`` is the framework's own way to make one name of ``{port}`` and ``{element}``.
+    """
+
+    def __init__(self, seed: int, port_element_name: str) -> None:
+        self._random = random.Random(seed)
+        self._port_element_name = port_element_name
+        self._tokens: dict[str, str] = {}
+        self._ports: dict[str, str] = {}
+        self._values: dict[int, int] = {}
+        self._plain: dict[str, str] = {}
+        self._pattern: re.Pattern[str] | None = None
+
+    def scenario(self, scenario: Scenario) -> Scenario:
+        """``scenario`` in disguise."""
+        return Scenario(
+            {self._name(name): self._declaration(d) for name, d in scenario.components.items()},
+            tuple(self._step(step) for step in scenario.steps),
+            scenario.patience,
+        )
+
+    def reveal(self, value: T) -> T:
+        """``value``, any message value or finding, with each known disguise replaced by what it stands for."""
+        if self._pattern is None:
+            alternatives = sorted(self._plain, key=len, reverse=True)
+            self._pattern = re.compile("|".join(map(re.escape, alternatives)) or r"(?!)")
+        text = msgspec.json.encode(value).decode()
+        revealed = self._pattern.sub(lambda match: self._plain[match.group()], text)
+        return msgspec.json.decode(revealed.encode(), type=type(value))
+
+    def _remember(self, disguised: str, plain: str) -> None:
+        self._plain[disguised] = plain
+        self._pattern = None
+
+    def _name(self, plain: str) -> str:
+        token = self._tokens.get(plain)
+        if token is None:
+            token = "".join(self._random.choices(_LETTERS, k=9))
+            self._tokens[plain] = token
+            self._remember(token, plain)
+        return token
+
+    def _port(self, plain: str) -> str:
+        spelled = self._ports.get(plain)
+        if spelled is None:
+            port, _, element = plain.partition(".")
+            spelled = self._port_element_name.format(port=self._name(port), element=self._name(element))
+            self._ports[plain] = spelled
+            self._remember(spelled, plain)
+        return spelled
+
+    def _value(self, plain: int) -> int:
+        value = self._values.get(plain)
+        if value is None:
+            value = self._random.randrange(10**9, _LONGEST_PAYLOAD)
+            self._values[plain] = value
+            self._remember(str(value), str(plain))
+            self._remember(str(~value), str(~plain))
+        return value
+
+    def _declaration(self, d: Declaration) -> Declaration:
+        return Declaration(
+            tuple(map(self._port, d.provides)),
+            tuple(map(self._port, d.requires)),
+            {self._name(name): self._name(value) for name, value in d.attributes.items()},
+            d.connectable,
+            d.fragment,
+            {hook: tuple(map(self._action, actions)) for hook, actions in d.plan.items()},
+        )
+
+    def _action(self, action: Action) -> Action:
+        match action:
+            case s.CallPort():
+                return s.CallPort(self._port(action.port), self._value(action.value))
+            case s.ReturnValue():
+                return s.ReturnValue(self._value(action.value))
+            case _:
+                return action
+
+    def _step(self, step: Step) -> Step:
+        replace = msgspec.structs.replace
+        match step:
+            case s.AddComponent():
+                return replace(step, component=self._name(step.component), bind=step.bind or step.component)
+            case s.GetPortElement() | s.Connect():
+                return replace(step, port=self._port(step.port))
+            case s.Invoke():
+                return replace(step, value=self._value(step.value))
+            case _:
+                return step

@@ -1,0 +1,129 @@
+"""Read YAML (and so JSON) documents into typed values, with errors that name file, line and remedy.
+
+Documents may be hostile: size is bounded, anchors, aliases, tags, several documents and duplicate keys are refused.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any, TypeVar
+
+import msgspec
+import yaml
+
+T = TypeVar("T")
+
+LARGEST = 4 * 1024 * 1024
+"""Bytes a document may have."""
+
+DEEPEST = 50
+"""Levels a document may nest."""
+
+
+class DocumentError(Exception):
+    """A document cannot be used; the text names file, line and what to do."""
+
+    def __init__(self, path: Path, line: int | None, problem: str) -> None:
+        super().__init__(f"{path}:{line}: {problem}" if line else f"{path}: {problem}")
+
+
+_Loader: type[Any] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+
+def read(path: Path, type_: type[T]) -> T:
+    """The document at ``path`` as a ``type_``; raises ``DocumentError`` with the line of whatever does not fit."""
+    value, lines = read_lines(path)
+    return convert(path, value, type_, lines)
+
+
+def convert(path: Path, value: object, type_: type[T], lines: dict[str, int]) -> T:
+    """``value`` as a ``type_``; ``lines`` maps msgspec's paths (``$.steps[2].op``) to lines of ``path``."""
+    try:
+        return msgspec.convert(value, type_)
+    except msgspec.ValidationError as error:
+        problem, _, where = str(error).partition(" - at ")
+        place = where.strip("`").replace("key in ", "")
+        field = re.search(r"unknown field `(.*)`", problem)
+        line = lines.get(f"{place or '$'}.{field.group(1)}") if field else None
+        while line is None and place:
+            line = lines.get(place)
+            place = place[: max(place.rfind("."), place.rfind("["), 0)]
+        at = f" (at {where.strip('`')})" if where else ""
+        raise DocumentError(path, line or lines.get("$"), problem + at) from None
+
+
+def read_lines(path: Path) -> tuple[object, dict[str, int]]:
+    """The document at ``path`` as plain values, and the line of each place in it (``$.steps[2].op``)."""
+    try:
+        with path.open("rb") as stream:
+            raw = stream.read(LARGEST + 1)
+    except OSError as error:
+        raise DocumentError(path, None, f"cannot be read: {error.strerror}") from None
+    if len(raw) > LARGEST:
+        raise DocumentError(path, None, f"is larger than {LARGEST} bytes; split it")
+    try:
+        text = raw.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise DocumentError(path, raw[: error.start].count(b"\n") + 1, "is not UTF-8; save it as UTF-8") from None
+    lines: dict[str, int] = {}
+    try:
+        _refuse_anchors_and_depth(path, text)
+        node = yaml.compose(text, Loader=_Loader)
+        if node is None:
+            raise DocumentError(path, 1, "is empty")
+        return _build(path, node, "$", lines), lines
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        raise DocumentError(path, mark.line + 1 if mark else None, f"not YAML: {error.problem}") from None
+    except yaml.YAMLError as error:
+        raise DocumentError(path, None, f"not YAML: {' '.join(str(error).split())}") from None
+
+
+def _refuse_anchors_and_depth(path: Path, text: str) -> None:
+    """Look at the event stream first: composing a deeply nested document would recurse."""
+    depth = 0
+    for event in yaml.parse(text, Loader=_Loader):
+        if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):
+            raise DocumentError(path, event.start_mark.line + 1, "anchors and aliases are not allowed; write it out")
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > DEEPEST:
+                raise DocumentError(path, event.start_mark.line + 1, f"nests deeper than {DEEPEST} levels")
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
+
+
+def _build(path: Path, node: yaml.Node, place: str, lines: dict[str, int]) -> object:
+    line = node.start_mark.line + 1
+    lines[place] = line
+    if isinstance(node, yaml.MappingNode):
+        mapping: dict[str, object] = {}
+        for key_node, value_node in node.value:
+            if not isinstance(key_node, yaml.ScalarNode):
+                raise DocumentError(path, key_node.start_mark.line + 1, "a key must be a plain word")
+            key = key_node.value
+            if key in mapping:
+                raise DocumentError(path, key_node.start_mark.line + 1, f"'{key}' is given twice; keep one")
+            mapping[key] = _build(path, value_node, f"{place}.{key}", lines)
+            lines[f"{place}.{key}"] = key_node.start_mark.line + 1
+            lines.setdefault(f"{place}[...]", line)
+        return mapping
+    if isinstance(node, yaml.SequenceNode):
+        return [_build(path, item, f"{place}[{index}]", lines) for index, item in enumerate(node.value)]
+    return _scalar(path, node, line)
+
+
+def _scalar(path: Path, node: yaml.Node, line: int) -> object:
+    text = str(node.value)
+    if node.tag == "tag:yaml.org,2002:int" and re.fullmatch(r"[-+]?[0-9]+", text):
+        if len(text) > 20:
+            raise DocumentError(path, line, "a number this long is not allowed")
+        return int(text)
+    if node.tag == "tag:yaml.org,2002:bool" and text in ("true", "false"):
+        return text == "true"
+    if node.tag == "tag:yaml.org,2002:null":
+        return None
+    if node.tag.startswith("tag:yaml.org,2002:") and node.tag not in ("tag:yaml.org,2002:binary",):
+        return text
+    raise DocumentError(path, line, f"tag '{node.tag}' is not allowed; write plain text")

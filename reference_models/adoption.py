@@ -1,0 +1,206 @@
+"""After an operation: the model takes over what was observed, so that one defect does not spill over the rest."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Enter, Opaque, Raise, Reference, Return
+from ucm_cts.reference_models.runtime import Connection, Container, Member, Runtime, Window, raises
+from ucm_cts.reference_models.situations import undone_by
+
+
+def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """Bring ``runtime`` up to date with the operation that just ended."""
+    returned = isinstance(end, Return)
+    value = end.value if isinstance(end, Return) else None
+    match window.step:
+        case s.AddComponent() as step:
+            _added(runtime, window, step, value if returned else None)
+        case s.GetPortElement() as step if returned:
+            reference: Reference | Opaque | None = value if isinstance(value, Reference) or value == "opaque" else None
+            runtime.references[step.bind] = (reference, window.subject)
+        case s.Connect() as step if returned:
+            _connected(runtime, window, step, value)
+        case s.Disconnect() if returned:
+            _disconnected(window)
+        case s.RemoveComponent() if returned and window.subject is not None:
+            _removed(runtime, window, [window.subject])
+        case s.Start():
+            _started(runtime, window, returned)
+        case s.Stop():
+            _stopped(runtime, window, returned)
+        case s.CreateContainer() as step if returned:
+            runtime.containers[step.bind] = Container(step.bind)
+        case s.RemoveContainer() as step if returned:
+            container = runtime.containers.get(step.container)
+            if container is not None and not container.removed and container.name != s.MANAGER:
+                _removed(runtime, window, container.live_members())
+                container.removed = True
+        case s.Destroy():
+            runtime.destroyed = True
+            for container in runtime.containers.values():
+                for member in container.members:
+                    member.gone = member.gone or returned
+        case _:
+            pass
+    if not returned and isinstance(end, Raise) and end.error == "UNDECLARED":
+        _lose_track(window)
+
+
+def received(window: Window, member: Member, hook: s.Hook) -> list[Enter]:
+    """The ``hook`` callbacks that ``member``'s body received during the window."""
+    return [
+        c for c in window.callbacks if c.hook == hook and c.component == member.component and c.instance == member.instance
+    ]
+
+
+def _added(runtime: Runtime, window: Window, step: s.AddComponent, value: object) -> None:
+    declaration = runtime.scenario.components.get(step.component)
+    bodies = [(c.component, c.instance) for c in window.callbacks if (c.component, c.instance) not in runtime.bodies]
+    own = [b for b in bodies if b[0] == step.component]
+    if not isinstance(value, int) or isinstance(value, bool):
+        window.container.failed_adds += 1
+        runtime.discarded.update(bodies)
+        return
+    member = Member(
+        name=step.bind or step.component,
+        component=step.component,
+        declaration=declaration or s.Declaration(),
+        container=window.container,
+        id=value,
+        instance=own[0][1] if own else None,
+    )
+    member.suspended = (
+        not own or declaration is None or not window.judged or raises(declaration, "on_init", "set_container_interface")
+    )
+    window.container.members.append(member)
+    runtime.members[member.name] = member
+    if member.instance is not None:
+        runtime.bodies[(member.component, member.instance)] = member
+    if received(window, member, "on_startup"):
+        member.operational = True
+        member.startups = 1
+        if window.container.started:
+            window.container.startup_order.append(member)
+        else:
+            member.suspended = True
+    window.subject = member
+
+
+def _connected(runtime: Runtime, window: Window, step: s.Connect, value: object) -> None:
+    member = window.subject
+    if member is None:
+        return
+    reference, provider = runtime.reference(step.to)
+    if not isinstance(value, int) or step.port not in member.declaration.requires or step.to == s.NIL:
+        member.suspended = True
+        return
+    connection = Connection(step.bind, value, member, step.port, reference, provider)
+    for earlier in member.live_connections(step.port):
+        earlier.live = None
+    if member.operational or (provider is not None and provider.gone):
+        connection.live = None
+    member.connections.append(connection)
+    member.once_connected.add(step.port)
+    runtime.connections[step.bind] = connection
+    if received(window, member, "on_startup"):
+        member.suspended = True
+
+
+def _disconnected(window: Window) -> None:
+    connection = window.connection
+    if connection is None:
+        return
+    connection.live = False
+    client = connection.client
+    if any(c.live is None and c.port == connection.port for c in client.connections):
+        client.suspended = True
+
+
+def _removed(runtime: Runtime, window: Window, removed: list[Member]) -> None:
+    for client, used in runtime.clients_of(removed):
+        told = len(received(window, client, "on_disconnect"))
+        for connection in used:
+            connection.live = False if told >= len(used) else None
+        if received(window, client, "on_shutdown"):
+            client.operational = False
+        if told < len(used) or not client.operational:
+            client.suspended = client.suspended or told < len(used)
+    for member in removed:
+        member.gone = True
+        member.operational = False
+        if member in member.container.startup_order:
+            member.container.startup_order.remove(member)
+        for connection in undone_by(window, member):
+            connection.live = False
+
+
+def _started(runtime: Runtime, window: Window, returned: bool) -> None:
+    container = window.container
+    reached = [m for c in runtime.containers.values() for m in c.live_members() if received(window, m, "on_startup")]
+    own = [m for m in reached if m.container is container]
+    if not returned:
+        failing = any(m.raises("on_startup") for m in container.live_members())
+        if container.started is not False or failing or any(not received(window, m, "on_shutdown") for m in own):
+            if container.started is not True or own:
+                container.suspend()
+        for member in reached:
+            if member.container is not container:
+                member.container.suspend()
+        return
+    if container.started is not True:
+        container.startup_order = []
+    for member in container.live_members():
+        if member in own or container.started is None:
+            member.operational = member in own or member.operational
+        for callback in received(window, member, "on_startup"):
+            _resolve(member, callback)
+        member.suspended = member.raises("on_startup") or member.instance is None
+    order = {(c.component, c.instance): n for n, c in enumerate(window.callbacks) if c.hook == "on_startup"}
+    for member in sorted(reached, key=lambda m: order[(m.component, m.instance or 0)]):
+        member.operational = True
+        member.startups += 1
+        member.container.startup_order.append(member)
+        if member.container is not container:
+            member.container.started = True
+    container.started = True
+
+
+def _stopped(runtime: Runtime, window: Window, returned: bool) -> None:
+    container = window.container
+    for other in runtime.containers.values():
+        for member in other.live_members():
+            if received(window, member, "on_shutdown"):
+                member.operational = False
+                if other is not container:
+                    other.started = False
+    if not returned:
+        if container.started is not False:
+            container.suspend()
+        return
+    container.started = False
+    container.startup_order = []
+    for member in container.live_members():
+        member.operational = False
+        member.suspended = _unsure(member)
+
+
+def _unsure(member: Member) -> bool:
+    """Is it open whether the instance is configured?"""
+    open_ports = {c.port for c in member.connections if c.live is None} - {c.port for c in member.live_connections()}
+    return bool(open_ports) or member.instance is None
+
+
+def _resolve(member: Member, startup: Enter) -> None:
+    """What on_startup handed over tells which of the doubtful connections stand."""
+    handed_over = {(d.port, r) for d in startup.dependencies or () for r in d.references}
+    for connection in member.connections:
+        if connection.live is None:
+            connection.live = (connection.port, connection.reference) in handed_over
+
+
+def _lose_track(window: Window) -> None:
+    if window.operation in ("start", "stop"):
+        window.container.suspend()
+    for member, _ in window.roles:
+        if member is not None:
+            member.suspended = True

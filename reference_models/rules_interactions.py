@@ -1,0 +1,187 @@
+"""Rules about business calls: through references, between components, and in which phase (11.1.3, 11.2.1.1, 11.2.3)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Enter, Exit, Raise, Reply, Request, Return
+from ucm_cts.reference_models.findings import Arrow
+from ucm_cts.reference_models.ledger import Ledger, rule
+from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
+
+
+@dataclass(slots=True, eq=False)
+class BusinessCall:
+    """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
+
+    ``entries`` are the bodies it entered, with what they returned; ``began_stopped`` tells that the caller itself
+    had begun before its container was last stopped.
+    """
+
+    value: int
+    n: int
+    request: Request | None = None
+    step: s.Invoke | None = None
+    caller_hook: str = ""
+    entries: list[tuple[Enter, Exit | None]] = field(default_factory=list)
+
+    def close(self, end: Exit) -> None:
+        """The innermost entry of that body came to its end."""
+        for index in range(len(self.entries) - 1, -1, -1):
+            enter, exit_ = self.entries[index]
+            if exit_ is None and (enter.component, enter.instance) == (end.component, end.instance):
+                self.entries[index] = (enter, end)
+                return
+
+
+@rule("ended", "R-11.2.1.1-02", "R-11.2.1.2-07")
+def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
+    """A call through a reference enters an operational body once, with the value sent, and returns its result."""
+    assert call.step is not None
+    _, member = runtime.reference(call.step.ref)
+    if member is None or member.suspended or not member.operational or member.raises("exchange"):
+        return
+    own = [(e, x) for e, x in call.entries if (e.component, e.instance) == (member.component, member.instance)]
+    expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
+    if not own or isinstance(end, Raise):
+        observed = f"it raised {end.error} {end.detail}" if isinstance(end, Raise) else "the body was not entered"
+        _violate(ledger, "R-11.2.1.2-07", "stimulus", "not served", expected, observed, call.n, end.n, member)
+        return
+    ledger.exercised("R-11.2.1.2-07")
+    enter, exit_ = own[0]
+    result = exit_.value if exit_ is not None else None
+    if enter.value != call.value or end.value != result or len(own) > 1:
+        observed = f"the body received {enter.value}, returned {result}, the caller got {end.value}"
+        if len(own) > 1:
+            observed = f"the body was entered {len(own)} times"
+        _violate(ledger, "R-11.2.1.1-02", "stimulus", "wrong value", expected, observed, call.n, end.n, member)
+        return
+    ledger.exercised("R-11.2.1.1-02")
+
+
+@rule("replied", "R-11.1.3-01", "R-11.1.2-02")
+def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
+    """A call through a connection enters a connected body with the value sent; its result comes back."""
+    providers = _providers(runtime, call)
+    if not providers or reply.raised:
+        return
+    fragment = all(p.declaration.fragment for p in providers)
+    requirement = "R-11.1.2-02" if fragment else "R-11.1.3-01"
+    wanted = {(p.component, p.instance) for p in providers}
+    reached = [(e, x) for e, x in call.entries if (e.component, e.instance) in wanted and e.value == call.value]
+    names = " or ".join(sorted(p.lane for p in providers))
+    expected = f"{reply.component}'s call of {reply.port} with {call.value} reaches {names} and brings back its result"
+    if not reached:
+        where = ", ".join(f"{lane(e.component, e.instance)} with {e.value}" for e, _ in call.entries) or "no body"
+        observed = f"it reached {where}"
+    elif all(x is not None and x.value != reply.value for _, x in reached):
+        observed = f"the body returned {reached[0][1].value if reached[0][1] else None}, the caller got {reply.value}"
+    else:
+        ledger.exercised(requirement)
+        return
+    cause = "target" if not reached else "result"
+    _violate(ledger, requirement, "peer_calls", cause, expected, observed, call.n, reply.n, providers[0])
+
+
+@rule("replied", "R-11.2.3-03")
+def interactions(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
+    """In the operational phase a call between two components comes back."""
+    caller = runtime.member_of(reply.component, reply.instance)
+    providers = _providers(runtime, call)
+    if caller is None or caller.suspended or not caller.operational or not providers:
+        return
+    if not all(p.operational and not p.suspended for p in providers) or any(p.raises("exchange") for p in providers):
+        return
+    if not reply.raised:
+        ledger.exercised("R-11.2.3-03")
+        return
+    expected = f"{caller.lane} and {providers[0].lane} are ready, so the call comes back"
+    _violate(ledger, "R-11.2.3-03", "interactions", "refused", expected, "the call raised", call.n, reply.n, providers[0])
+
+
+@rule("entered", "R-11.2.3-02")
+def disabled_ports(
+    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
+) -> None:
+    """Before start was called on its container, no component is called by another one or by the framework."""
+    member = runtime.member_of(event.component, event.instance)
+    if member is None or (call is not None and call.step is not None) or member.startups and not member.operational:
+        return
+    container = member.container
+    starting = window is not None and window.operation == "start"
+    if container.started is not False or starting:
+        if call is not None and call.caller_hook == "on_startup":
+            ledger.exercised("R-11.2.3-02")
+        return
+    if member.suspended and not (call is not None and call.request is not None):
+        return
+    caller = call.request.component if call is not None and call.request is not None else "the framework"
+    ledger.violated(
+        "R-11.2.3-02",
+        "disabled_ports",
+        "called before start",
+        f"{member.lane} is not called before its container {container.name} is started",
+        f"{caller} called {member.lane}'s {event.port} during configuration",
+        (event.n,),
+        window.step_number if window else None,
+        (Arrow("test", container.name, "start"), Arrow(caller, member.lane, "exchange")),
+    )
+
+
+@rule("entered", "R-11.2.3-17")
+def nothing_after_stop(
+    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
+) -> None:
+    """After stop returned, no business method begins but those that the test itself calls."""
+    member = runtime.member_of(event.component, event.instance)
+    if member is None or member.suspended or call is not None or member.operational or not member.startups:
+        return
+    if window is not None and window.operation in ("start", "stop", "add_component"):
+        return
+    ledger.violated(
+        "R-11.2.3-17",
+        "nothing_after_stop",
+        "called after stop",
+        f"{member.lane} was stopped, so nothing is run on it",
+        f"the framework called {member.lane}'s {event.port} with {event.value}",
+        (event.n,),
+        window.step_number if window else None,
+    )
+
+
+@rule("ended", "R-11.2.3-17")
+def quiet_after_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """Counts what nothing_after_stop watched: operations on a container stopped after it had served calls."""
+    if window.operation in ("start", "stop") or window.container.started is not False:
+        return
+    if any(m.served and not m.suspended for m in window.container.live_members()):
+        ledger.exercised("R-11.2.3-17")
+
+
+def _providers(runtime: Runtime, call: BusinessCall) -> list[Member]:
+    """The instances that the port element a body called through is connected to; empty if that is not known."""
+    request = call.request
+    if request is None:
+        return []
+    caller = runtime.member_of(request.component, request.instance)
+    if caller is None or caller.suspended:
+        return []
+    connections = [c for c in caller.connections if c.port == request.port and c.live is not False]
+    providers = [c.provider for c in connections if c.provider is not None]
+    return providers if len(providers) == len(connections) else []
+
+
+def _violate(
+    ledger: Ledger, requirement: str, rule_name: str, cause: str, expected: str, observed: str, begin: int, end: int, member: Member
+) -> None:
+    ledger.violated(
+        requirement,
+        rule_name,
+        cause,
+        expected,
+        observed,
+        (begin, end),
+        None,
+        (Arrow("caller", member.lane, "exchange"), Arrow(member.lane, "caller", "result")),
+    )

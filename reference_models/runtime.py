@@ -1,0 +1,186 @@
+"""The reference model of a UCM runtime: follows a trace and knows, before each operation, what may happen (clause 11).
+
+The model is an observer. It predicts by looking up the life-cycle table and then takes over what really happened.
+Where it can no longer know (after a violation, or where the text leaves the outcome open) it *suspends* the instance:
+rules stay silent about it until a start or stop that succeeds tells the state again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario, Step
+from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
+from ucm_cts.reference_models.life_cycle import Row, State
+
+
+@dataclass(slots=True, eq=False)
+class Connection:
+    """A connection: ``live`` is None where the text leaves open whether it still stands."""
+
+    name: str
+    id: int
+    client: Member
+    port: str
+    reference: MaybeReference
+    provider: Member | None
+    live: bool | None = True
+
+
+@dataclass(slots=True, eq=False)
+class Member:
+    """A component instance as far as the trace has shown it."""
+
+    name: str
+    component: str
+    declaration: Declaration
+    container: Container
+    id: int
+    instance: int | None
+    operational: bool = False
+    suspended: bool = False
+    gone: bool = False
+    startups: int = 0
+    served: bool = False
+    connections: list[Connection] = field(default_factory=list)
+    once_connected: set[str] = field(default_factory=set)
+
+    def raises(self, *hooks: Hook) -> bool:
+        """Does the plan make this body raise at one of ``hooks``?"""
+        return raises(self.declaration, *hooks)
+
+    def live_connections(self, port: str | None = None) -> list[Connection]:
+        """Its own connections that certainly stand, of ``port`` or of all required port elements."""
+        return [c for c in self.connections if c.live and (port is None or c.port == port)]
+
+    @property
+    def lane(self) -> str:
+        """The instance's name in findings and diagrams."""
+        return lane(self.component, self.instance or 1)
+
+    @property
+    def state(self) -> State:
+        """Where it stands in the life cycle of 11.2.3."""
+        if self.gone:
+            return "absent"
+        if self.operational:
+            return "ready"
+        connected = {c.port for c in self.connections if c.live}
+        return "configured" if connected.issuperset(self.declaration.requires) else "initialized"
+
+
+@dataclass(slots=True, eq=False)
+class Container:
+    """A container: ``started`` is None where the text leaves the outcome of a failed start or stop open."""
+
+    name: str
+    started: bool | None = False
+    removed: bool = False
+    members: list[Member] = field(default_factory=list)
+    startup_order: list[Member] = field(default_factory=list)
+    failed_adds: int = 0
+
+    def live_members(self) -> list[Member]:
+        """Members that have not been removed."""
+        return [m for m in self.members if not m.gone]
+
+    def suspend(self) -> None:
+        """The outcome was left open: be silent about this container until a start or stop succeeds."""
+        self.started = None
+        for member in self.members:
+            member.suspended = True
+
+
+@dataclass(slots=True, eq=False)
+class Window:
+    """One operation of Container or ContainerManager, from call to return.
+
+    ``roles`` pairs each instance concerned with the row of the life-cycle table that stands for it (the instance is
+    None where the row is about one that does not exist). ``judged`` is False where the model cannot predict.
+    ``forgiving`` windows may end in UCM_ERROR for a reason the rows do not show. ``call`` is the call event's ``n``.
+    """
+
+    step_number: int
+    step: Step
+    operation: str
+    container: Container
+    call: int = 0
+    roles: list[tuple[Member | None, Row]] = field(default_factory=list)
+    judged: bool = True
+    forgiving: bool = False
+    callbacks: list[Enter] = field(default_factory=list)
+    subject: Member | None = None
+    connection: Connection | None = None
+
+
+def lane(component: str, instance: int) -> str:
+    """How findings and diagrams name the ``instance``-th body of ``component``."""
+    return component if instance == 1 else f"{component}#{instance}"
+
+
+def raises(declaration: Declaration, *hooks: Hook) -> bool:
+    """Does the plan of ``declaration`` raise at one of ``hooks``?"""
+    return bool(declaration.plan) and any(
+        isinstance(action, RaiseError) for hook in hooks for action in declaration.plan.get(hook, ())
+    )
+
+
+class Runtime:
+    """All containers, instances, connections and references of one scenario."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self.containers: dict[str, Container] = {MANAGER: Container(MANAGER)}
+        self.members: dict[str, Member] = {}
+        self.bodies: dict[tuple[str, int], Member] = {}
+        self.discarded: set[tuple[str, int]] = set()
+        self.connections: dict[str, Connection] = {}
+        self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
+        self.destroyed = False
+
+    def member_of(self, component: str, instance: int) -> Member | None:
+        """The instance whose body this is, if an ``add_component`` has returned for it."""
+        return self.bodies.get((component, instance))
+
+    def provider_of(self, reference: MaybeReference) -> Member | None:
+        """The instance that a recognised reference belongs to."""
+        return self.bodies.get((reference.component, reference.instance)) if isinstance(reference, Reference) else None
+
+    def find_member(self, container: Container, variable: str) -> tuple[Member | None, str]:
+        """The live instance that the id in ``variable`` designates in ``container``, else None and why."""
+        if variable == UNKNOWN or variable not in self.members:
+            return None, "never existed"
+        wanted = self.members[variable]
+        for member in container.members:
+            if not member.gone and member.id == wanted.id:
+                return member, ""
+        return None, "already removed" if wanted.gone else "never existed"
+
+    def find_connection(self, variable: str) -> tuple[Connection | None, str]:
+        """The connection that the id in ``variable`` designates, else None and why."""
+        if variable == UNKNOWN or variable not in self.connections:
+            return None, "never existed"
+        wanted = self.connections[variable]
+        if wanted.live is None:
+            return None, "perhaps undone"
+        if wanted.live:
+            return wanted, ""
+        for other in self.connections.values():
+            if other.live and other.id == wanted.id and other.client.container is wanted.client.container:
+                return other, ""
+        return None, "already undone"
+
+    def clients_of(self, providers: Iterable[Member]) -> Iterator[tuple[Member, list[Connection]]]:
+        """Each other instance that has live connections to one of ``providers``, with these connections."""
+        wanted = {id(p) for p in providers}
+        for member in self.members.values():
+            if member.gone or id(member) in wanted:
+                continue
+            used = [c for c in member.connections if c.live and c.provider is not None and id(c.provider) in wanted]
+            if used:
+                yield member, used
+
+    def reference(self, variable: str) -> tuple[MaybeReference, Member | None]:
+        """What a reference variable holds and whose port element it is."""
+        return (None, None) if variable == NIL else self.references.get(variable, (None, None))

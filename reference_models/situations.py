@@ -1,0 +1,287 @@
+"""Before an operation: which row of the life-cycle table stands for each instance concerned (11.2.3, 12.10)."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.reference_models.life_cycle import LifeCycleTable, Row
+from ucm_cts.reference_models.runtime import Connection, Container, Member, Runtime, Window, raises
+
+_FAILING_END = ("on_shutdown", "on_disconnect", "on_remove")
+
+
+class MissingRow(Exception):
+    """The life-cycle table has no row for a situation: an error of this suite, never of a framework."""
+
+
+class Situations:
+    """Looks up rows for each operation. Holds the table; all state lives in the ``Runtime``."""
+
+    def __init__(self, table: LifeCycleTable) -> None:
+        self._rows = {(r.state, r.operation, r.condition): r for r in table.rows}
+
+    def open(self, runtime: Runtime, number: int, step: s.ContainerCall) -> Window:
+        """The window of scenario step ``number``, with the rows that apply."""
+        operation = s.operation(step)
+        name = step.container if not isinstance(step, s.CreateContainer | s.RemoveContainer | s.Destroy) else s.MANAGER
+        container = runtime.containers.get(name) or Container(name, removed=True)
+        window = Window(number, step, operation, container)
+        if runtime.destroyed or (container.removed and not isinstance(step, s.RemoveContainer)):
+            window.judged = False
+            return window
+        match step:
+            case s.AddComponent():
+                self._add(runtime, window, step)
+            case s.RemoveComponent():
+                self._remove(runtime, window, step)
+            case s.GetPortElement():
+                self._get_port_element(runtime, window, step)
+            case s.Connect():
+                self._connect(runtime, window, step)
+            case s.Disconnect():
+                self._disconnect(runtime, window, step)
+            case s.Start():
+                self._start(runtime, window)
+            case s.Stop():
+                self._stop(runtime, window)
+            case s.GetComponents():
+                self._role(window, None, "absent", "")
+            case s.CreateContainer():
+                self._role(window, None, "absent", "first" if len(runtime.containers) == 1 else "another")
+            case s.RemoveContainer():
+                self._remove_container(runtime, window, step)
+            case s.Destroy():
+                self._removal_of_all(window, [m for c in runtime.containers.values() for m in c.live_members()])
+        if any(member is not None and member.suspended for member, _ in window.roles):
+            window.judged = False
+        return window
+
+    def _role(self, window: Window, member: Member | None, state: str, condition: str, operation: str = "") -> None:
+        key = (state, operation or window.operation, condition)
+        row = self._rows.get(key)  # type: ignore[call-overload]
+        if row is None:
+            raise MissingRow("/".join(key))
+        window.roles.append((member, row))
+
+    def _member_role(self, window: Window, member: Member, condition: str, operation: str = "") -> None:
+        self._role(window, member, member.state, condition, operation)
+
+    def _add(self, runtime: Runtime, window: Window, step: s.AddComponent) -> None:
+        declaration = runtime.scenario.components.get(step.component)
+        container = window.container
+        late = container.started is not False
+        if declaration is None:
+            condition = "unknown implementation"
+            window.judged = container.started is not None
+        elif raises(declaration, "on_init", "set_container_interface"):
+            condition = "on_init fails, container started" if late else "on_init fails"
+        else:
+            needs = "ports" if declaration.requires else "nothing"
+            other_kind = any(m.declaration.fragment != declaration.fragment for m in container.live_members())
+            beside = ", beside the other kind" if other_kind else ""
+            condition = f"container started, requires {needs}" if late else f"requires {needs}{beside}"
+        if container.started is None:
+            window.judged = False
+        self._role(window, None, "absent", condition)
+
+    def _remove(self, runtime: Runtime, window: Window, step: s.RemoveComponent) -> None:
+        member, why = runtime.find_member(window.container, step.id)
+        window.subject = member
+        if member is None:
+            self._role(window, None, "absent", why)
+            return
+        clients = list(runtime.clients_of([member]))
+        failing = member.raises(*_FAILING_END)
+        if member.state == "ready":
+            window.judged = not failing
+            self._member_role(window, member, "")
+        elif failing:
+            window.judged = not clients and not member.live_connections() and not member.raises("on_shutdown")
+            self._member_role(window, member, "on_remove fails" if window.judged else "not connected")
+        elif clients:
+            self._member_role(window, member, "provider in use")
+        else:
+            self._member_role(window, member, "connected" if member.live_connections() else "not connected")
+        if any(c.live is None for c in member.connections):
+            window.judged = False
+        for client, _ in clients:
+            self._member_role(window, client, "", "remove_provider")
+            if client.raises("on_disconnect"):
+                window.judged = False
+
+    def _get_port_element(self, runtime: Runtime, window: Window, step: s.GetPortElement) -> None:
+        member, why = runtime.find_member(window.container, step.id)
+        window.subject = member
+        if member is None:
+            self._role(window, None, "absent", why)
+        elif step.port in member.declaration.provides:
+            self._member_role(window, member, "provided")
+        else:
+            self._member_role(window, member, "required" if step.port in member.declaration.requires else "unknown name")
+
+    def _connect(self, runtime: Runtime, window: Window, step: s.Connect) -> None:
+        member, why = runtime.find_member(window.container, step.id)
+        window.subject = member
+        if member is None:
+            self._role(window, None, "absent", why)
+            return
+        wrong = ""
+        if step.port not in member.declaration.requires:
+            wrong = "provided name" if step.port in member.declaration.provides else "unknown name"
+        elif step.to == s.NIL:
+            wrong = "null reference"
+        late = window.container.started is not False
+        if member.state == "ready":
+            self._member_role(window, member, "wrong argument" if wrong else "")
+        elif wrong:
+            window.judged = not late
+            self._member_role(window, member, wrong)
+        elif late:
+            window.judged = window.container.started is not None
+            self._member_role(window, member, "container started")
+        else:
+            self._member_role(window, member, self._kind_of_connection(runtime, member, step))
+        if member.raises("on_connect", "on_disconnect"):
+            window.judged = False
+
+    def _kind_of_connection(self, runtime: Runtime, member: Member, step: s.Connect) -> str:
+        _, provider = runtime.reference(step.to)
+        if member.live_connections(step.port):
+            return "already connected"
+        if provider is not None and (provider.gone or provider.suspended):
+            return "provider already removed" if provider.gone else "one of several ports"
+        missing = [p for p in member.declaration.requires if not member.live_connections(p)]
+        if len(missing) > 1:
+            return "one of several ports"
+        if provider is not None and provider.container is not member.container:
+            return "provider in another container"
+        if provider is not None and provider.declaration.fragment:
+            return "provider is a fragment"
+        if step.port in member.once_connected:
+            return "last port, again"
+        return "last port" if member.declaration.connectable else "last port, not Connectable"
+
+    def _disconnect(self, runtime: Runtime, window: Window, step: s.Disconnect) -> None:
+        connection, why = runtime.find_connection(step.connection)
+        if connection is None or connection.client.container is not window.container:
+            self._role(window, None, "absent", why or "never existed")
+            return
+        window.connection = connection
+        member = window.subject = connection.client
+        if member.raises("on_disconnect"):
+            window.judged = False
+        if member.state == "ready":
+            condition = ""
+        elif window.container.started is not False:
+            condition = "container started"
+            window.judged = window.judged and window.container.started is not None
+        elif member.state == "configured" and len(member.live_connections(connection.port)) > 1:
+            condition = "another connection remains"
+        else:
+            condition = ""
+        self._member_role(window, member, condition)
+
+    def _start(self, runtime: Runtime, window: Window) -> None:
+        container = window.container
+        members = container.live_members()
+        started = container.started
+        if started is None or any(m.suspended for m in members):
+            window.judged = False
+        if not members:
+            self._role(window, None, "absent", "no members, already started" if started else "no members")
+        unready = [m for m in members if m.state == "initialized"]
+        failing = [m for m in members if m.raises("on_startup")]
+        if unready and failing and not started:
+            window.judged = False
+        for member in members:
+            if started is not False:
+                condition = "already started" if member.operational else "added later"
+            elif member.operational:
+                window.judged = False
+                condition = "already started"
+            elif unready:
+                condition = "unconfigured" if member in unready else "a peer is unconfigured"
+            elif failing:
+                condition = "on_startup fails" if member in failing else "a peer's on_startup fails"
+            elif member.startups:
+                condition = "all configured, again"
+            elif any(connection.live is False for connection in member.connections):
+                condition = "all configured after reconnecting"
+            else:
+                condition = "all configured"
+            self._member_role(window, member, condition)
+        self._reach_below(runtime, window)
+
+    def _stop(self, runtime: Runtime, window: Window) -> None:
+        container = window.container
+        members = container.live_members()
+        if container.started is None or any(m.suspended for m in members):
+            window.judged = False
+        if not members:
+            self._role(window, None, "absent", "no members")
+        failing = [m for m in members if m.raises("on_shutdown") and m.operational]
+        for member in members:
+            if not member.operational:
+                self._member_role(window, member, "not started")
+            elif failing:
+                self._member_role(window, member, "on_shutdown fails" if member in failing else "a peer's on_shutdown fails")
+            else:
+                self._member_role(window, member, "")
+        self._reach_below(runtime, window)
+
+    def _reach_below(self, runtime: Runtime, window: Window) -> None:
+        """The manager's start and stop may reach into sub-containers, and fail for what they find there."""
+        if window.container.name != s.MANAGER:
+            return
+        for container in runtime.containers.values():
+            if container is window.container or container.removed:
+                continue
+            for member in container.live_members():
+                if member.suspended:
+                    window.forgiving = True
+                    continue
+                self._member_role(window, member, "the manager's")
+                if member.state != "configured" or member.raises("on_startup", "on_shutdown"):
+                    window.forgiving = True
+
+    def _remove_container(self, runtime: Runtime, window: Window, step: s.RemoveContainer) -> None:
+        if step.container == s.NIL:
+            self._role(window, None, "absent", "null reference")
+            return
+        container = runtime.containers.get(step.container)
+        if container is None or container.name == s.MANAGER:
+            window.judged = False
+            return
+        if container.removed:
+            self._role(window, None, "absent", "already removed")
+            return
+        window.container = container
+        members = container.live_members()
+        self._removal_of_all(window, members)
+        for client, _ in runtime.clients_of(members):
+            if client.container is not container:
+                self._member_role(window, client, "", "remove_provider")
+
+    def _removal_of_all(self, window: Window, members: list[Member]) -> None:
+        if not members:
+            self._role(window, None, "absent", "no members")
+        for member in members:
+            self._member_role(window, member, "")
+            if member.raises(*_FAILING_END) or any(c.live is None for c in member.connections):
+                window.judged = False
+
+
+def undone_by(window: Window, member: Member) -> list[Connection]:
+    """The connections of ``member`` that the window's operation undoes if it succeeds."""
+    if window.connection is not None:
+        return [window.connection]
+    live = member.live_connections()
+    if window.operation in ("remove_component", "remove_container") and member is not window.subject:
+        removed = [window.subject] if window.operation == "remove_component" else window.container.live_members()
+        if member not in removed:
+            return [c for c in live if c.provider in removed]
+    return live
+
+
+def row_of(window: Window, member: Member | None) -> Row | None:
+    """The row that stands for ``member`` in ``window``."""
+    return next((row for m, row in window.roles if m is member), None)
