@@ -1,0 +1,106 @@
+"""Expected against observed: two diagrams of one failure that share their beginning and part where the fault shows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from ucm_cts.adapters.contract.trace import Call, Raise, Return
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.report.sequence import TEST, Diagram, Line, LineKind, find_lane, lay_out
+from ucm_cts.harness.results import Execution
+from ucm_cts.reference_models.findings import Arrow, Finding
+
+SHORT = 26
+"""Up to so many lines a diagram is shown whole."""
+
+BEFORE, AFTER = 9, 2
+"""In longer ones, how many lines around an offending one stay."""
+
+SUSPECTS = 12
+"""So many offending lines at most are shown."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What was observed, with the offending lines marked, and what should have been there instead."""
+
+    observed: Diagram
+    expected: Diagram
+
+
+def compare(finding: Finding, execution: Execution) -> Comparison:
+    """The two diagrams of a failure, cut down to what a reader needs."""
+    whole = lay_out(execution, finding.events)
+    lines = list(whole.lines)
+    first = next((i for i, line in enumerate(lines) if line.style == "offending" and line.kind != "end"), None)
+    if first is None:
+        # something is missing: nothing in the trace can be pointed at, so the place where it should be is marked
+        first = _place_of_step(finding, execution, lines)
+        missing = one_line(finding.expected_events[0].label if finding.expected_events else finding.expected, 60)
+        source = find_lane(finding.expected_events[0].source, whole.lanes) if finding.expected_events else TEST
+        known = source if source in {lane.key for lane in whole.lanes} else TEST
+        lines.insert(first, Line("note", known, known, f"missing: {missing}", style="offending"))
+    expected = [_expected(arrow, whole) for arrow in finding.expected_events] or [
+        Line("note", TEST, TEST, one_line(finding.expected, 90), style="expected")
+    ]
+    kept = _kept(lines)
+    prefix = {i for i in kept if i < first}
+    lanes = replace(whole, lines=tuple(lines))
+    return Comparison(
+        replace(lanes, lines=_elide(lines, kept, len(lines))).without_idle_lanes(*expected),
+        replace(lanes, lines=(*_elide(lines, prefix, first), *expected)).without_idle_lanes(
+            *(lines[i] for i in kept), *expected
+        ),
+    )
+
+
+def excerpt(execution: Execution, longest: int = SHORT) -> Diagram:
+    """The diagram of an execution, its end above all: what led to a crash or a hang."""
+    whole = lay_out(execution)
+    lines = list(whole.lines)
+    kept = set(range(len(lines)) if len(lines) <= longest else range(len(lines) - longest, len(lines)))
+    return replace(whole, lines=_elide(lines, kept, len(lines))).without_idle_lanes()
+
+
+def _expected(arrow: Arrow, diagram: Diagram) -> Line:
+    source, target = find_lane(arrow.source, diagram.lanes), find_lane(arrow.target, diagram.lanes)
+    kind: LineKind = "answer" if target == TEST or arrow.label.startswith(("return", "raise")) else "call"
+    return Line(kind, source, target, one_line(arrow.label, 90), style="expected")
+
+
+def _place_of_step(finding: Finding, execution: Execution, lines: Sequence[Line]) -> int:
+    ends = {e.n for e in execution.trace if isinstance(e, Return | Raise) and e.step == finding.step}
+    calls = {e.n for e in execution.trace if isinstance(e, Call) and e.step == finding.step}
+    for index, line in enumerate(lines):
+        if ends.intersection(line.events):
+            return index + 1 if calls.intersection(line.events) else index
+    end = len(lines)
+    return end - 1 if lines and lines[-1].kind == "end" else end
+
+
+def _kept(lines: Sequence[Line]) -> set[int]:
+    if len(lines) <= SHORT:
+        return set(range(len(lines)))
+    suspects = [i for i, line in enumerate(lines) if line.style == "offending"]
+    suspects = suspects[: SUSPECTS - 2] + suspects[-2:] if len(suspects) > SUSPECTS else suspects
+    kept = {i for i in range(suspects[0] - BEFORE, suspects[0] + AFTER + 1) if 0 <= i < len(lines)}
+    for suspect in suspects[1:]:
+        kept.update(i for i in range(suspect - 1, suspect + AFTER) if 0 <= i < len(lines))
+    return kept
+
+
+def _elide(lines: Sequence[Line], kept: set[int], end: int) -> tuple[Line, ...]:
+    """The kept lines before ``end``, with a gap that counts the events wherever some were left out."""
+    shown: list[Line] = []
+    gone = 0
+    for index in range(end + 1):
+        if index < end and index not in kept:
+            gone += max(1, len(lines[index].events))
+            continue
+        if gone:
+            shown.append(Line("gap", TEST, TEST, f"{gone} events not shown"))
+            gone = 0
+        if index < end:
+            shown.append(lines[index])
+    return tuple(shown)

@@ -1,0 +1,77 @@
+"""Failing scenarios as files: their names, their text, and the command that plays them again."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+import yaml
+
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.results import Execution, FailedExecution, Report
+
+FOLDER = "failures"
+
+_ODD = re.compile(r"[^A-Za-z0-9._-]+")
+
+
+def file_name(requirement: str, number: int) -> str:
+    """Where the ``number``-th failure (from 0, the shortest) of a requirement is saved, relative to the report."""
+    stem = _ODD.sub("-", requirement)[:80].lstrip(".") or "unnamed"
+    return f"{FOLDER}/{stem}{f'-{number + 1}' if number else ''}.json"
+
+
+def shortest_first(findings: tuple[FailedExecution, ...]) -> list[FailedExecution]:
+    """Findings by the length of their scenarios."""
+    return sorted(findings, key=lambda failed: (len(failed.execution.scenario.steps), len(failed.execution.trace)))
+
+
+def incident_file(number: int) -> str:
+    """Where the scenario of the ``number``-th incident (from 0) is saved, relative to the report."""
+    return f"{FOLDER}/incident-{number + 1}.json"
+
+
+def replay_command(file: str) -> str:
+    """The command that plays a saved scenario again, from the report's folder."""
+    return f"ucm-cts replay {file}"
+
+
+def repeat_command(adapter: str, profile: str, seed: int) -> str:
+    """The command that repeats the whole run."""
+    return f"ucm-cts run {shlex.quote(one_line(adapter))} --profile {shlex.quote(one_line(profile))} --seed {seed}"
+
+
+def saved(execution: Execution, exercises: tuple[str, ...]) -> dict[str, Any]:
+    """A scenario as it stands in a file: a script of one scenario."""
+    return {"scenario": execution.name, "exercises": list(exercises), **msgspec.to_builtins(execution.scenario)}
+
+
+def all_files(report: Report) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Every file to write, by its name relative to the report."""
+    for result in report.requirements:
+        for number, failed in enumerate(shortest_first(result.findings)):
+            yield file_name(result.id, number), saved(failed.execution, (result.id,))
+    for number, incident in enumerate(report.incidents):
+        yield incident_file(number), saved(incident.execution, ())
+
+
+def scenario_text(execution: Execution, longest: int = 60) -> str:
+    """The scenario for a reader: components, then one step a line."""
+    content = msgspec.to_builtins(execution.scenario)
+    rows = [f"scenario: {_flow(execution.name)}", "components:"]
+    rows += [f"  {_flow(name)}: {_flow(declaration)}" for name, declaration in content.get("components", {}).items()]
+    rows.append("steps:")
+    steps = content.get("steps", [])
+    rows += [f"  - {_flow(step)}" for step in steps[:longest]]
+    if len(steps) > longest:
+        rows.append(f"  # {len(steps) - longest} more steps; the saved file has them all")
+    return "\n".join(rows)
+
+
+def _flow(value: Any) -> str:
+    text = yaml.safe_dump(value, default_flow_style=True, sort_keys=False, width=10_000, allow_unicode=True)
+    text = text.removesuffix("\n").removesuffix("\n...")
+    return text if len(text) <= 1_000 else text[:999] + "…"

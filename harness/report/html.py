@@ -1,0 +1,200 @@
+"""``report.html``: one file that needs nothing else, for the person who has to find out what is wrong."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import get_args
+
+import jinja2
+from markupsafe import Markup
+
+from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.report import life_cycle_diagram, sequence_svg
+from ucm_cts.harness.report.excerpt import compare, excerpt
+from ucm_cts.harness.report.failures import (
+    file_name,
+    incident_file,
+    repeat_command,
+    replay_command,
+    scenario_text,
+    shortest_first,
+)
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, clause_key, count, to_fix
+from ucm_cts.harness.report.sequence import last_call
+from ucm_cts.harness.report.sequence_text import failure_text, to_text
+from ucm_cts.harness.report.transitions import STATES, RowSeen, rows_seen, worst
+from ucm_cts.harness.results import FailedExecution, IncidentReport, Report, RequirementResult
+from ucm_cts.reference_models.life_cycle import LifeCycleTable, State
+
+FINDINGS = 3
+"""So many causes of one requirement are shown with diagrams; further ones in words."""
+
+BUDGET = 1_300_000
+"""Characters that all evidence together may take; what comes later is told without diagrams."""
+
+INCIDENTS = 20
+"""So many incidents are shown with diagrams."""
+
+NOTHING = Markup("")
+
+_TEMPLATES = Path(__file__).parent / "templates"
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One cause of failure as the page shows it; without diagrams once the budget is spent."""
+
+    failed: FailedExecution
+    command: str
+    scenario: str = ""
+    observed: Markup = NOTHING
+    expected: Markup = NOTHING
+    text: str = ""
+
+    @property
+    def size(self) -> int:
+        """Characters it adds to the page."""
+        return len(self.scenario) + len(self.observed) + len(self.expected) + len(self.text)
+
+
+@dataclass(frozen=True)
+class Item:
+    """One requirement as the page shows it: the verdict of the run and what the catalogue says."""
+
+    result: RequirementResult
+    requirement: Requirement
+    evidence: tuple[Evidence, ...]
+    decisions: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class IncidentItem:
+    """One incident as the page shows it."""
+
+    report: IncidentReport
+    last: str
+    command: str
+    diagram: Markup
+    text: str
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One cell of the life-cycle table: all conditions of one operation in one state."""
+
+    operation: str
+    state: State
+    rows: tuple[RowSeen, ...]
+
+    @property
+    def verdict(self) -> str:
+        """The worst verdict of the cell's rows."""
+        return worst([row.verdict for row in self.rows]) if self.rows else ""
+
+
+def to_html(
+    report: Report, catalogue: Sequence[Requirement], table: LifeCycleTable, interpretations: Mapping[str, str]
+) -> str:
+    """The whole page. The report must be clean (``foreign.clean_report``)."""
+    script = _read("report.js")
+    digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+    rows = rows_seen(table, report.transitions)
+    told = {result.id for result in report.requirements}
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["one_line"] = one_line
+    return environment.get_template("report.html.jinja").render(
+        report=report,
+        counts=count(report.requirements),
+        verdicts=VERDICTS,
+        symbols=SYMBOLS,
+        to_fix=to_fix(report.requirements),
+        items=_items(report, catalogue, interpretations),
+        untestable=sorted(
+            (entry for entry in catalogue if entry.untestable and entry.id not in told),
+            key=lambda entry: (clause_key(entry.clause), entry.id),
+        ),
+        incidents=[_incident(item, number, report) for number, item in enumerate(report.incidents)],
+        incidents_shown=INCIDENTS,
+        diagram=life_cycle_diagram.to_svg(rows),
+        cells=_cells(rows),
+        states=STATES,
+        rows=rows,
+        shortest_first=shortest_first,
+        style=Markup(_read("report.css")),
+        script=Markup(script),
+        digest=digest,
+        repeat=repeat_command(report.adapter, report.profile, report.seed),
+    )
+
+
+def _read(name: str) -> str:
+    return (_TEMPLATES / name).read_text(encoding="utf-8")
+
+
+def _items(report: Report, catalogue: Sequence[Requirement], interpretations: Mapping[str, str]) -> list[Item]:
+    known = {requirement.id: requirement for requirement in catalogue}
+    left = BUDGET
+    items = {}
+    # the budget goes to what should be fixed first
+    for result in [*to_fix(report.requirements), *(r for r in report.requirements if r.verdict != "fail")]:
+        requirement = known.get(result.id) or Requirement(result.id, result.clause, result.title, "statement", "")
+        evidence = []
+        for number, failed in enumerate(shortest_first(result.findings)):
+            entry = _evidence(failed, file_name(result.id, number), report, number < FINDINGS and left > 0)
+            left -= entry.size
+            evidence.append(entry)
+        decisions = tuple((name, interpretations.get(name, "")) for name in requirement.interpretations)
+        items[result.id] = Item(result, requirement, tuple(evidence), decisions)
+    return sorted(items.values(), key=lambda item: (clause_key(item.result.clause), item.result.id))
+
+
+def _evidence(failed: FailedExecution, file: str, report: Report, drawn: bool) -> Evidence:
+    command = replay_command(file)
+    if not drawn:
+        return Evidence(failed, command)
+    both = compare(failed.finding, failed.execution)
+    return Evidence(
+        failed,
+        command,
+        scenario_text(failed.execution),
+        sequence_svg.to_svg(both.observed, f"Observed: {one_line(failed.finding.observed)}"),
+        sequence_svg.to_svg(both.expected, f"Expected: {one_line(failed.finding.expected)}"),
+        failure_text(failed.finding, failed.execution),
+    )
+
+
+def _incident(item: IncidentReport, number: int, report: Report) -> IncidentItem:
+    command = replay_command(incident_file(number))
+    last = last_call(item.execution)
+    if number >= INCIDENTS:
+        return IncidentItem(item, last, command, Markup(""), "")
+    shown = excerpt(item.execution)
+    name = one_line(f"What happened until the {item.incident.kind}")
+    return IncidentItem(item, last, command, sequence_svg.to_svg(shown, name), to_text(shown))
+
+
+def _cells(rows: Sequence[RowSeen]) -> list[tuple[str, list[Cell]]]:
+    """The table's rows by operation and state, in the order in which operations first appear."""
+    operations = list(dict.fromkeys(seen.row.operation for seen in rows))
+    states: tuple[State, ...] = get_args(State)
+    return [
+        (
+            operation,
+            [
+                Cell(operation, state, tuple(s for s in rows if (s.row.operation, s.row.state) == (operation, state)))
+                for state in states
+            ],
+        )
+        for operation in operations
+    ]

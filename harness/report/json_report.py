@@ -1,0 +1,184 @@
+"""``report.json``: the report for machines, flat, in a stable order of keys, with a schema made from the same types."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import msgspec
+
+from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.harness.catalogue import Level, Requirement
+from ucm_cts.harness.report.failures import file_name, incident_file, shortest_first
+from ucm_cts.harness.results import (
+    FailedExecution,
+    Incident,
+    Overall,
+    Report,
+    RequirementResult,
+    TransitionResult,
+    Verdict,
+)
+
+SCHEMA_FILE = "report.schema.json"
+
+EVENTS = 50
+"""So many offending events of one finding are written at most; the saved scenario shows them all again."""
+
+
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """Base of the values of ``report.json``: every field is always there."""
+
+
+class FindingEntry(Entry, frozen=True):
+    """One cause of failure: what was expected and observed, in which scenario, and the file that replays it."""
+
+    rule: str
+    expected: str
+    observed: str
+    occurrences: int
+    waived: str
+    scenario: str
+    events: tuple[Event, ...]
+    replay: str
+
+
+class RequirementEntry(Entry, frozen=True):
+    """One requirement of the catalogue with its verdict."""
+
+    id: str
+    clause: str
+    title: str
+    level: Level
+    verdict: Verdict
+    exercised: int
+    reason: str
+    findings: tuple[FindingEntry, ...]
+
+
+class IncidentEntry(Entry, frozen=True):
+    """A scenario that broke the framework's host."""
+
+    kind: str
+    detail: str
+    stacks: str
+    reproduced: bool
+    scenario: str
+    replay: str
+
+
+class TransitionEntry(Entry, frozen=True):
+    """One row of the life-cycle table."""
+
+    row: str
+    exercised: int
+    violated: int
+    readings: tuple[str, ...]
+
+
+class ReportEntry(Entry, frozen=True):
+    """The whole of ``report.json``."""
+
+    product: str
+    version: str
+    profile: str
+    verdict: Overall
+    requirements: tuple[RequirementEntry, ...]
+    incidents: tuple[IncidentEntry, ...]
+    transitions: tuple[TransitionEntry, ...]
+    adapter: str
+    suite_version: str
+    seed: int
+    started: str
+    seconds: float
+    scenarios: int
+    events: int
+
+
+def to_json(report: Report, catalogue: Sequence[Requirement]) -> bytes:
+    """``report.json``, indented, ending with a newline. The report must be clean (``foreign.clean_report``)."""
+    known = {requirement.id: requirement for requirement in catalogue}
+    entry = ReportEntry(
+        product=report.product,
+        version=report.version,
+        profile=report.profile,
+        verdict=report.verdict,
+        requirements=tuple(_requirement(result, known) for result in report.requirements),
+        incidents=tuple(
+            _incident(item.incident, item.execution.name, number) for number, item in enumerate(report.incidents)
+        ),
+        transitions=tuple(_transition(result) for result in report.transitions),
+        adapter=report.adapter,
+        suite_version=report.suite_version,
+        seed=report.seed,
+        started=report.started,
+        seconds=report.seconds,
+        scenarios=report.scenarios,
+        events=report.events,
+    )
+    return msgspec.json.format(msgspec.json.encode(entry), indent=2) + b"\n"
+
+
+def schema() -> dict[str, Any]:
+    """JSON Schema of ``report.json``."""
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "UCM-CTS conformance report",
+        **msgspec.json.schema(ReportEntry),
+    }
+
+
+def _requirement(result: RequirementResult, known: Mapping[str, Requirement]) -> RequirementEntry:
+    return RequirementEntry(
+        id=result.id,
+        clause=result.clause,
+        title=result.title,
+        level=known[result.id].level if result.id in known else "statement",
+        verdict=result.verdict,
+        exercised=result.exercised,
+        reason=result.reason,
+        findings=tuple(
+            _finding(failed, file_name(result.id, number))
+            for number, failed in enumerate(shortest_first(result.findings))
+        ),
+    )
+
+
+def _finding(failed: FailedExecution, replay: str) -> FindingEntry:
+    suspects = set(failed.finding.events)
+    events = tuple(event for event in failed.execution.trace if event.n in suspects)
+    return FindingEntry(
+        rule=failed.finding.rule,
+        expected=failed.finding.expected,
+        observed=failed.finding.observed,
+        occurrences=failed.occurrences,
+        waived=failed.waived,
+        scenario=failed.execution.name,
+        events=events[:EVENTS],
+        replay=replay,
+    )
+
+
+def _incident(incident: Incident, scenario: str, number: int) -> IncidentEntry:
+    return IncidentEntry(
+        kind=incident.kind,
+        detail=incident.detail,
+        stacks=incident.stacks,
+        reproduced=incident.reproduced,
+        scenario=scenario,
+        replay=incident_file(number),
+    )
+
+
+def _transition(result: TransitionResult) -> TransitionEntry:
+    return TransitionEntry(result.row, result.exercised, result.violated, result.readings)
+
+
+def schema_bytes() -> bytes:
+    """The schema as it stands in ``report.schema.json`` beside this module."""
+    return msgspec.json.format(msgspec.json.encode(schema()), indent=2) + b"\n"
+
+
+if __name__ == "__main__":
+    Path(__file__).with_name(SCHEMA_FILE).write_bytes(schema_bytes())

@@ -1,0 +1,118 @@
+"""``junit.xml``: one test case a requirement, so that every CI shows the verdicts without being taught anything."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lxml import etree
+
+from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.report.excerpt import excerpt
+from ucm_cts.harness.report.failures import file_name, incident_file, replay_command, shortest_first
+from ucm_cts.harness.report.foreign import clean, one_line
+from ucm_cts.harness.report.sequence import last_call
+from ucm_cts.harness.report.sequence_text import failure_text, to_text
+from ucm_cts.harness.results import IncidentReport, Report, RequirementResult
+
+FINDINGS = 3
+"""So many causes of one requirement are told in full."""
+
+
+def to_junit(report: Report, catalogue: Sequence[Requirement]) -> bytes:
+    """The report as JUnit XML, grouped by clause. The report must be clean (``foreign.clean_report``).
+
+    ``inconclusive`` is a failure of type ``inconclusive``: a CI shows a skip in green, and what was not seen is not green.
+    """
+    name = one_line(f"{report.product} {report.version}, profile {report.profile}: {report.verdict}")
+    root = etree.Element("testsuites", name=name)
+    suites: dict[str, etree._Element] = {}
+    for result in report.requirements:
+        case = _case(root, suites, f"clause {result.clause}", f"{result.id} {result.title}")
+        _verdict(case, result, report)
+    told = {result.id for result in report.requirements}
+    for requirement in catalogue:
+        if requirement.untestable and requirement.id not in told:
+            case = _case(root, suites, f"clause {requirement.clause}", f"{requirement.id} {requirement.title}")
+            _child(case, "skipped", f"not testable: {requirement.untestable}")
+    for number, incident in enumerate(report.incidents):
+        title = one_line(f"{incident.incident.kind} in {incident.execution.name}")
+        case = _case(root, suites, "incidents", title)
+        _incident(case, incident, number, report)
+    for suite in suites.values():
+        _count(suite)
+        suite.set("timestamp", clean(report.started, 40))
+    _count(root)
+    root.set("time", f"{report.seconds:.3f}")
+    return etree.tostring(root, xml_declaration=True, encoding="UTF-8", pretty_print=True)
+
+
+def _case(root: etree._Element, suites: dict[str, etree._Element], suite: str, title: str) -> etree._Element:
+    if suite not in suites:
+        suites[suite] = etree.SubElement(root, "testsuite", name=one_line(suite))
+    classname = "ucm." + one_line(suite).replace(" ", "_").replace(".", "_")
+    return etree.SubElement(suites[suite], "testcase", classname=classname, name=one_line(title), time="0")
+
+
+def _verdict(case: etree._Element, result: RequirementResult, report: Report) -> None:
+    match result.verdict:
+        case "pass":
+            waived = [failed for failed in result.findings if failed.waived]
+            text = "".join(f"waived ({failed.waived}): {failed.finding.observed}\n" for failed in waived)
+            etree.SubElement(case, "system-out").text = clean(f"exercised {result.exercised} times\n{text}", 4_000)
+        case "fail":
+            shortest = shortest_first(result.findings)
+            message = shortest[0].finding.observed if shortest else result.reason
+            _child(case, "failure", message, "fail", _story(result, report))
+        case "inconclusive":
+            reason = result.reason or "never exercised"
+            _child(case, "failure", f"inconclusive: {reason}", "inconclusive", f"clause {result.clause}\n{reason}")
+        case "not applicable":
+            _child(case, "skipped", f"not applicable: {result.reason}".rstrip(": "))
+        case "error":
+            _child(case, "error", result.reason or "the harness failed", "error", result.reason)
+
+
+def _story(result: RequirementResult, report: Report) -> str:
+    shortest = shortest_first(result.findings)
+    parts = [f"{result.id} {result.title} (clause {result.clause})"]
+    for number, failed in enumerate(shortest[:FINDINGS]):
+        finding = failed.finding
+        parts.append(
+            f"expected: {finding.expected}\nobserved: {finding.observed}\n"
+            f"seen {failed.occurrences} times; rule {finding.rule}; scenario {failed.execution.name}\n"
+            + (f"waived: {failed.waived}\n" if failed.waived else "")
+            + f"replay:   {replay_command(file_name(result.id, number))}\n\n"
+            + failure_text(finding, failed.execution)
+        )
+    if len(shortest) > FINDINGS:
+        parts.append(f"{len(shortest) - FINDINGS} more causes: see report.html")
+    return "\n\n".join(parts)
+
+
+def _incident(case: etree._Element, report_of: IncidentReport, number: int, report: Report) -> None:
+    incident, execution = report_of.incident, report_of.execution
+    story = [
+        incident.detail,
+        f"last call: {last_call(execution) or 'none'}",
+        f"reproduced: {'yes' if incident.reproduced else 'no'}",
+        f"replay:    {replay_command(incident_file(number))}",
+        "",
+        to_text(excerpt(execution)),
+        *(["", "stacks", incident.stacks] if incident.stacks else []),
+    ]
+    _child(case, "error", f"{incident.kind}: {incident.detail}", incident.kind, "\n".join(story))
+
+
+def _child(case: etree._Element, tag: str, message: str, kind: str = "", text: str = "") -> None:
+    child = etree.SubElement(case, tag, message=one_line(message, 300))
+    if kind:
+        child.set("type", kind)
+    if text:
+        child.text = clean(text, 40_000)
+
+
+def _count(suite: etree._Element) -> None:
+    suite.set("tests", str(len(suite.findall(".//testcase"))))
+    suite.set("failures", str(len(suite.findall(".//failure"))))
+    suite.set("errors", str(len(suite.findall(".//error"))))
+    suite.set("skipped", str(len(suite.findall(".//skipped"))))

@@ -1,0 +1,36 @@
+"""What comes first: the order of clauses, of verdicts, and of what to fix."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from ucm_cts.harness.results import RequirementResult, Verdict
+
+VERDICTS: tuple[Verdict, ...] = ("fail", "error", "inconclusive", "pass", "not applicable")
+"""All verdicts, the worst first."""
+
+SYMBOLS: dict[Verdict, str] = {"fail": "✗", "error": "!", "inconclusive": "?", "pass": "✓", "not applicable": "–"}
+"""A symbol a verdict, so that colour is never needed."""
+
+_NUMBER = re.compile(r"\d+")
+
+
+def clause_key(clause: str) -> tuple[int, ...]:
+    """Sorts clauses as a table of contents does: 11.2.3 before 11.10."""
+    return tuple(int(number[:9]) for number in _NUMBER.findall(clause))
+
+
+def to_fix(results: Iterable[RequirementResult]) -> list[RequirementResult]:
+    """Failed requirements in the order to work on them: the most fundamental clause first, then what was met most often."""
+
+    def key(result: RequirementResult) -> tuple[tuple[int, ...], int, str]:
+        return clause_key(result.clause), -sum(failed.occurrences for failed in result.findings), result.id
+
+    return sorted((result for result in results if result.verdict == "fail"), key=key)
+
+
+def count(results: Iterable[RequirementResult]) -> dict[Verdict, int]:
+    """How many requirements have each verdict, the worst first."""
+    verdicts = [result.verdict for result in results]
+    return {verdict: verdicts.count(verdict) for verdict in VERDICTS}

@@ -1,0 +1,361 @@
+"""Sequence diagrams, laid out: which lanes stand side by side and which line follows which. Drawing is done elsewhere.
+
+Lanes are ``test``, the containers, and the bodies (``client#1``), each group in order of appearance. A line is one arrow
+or note; an event and its answer share a line when nothing came between them and neither is under suspicion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+from ucm_cts.adapters.contract.trace import (
+    BodyEvent,
+    Call,
+    Create,
+    Enter,
+    Event,
+    EventBase,
+    Exit,
+    Held,
+    Opened,
+    Raise,
+    Reply,
+    Request,
+    Return,
+    Siblings,
+    Skip,
+    Timeout,
+)
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.report.wording import Wording, body_key
+from ucm_cts.harness.results import Execution
+
+TEST = "test"
+
+Style = Literal["normal", "offending", "expected"]
+LineKind = Literal["call", "answer", "note", "gap", "end"]
+
+
+@dataclass(frozen=True)
+class Lane:
+    """One column: ``key`` is how lines name it, ``label`` what stands on top."""
+
+    key: str
+    label: str
+    kind: Literal["test", "container", "body"]
+
+
+@dataclass(frozen=True)
+class Line:
+    """One row of a diagram.
+
+    ``source`` and ``target`` are keys of lanes; a call that arrived nowhere has no target. ``result`` of an answer is what
+    it carries. ``begins`` and ``ends`` say that the row starts or finishes an activity on the lane it points to or comes
+    from; ``events`` are the numbers of the events it stands for.
+    """
+
+    kind: LineKind
+    source: str
+    target: str
+    label: str
+    events: tuple[int, ...] = ()
+    thread: int = 0
+    style: Style = "normal"
+    result: str = ""
+    begins: bool = False
+    ends: bool = False
+    answers: int = -1
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """A laid-out sequence diagram; ``threads`` tells whether more than one thread takes part."""
+
+    lanes: tuple[Lane, ...]
+    lines: tuple[Line, ...]
+
+    @property
+    def threads(self) -> bool:
+        """Whether the lines come from more than one thread."""
+        return len({line.thread for line in self.lines if line.events}) > 1
+
+    def without_idle_lanes(self, *others: Line) -> Diagram:
+        """The diagram with those lanes only that its lines or ``others`` use; ``test`` always stays."""
+        used = {key for line in (*self.lines, *others) for key in (line.source, line.target)} | {TEST}
+        return replace(self, lanes=tuple(lane for lane in self.lanes if lane.key in used))
+
+
+@dataclass
+class _Frame:
+    """An activity that has begun and not yet ended on one thread."""
+
+    what: str
+    line: int
+    source: str
+    target: str
+    value: int | None = None
+    arrived: bool = True
+
+
+def lay_out(execution: Execution, suspects: Iterable[int] = ()) -> Diagram:
+    """Lay out a whole execution; ``suspects`` are the numbers of events that get a line of their own, as offending."""
+    walk = _Walk(execution)
+    for event in execution.trace:
+        walk.follow(event)
+    if execution.incident is not None:
+        detail = one_line(f"{execution.incident.kind}: {execution.incident.detail}", 90)
+        walk.lines.append(Line("end", TEST, TEST, detail, style="offending"))
+    lines = _mark(walk.lines, frozenset(suspects))
+    return Diagram(walk.lanes(), tuple(_fold(lines)))
+
+
+def last_call(execution: Execution) -> str:
+    """The last step that began and did not end, in words; empty if all ended or none began."""
+    words = Wording(execution)
+    open_steps: list[int] = []
+    for event in execution.trace:
+        if isinstance(event, Call):
+            words.called(event.step)
+            open_steps.append(event.step)
+        elif isinstance(event, Return | Raise | Timeout) and event.step in open_steps:
+            open_steps.remove(event.step)
+    return words.step(open_steps[-1]) if open_steps else ""
+
+
+def find_lane(name: str, lanes: Sequence[Lane]) -> str:
+    """The key of the lane that ``name`` means: a key, a label, or a component whose latest instance is meant."""
+    for lane in lanes:
+        if name in (lane.key, lane.label):
+            return lane.key
+    bodies = [lane.key for lane in lanes if lane.kind == "body" and lane.key.rsplit("#", 1)[0] == name]
+    return bodies[-1] if bodies else name
+
+
+class _Walk:
+    """Turns events into lines, one after the other."""
+
+    def __init__(self, execution: Execution) -> None:
+        self.words = Wording(execution)
+        self.lines: list[Line] = []
+        self.frames: dict[int, list[_Frame]] = {}
+        self.containers: list[str] = []
+        self.bodies: list[tuple[str, int]] = []
+
+    def lanes(self) -> tuple[Lane, ...]:
+        """All lanes that were met, in their final order."""
+        several = {component for component, instance in self.bodies if instance > 1}
+        return (
+            Lane(TEST, TEST, "test"),
+            *(Lane(name, one_line(name, 40), "container") for name in self.containers),
+            *(
+                Lane(body_key(name, n), one_line(f"{name} #{n}" if name in several else name, 40), "body")
+                for name, n in self.bodies
+            ),
+        )
+
+    def follow(self, event: Event) -> None:
+        """Append the lines of one event."""
+        match event:
+            case Call():
+                self._call(event)
+            case Skip():
+                self._skip(event)
+            case Timeout():
+                self._timeout(event)
+            case Create():
+                self._create(event)
+            case Enter():
+                self._enter(event)
+            case Exit():
+                self._exit(event)
+            case Request():
+                self._request(event)
+            case Reply():
+                self._reply(event)
+            case Siblings():
+                self._siblings(event)
+            case Held():
+                self._held(event)
+            case Opened():
+                self._opened(event)
+            case Return():
+                self._return(event)
+            case Raise():
+                self._raise(event)
+
+    # the lanes
+
+    def _container(self, name: str) -> str:
+        if name not in self.containers:
+            self.containers.append(name)
+        return name
+
+    def _body(self, event: BodyEvent) -> str:
+        component, instance = event.component, event.instance
+        if (component, instance) not in self.bodies:
+            self.bodies.append((component, instance))
+        return body_key(component, instance)
+
+    def _home(self, event: BodyEvent) -> str:
+        return self._container(self.words.home(event.component, event.instance))
+
+    # the lines
+
+    def _add(self, kind: LineKind, source: str, target: str, label: str, event: EventBase, **more: Any) -> int:
+        self.lines.append(Line(kind, source, target, label, (event.n,), event.thread, **more))
+        return len(self.lines) - 1
+
+    def _begin(
+        self, what: str, source: str, target: str, label: str, event: EventBase, value: int | None = None
+    ) -> _Frame:
+        line = self._add("call", source, target, label, event, begins=True)
+        frame = _Frame(what, line, source, target, value)
+        self.frames.setdefault(event.thread, []).append(frame)
+        return frame
+
+    def _end(self, what: str, label: str, result: str, event: EventBase, source: str) -> None:
+        stack = self.frames.get(event.thread, [])
+        at = next((i for i in range(len(stack) - 1, -1, -1) if stack[i].what == what), None)
+        if at is None:
+            self._add("answer", source, TEST, label, event, result=result, ends=True)
+            return
+        frame = stack[at]
+        del stack[at:]
+        last = self.lines[-1]
+        if (
+            last.kind == "answer"
+            and last.answers == frame.line
+            and last.thread == event.thread
+            and last.result == result
+        ):
+            self.lines[-1] = replace(last, events=(*last.events, event.n))
+            return
+        origin = frame.target or source
+        self._add("answer", origin, frame.source, label, event, result=result, ends=True, answers=frame.line)
+
+    def _call(self, event: Call) -> None:
+        step = event.step
+        words = self.words
+        words.called(step)
+        if words.is_wait(step):
+            self._add("note", TEST, TEST, words.step(step), event)
+            return
+        value = words.invoked(step)
+        if value is None:
+            self._begin(f"step {step}", TEST, self._container(words.container(step)), words.step(step), event)
+            return
+        frame = self._begin(f"step {step}", TEST, words.reached(step) or "", words.step(step), event, value)
+        frame.arrived = False
+        if frame.target:
+            self._body_of(frame.target)
+
+    def _body_of(self, key: str) -> None:
+        component, _, instance = key.rpartition("#")
+        if (component, int(instance)) not in self.bodies:
+            self.bodies.append((component, int(instance)))
+
+    def _return(self, event: Return) -> None:
+        step = event.step
+        self.words.returned(step, event.value)
+        result = self.words.value(event.value)
+        label = f"returns {result}" if result else "returns"
+        self._end(f"step {step}", label, result, event, self.words.container(step))
+
+    def _raise(self, event: Raise) -> None:
+        error, detail = event.error, one_line(event.detail, 60)
+        name = "an undeclared exception" if error == "UNDECLARED" else error
+        label = f"raises {name}: {detail}" if detail else f"raises {name}"
+        self._end(f"step {event.step}", label, label, event, self.words.container(event.step))
+
+    def _skip(self, event: Skip) -> None:
+        what, name = self.words.step(event.step), one_line(event.variable, 30)
+        self._add("note", TEST, TEST, f"skipped {what}: {name} was never bound", event)
+
+    def _timeout(self, event: Timeout) -> None:
+        what = self.words.step(event.step)
+        self._add("note", TEST, TEST, f"{what}: gave up after {self.words.patience} ms", event)
+
+    def _create(self, event: Create) -> None:
+        open_calls = [frame.what for frame in self.frames.get(event.thread, []) if frame.what.startswith("step ")]
+        during = int(open_calls[-1][5:]) if open_calls else None
+        self.words.created(event.component, event.instance, during)
+        home = self._home(event)
+        self._add("call", home, self._body(event), "create", event)
+
+    def _enter(self, event: Enter) -> None:
+        body, hook = self._body(event), event.hook
+        what = f"{body} {hook}"
+        label = self.words.hook(event)
+        if hook != "exchange":
+            self._begin(what, self._home(event), body, label, event)
+            return
+        stack = self.frames.get(event.thread, [])
+        caller = next((f for f in reversed(stack) if not f.arrived and f.value == event.value), None)
+        if caller is None:
+            others = [frame for frames in self.frames.values() for frame in frames if not frame.arrived]
+            caller = next((f for f in others if f.value == event.value), None)
+        if caller is None:
+            self._begin(what, self._home(event), body, label, event)
+            return
+        caller.arrived, caller.target = True, body
+        previous = self.lines[-1]
+        if caller.line == len(self.lines) - 1 and previous.thread == event.thread:
+            joined = self.words.joined(previous.label, event.port or "")
+            self.lines[-1] = replace(previous, target=body, label=joined, events=(*previous.events, event.n))
+            self.frames[event.thread].append(_Frame(what, caller.line, caller.source, body))
+        else:
+            self._begin(what, caller.source, body, label, event)
+
+    def _exit(self, event: Exit) -> None:
+        body, hook = self._body(event), event.hook
+        result = "an exception" if event.raised else self.words.value(event.value)
+        label = "raises an exception" if event.raised else f"returns {result}" if result else f"{hook} ends"
+        self._end(f"{body} {hook}", label, result, event, body)
+
+    def _request(self, event: Request) -> None:
+        body, value = self._body(event), event.value
+        label = f"exchange({value}) through {event.port}"
+        frame = self._begin(f"{body} request {event.port}", body, "", label, event, value)
+        frame.arrived = False
+
+    def _reply(self, event: Reply) -> None:
+        body = self._body(event)
+        result = "an exception" if event.raised else self.words.value(event.value)
+        label = "raises an exception" if event.raised else f"returns {result}"
+        self._end(f"{body} request {event.port}", label, result, event, body)
+
+    def _siblings(self, event: Siblings) -> None:
+        answer = "raises an exception" if event.raised else self.words.value(event.ids)
+        self._add("call", self._body(event), self._home(event), f"get_components ⇒ {answer}", event)
+
+    def _held(self, event: Held) -> None:
+        body = self._body(event)
+        self._add("note", body, body, f"held at {one_line(event.gate, 30)}", event)
+
+    def _opened(self, event: Opened) -> None:
+        self._add("note", TEST, TEST, f"opens {one_line(event.gate, 30)}", event)
+
+
+def _mark(lines: Sequence[Line], suspects: frozenset[int]) -> list[Line]:
+    return [replace(line, style="offending") if suspects.intersection(line.events) else line for line in lines]
+
+
+def _fold(lines: Sequence[Line]) -> list[Line]:
+    """Put a call and its answer on one line where the answer came at once and neither is offending."""
+    folded: list[Line] = []
+    for index, line in enumerate(lines):
+        if (
+            line.kind == "answer"
+            and line.answers == index - 1
+            and folded
+            and folded[-1].kind == "call"
+            and folded[-1].style == line.style == "normal"
+        ):
+            call = folded[-1]
+            label = f"{call.label} ⇒ {line.result}" if line.result else call.label
+            folded[-1] = replace(call, label=label, events=(*call.events, *line.events), ends=True)
+        else:
+            folded.append(line)
+    return folded

@@ -1,0 +1,97 @@
+"""Sequence diagrams as text: lanes to the left, words to the right, for terminals and CI logs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ucm_cts.harness.report.excerpt import compare
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.report.sequence import Diagram, Line, lay_out
+from ucm_cts.harness.results import Execution
+from ucm_cts.reference_models.findings import Finding
+
+WIDTH = 110
+"""Columns of a diagram, unless told otherwise."""
+
+_MARKS = {"normal": " ", "offending": "✗", "expected": "✓"}
+
+
+def replay_text(execution: Execution, finding: Finding | None = None, width: int = WIDTH) -> str:
+    """A whole execution as text, with the offending lines of ``finding`` marked."""
+    return to_text(lay_out(execution, finding.events if finding else ()), width)
+
+
+def failure_text(finding: Finding, execution: Execution, width: int = WIDTH) -> str:
+    """Both diagrams of a failure, one below the other."""
+    both = compare(finding, execution)
+    return f"observed\n{to_text(both.observed, width)}\n\nexpected\n{to_text(both.expected, width)}"
+
+
+def to_text(diagram: Diagram, width: int = WIDTH) -> str:
+    """A diagram as plain monospaced text, at most ``width`` columns wide."""
+    numbers = max((len(str(n)) for line in diagram.lines for n in line.events[:1]), default=1)
+    gutter = 2 + numbers + (4 if diagram.threads else 0) + 2
+    room = max(20, width * 3 // 5 - gutter)
+    # a lane's head may lean to the right of its lifeline, so the gap behind a lane must hold the whole head
+    gap = min(18, max(8, room // max(1, len(diagram.lanes))))
+    heads = [one_line(lane.label, gap - 1) for lane in diagram.lanes]
+    gaps = [max(5, min(gap, len(head) + 2)) for head in heads]
+    columns = {lane.key: sum(gaps[:i]) for i, lane in enumerate(diagram.lanes)}
+    end = sum(gaps)
+    words = max(16, width - gutter - end - 1)
+    rows = [" " * gutter + "".join(head.ljust(space) for head, space in zip(heads, gaps, strict=True)).rstrip()]
+    for line in diagram.lines:
+        head = f"{_MARKS[line.style]} {str(line.events[0]) if line.events else '':>{numbers}}"
+        if diagram.threads:
+            head += f" t{line.thread:<2}" if line.events else "    "
+        head += "  "
+        rows.append(f"{head}{_drawn(line, columns, end)} {one_line(_words(line), words)}".rstrip())
+    return "\n".join(rows)
+
+
+def _words(line: Line) -> str:
+    match line.kind:
+        case "gap":
+            return f"… {line.label}"
+        case "note":
+            return f"• {line.label}"
+        case "end":
+            return f"ended by {line.label}"
+        case _:
+            return line.label
+
+
+def _drawn(line: Line, columns: dict[str, int], end: int) -> str:
+    """The lanes' part of one row."""
+    if line.kind == "end":
+        return "═" * end
+    cells = [" "] * end
+    for column in columns.values():
+        cells[column] = "┊" if line.kind == "gap" else "│"
+    source, target = columns.get(line.source, 0), columns.get(line.target)
+    if line.kind == "gap":
+        return "".join(cells)
+    if line.kind == "note":
+        cells[source] = "●"
+        return "".join(cells)
+    if target is None:
+        _put(cells, source, "├──▷")
+        return "".join(cells)
+    if target == source:
+        _put(cells, source, "├─┐" if line.kind == "call" else "◀─┘")
+        return "".join(cells)
+    left, right = min(source, target), max(source, target)
+    stroke = "╌" if line.kind == "answer" else "─"
+    for column in range(left + 1, right):
+        cells[column] = stroke if cells[column] == " " else "┼" if stroke == "─" else cells[column]
+    if target > source:
+        cells[left], cells[right - 1] = "├", "▶"
+    else:
+        cells[left + 1], cells[right] = "◀", "┤"
+    return "".join(cells)
+
+
+def _put(cells: list[str], at: int, drawing: Sequence[str]) -> None:
+    for offset, cell in enumerate(drawing):
+        if at + offset < len(cells):
+            cells[at + offset] = cell

@@ -1,0 +1,85 @@
+"""The report in the terminal: the verdict, what failed in three lines each, and where to read on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from ucm_cts.harness.report.failures import shortest_first
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.report.order import SYMBOLS, count, to_fix
+from ucm_cts.harness.report.sequence import last_call
+from ucm_cts.harness.results import Overall, Report, RequirementResult, Verdict
+
+SHOWN = 12
+"""So many failed requirements, and so many incidents, are listed."""
+
+_COLOURS: dict[Verdict, str] = {
+    "fail": "red",
+    "error": "magenta",
+    "inconclusive": "yellow",
+    "pass": "green",
+    "not applicable": "dim",
+}
+_BANNER: dict[Overall, tuple[str, str]] = {
+    "conformant": ("✓", "bold green"),
+    "not conformant": ("✗", "bold red"),
+    "inconclusive": ("?", "bold yellow"),
+}
+
+
+def summary(report: Report, out: Path | None = None) -> RenderableType:
+    """What to print at the end of a run; ``out`` is the folder the report was written to."""
+    symbol, style = _BANNER[report.verdict]
+    name = one_line(f"{report.product} {report.version}", 80)
+    lines = [
+        Text.assemble(
+            (f"{symbol} {report.verdict.upper()}", style), f"  {name}, profile {one_line(report.profile, 40)}"
+        ),
+        _counts(report),
+    ]
+    failed = to_fix(report.requirements)
+    for result in failed[:SHOWN]:
+        lines += [Text(), *_failure(result)]
+    if len(failed) > SHOWN:
+        lines += [Text(), Text(f"and {len(failed) - SHOWN} more failed requirements", "dim")]
+    if report.incidents:
+        lines.append(Text())
+    for item in report.incidents[:SHOWN]:
+        during = last_call(item.execution)
+        told = one_line(f"{item.incident.detail}{f', during {during}' if during else ''}", 160)
+        lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), f"  {told}")))
+    if len(report.incidents) > SHOWN:
+        lines.append(Text(f"and {len(report.incidents) - SHOWN} more incidents", "dim"))
+    if out is not None:
+        lines += [Text(), Text.assemble("report  ", (str(out / "report.html"), "bold"), overflow="fold")]
+    return Group(*lines)
+
+
+def _counts(report: Report) -> Text:
+    line = Text("  ")
+    for verdict, number in count(report.requirements).items():
+        if number:
+            line.append(f"{SYMBOLS[verdict]} {number} {verdict}", _COLOURS[verdict]).append("   ")
+    line.append(f"{report.scenarios:,} scenarios, {report.events:,} events, {report.seconds:.1f} s", "dim")
+    return line
+
+
+def _failure(result: RequirementResult) -> list[Text]:
+    head = Text.assemble(("✗ ", "red"), (result.id, "bold"), f"  {one_line(result.title)}")
+    if not result.findings:
+        return [_cut(head), _cut(Text(f"  {one_line(result.reason)}"))]
+    finding = shortest_first(result.findings)[0].finding
+    return [
+        _cut(head),
+        _cut(Text.assemble(("  expected  ", "green"), one_line(finding.expected, 300))),
+        _cut(Text.assemble(("  observed  ", "red"), one_line(finding.observed, 300))),
+    ]
+
+
+def _cut(text: Text) -> Text:
+    """One line stays one line."""
+    text.no_wrap, text.overflow = True, "ellipsis"
+    return text

@@ -1,0 +1,203 @@
+"""The words of a diagram: steps, callbacks and values, said in the names that the scenario itself uses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ucm_cts.adapters.contract.scenario import (
+    MANAGER,
+    NIL,
+    AddComponent,
+    Connect,
+    CreateContainer,
+    Destroy,
+    Disconnect,
+    GetPortElement,
+    Invoke,
+    Join,
+    OpenGate,
+    ReachGate,
+    RemoveComponent,
+    RemoveContainer,
+    Step,
+    operation,
+)
+from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.results import Execution
+
+Answered = int | tuple[int, ...] | Reference | str | None
+
+
+def body_key(component: str, instance: int) -> str:
+    """How lines name the lane of a body."""
+    return f"{component}#{instance}"
+
+
+class Wording:
+    """Says things about one execution; told of calls, returns and creations in their order, it knows what names mean."""
+
+    def __init__(self, execution: Execution) -> None:
+        self.patience = execution.scenario.patience
+        self._steps = execution.scenario.steps
+        self._elements: dict[str, GetPortElement] = {}
+        self._references: dict[str, Reference] = {}
+        self._added: dict[str, AddComponent] = {}
+        self._adds: dict[str, list[str]] = {}
+        self._connections: dict[str, Connect] = {}
+        self._homes: dict[tuple[str, int], str] = {}
+
+    # what happened so far
+
+    def called(self, number: int) -> None:
+        """Step ``number`` began: from here on its names mean what it binds."""
+        match self._step(number):
+            case AddComponent() as step:
+                self._added[step.bind or step.component] = step
+                self._adds.setdefault(step.component, []).append(step.container)
+            case GetPortElement() as step:
+                self._elements[step.bind] = step
+                self._references.pop(step.bind, None)
+            case Connect() as step:
+                self._connections[step.bind] = step
+
+    def returned(self, number: int, value: Answered) -> None:
+        """Step ``number`` came back with ``value``."""
+        step = self._step(number)
+        if isinstance(step, GetPortElement) and isinstance(value, Reference):
+            self._references[step.bind] = value
+
+    def created(self, component: str, instance: int, during: int | None) -> None:
+        """A body was made, on the thread on which step ``during`` is under way."""
+        step = self._step(during) if during is not None else None
+        if isinstance(step, AddComponent) and step.component == component:
+            self._homes[component, instance] = step.container
+
+    def home(self, component: str, instance: int) -> str:
+        """The container that most likely holds the body."""
+        containers = self._adds.get(component, [])
+        guess = containers[min(instance, len(containers)) - 1] if containers else MANAGER
+        return self._homes.get((component, instance), guess)
+
+    # steps
+
+    def _step(self, number: int) -> Step | None:
+        return self._steps[number] if 0 <= number < len(self._steps) else None
+
+    def is_wait(self, number: int) -> bool:
+        """Whether the step concerns gates and threads only, and no framework."""
+        return isinstance(self._step(number), OpenGate | ReachGate | Join)
+
+    def invoked(self, number: int) -> int | None:
+        """The value that an ``invoke`` step sends; None for other steps."""
+        step = self._step(number)
+        return step.value if isinstance(step, Invoke) else None
+
+    def reached(self, number: int) -> str | None:
+        """The lane that an ``invoke`` step should reach, as far as known."""
+        step = self._step(number)
+        if not isinstance(step, Invoke):
+            return None
+        known = self._references.get(step.ref)
+        if known is not None:
+            return body_key(known.component, known.instance)
+        element = self._elements.get(step.ref)
+        added = self._added.get(element.id) if element else None
+        if added is None:
+            return None
+        return body_key(added.component, max(1, len(self._adds.get(added.component, []))))
+
+    def container(self, number: int) -> str:
+        """The container that the step speaks to."""
+        step = self._step(number)
+        if step is None or isinstance(step, RemoveContainer | CreateContainer | Destroy):
+            return MANAGER
+        return getattr(step, "container", MANAGER)
+
+    def step(self, number: int) -> str:
+        """The operation with its arguments, for instance ``connect client.out_api → provider.in_api``."""
+        step = self._step(number)
+        if step is None:
+            return f"step {number}"
+        return one_line(f"{operation(step)} {self._arguments(step)}".rstrip(), 90)
+
+    def _arguments(self, step: Step) -> str:
+        match step:
+            case AddComponent():
+                return step.component + (f" as {step.bind}" if step.bind and step.bind != step.component else "")
+            case RemoveComponent():
+                return step.id
+            case GetPortElement():
+                return f"{step.id}.{step.port}"
+            case Connect():
+                return f"{step.id}.{step.port} → {self._element(step.to)}"
+            case Disconnect():
+                made = self._connections.get(step.connection)
+                return f"{made.id}.{made.port} → {self._element(made.to)}" if made else step.connection
+            case CreateContainer():
+                return step.bind
+            case RemoveContainer():
+                return step.container
+            case Invoke():
+                return f"{self._element(step.ref)} exchange({step.value})"
+            case OpenGate() | ReachGate():
+                return step.gate
+            case Join():
+                return step.worker
+            case _:
+                return ""
+
+    def _element(self, variable: str) -> str:
+        element = self._elements.get(variable)
+        return variable if element is None or variable == NIL else f"{element.id}.{element.port}"
+
+    # callbacks and values
+
+    def hook(self, event: Enter) -> str:
+        """A callback with its arguments."""
+        match event.hook:
+            case "on_init":
+                arguments = self._attributes(event.attributes or {})
+            case "on_startup":
+                arguments = ", ".join(
+                    f"{dependency.port} → {', '.join(self.reference(r) for r in dependency.references) or 'nothing'}"
+                    for dependency in event.dependencies or ()
+                )
+            case "on_connect":
+                arguments = f"{event.port}, {self.reference(event.reference)}"
+            case "on_disconnect":
+                arguments = event.port or ""
+            case "exchange":
+                return one_line(f"exchange({event.value}) on {event.port}", 90)
+            case _:
+                arguments = ""
+        return one_line(f"{event.hook}({arguments})", 90)
+
+    @staticmethod
+    def _attributes(attributes: Mapping[str, str]) -> str:
+        return ", ".join(f"{name}={value}" for name, value in attributes.items())
+
+    @staticmethod
+    def joined(request: str, port: str) -> str:
+        """One label for a request and the provided port element on which it arrived."""
+        if " through " in request:
+            call, _, required = request.partition(" through ")
+            return one_line(f"{call} {required} → {port}", 90)
+        return request
+
+    def reference(self, reference: MaybeReference) -> str:
+        """A reference as the scenario would call it."""
+        if isinstance(reference, Reference):
+            number = "" if reference.instance == 1 else f"#{reference.instance}"
+            return f"{reference.component}{number}.{reference.port}"
+        return "nil" if reference is None else "a reference"
+
+    def value(self, value: Answered) -> str:
+        """What an operation came back with; empty for nothing."""
+        if value is None:
+            return ""
+        if isinstance(value, tuple):
+            return one_line("[" + ", ".join(map(str, value[:20])) + (", …]" if len(value) > 20 else "]"), 90)
+        if isinstance(value, Reference):
+            return one_line(self.reference(value), 90)
+        return "a reference" if isinstance(value, str) else str(value)

@@ -1,0 +1,57 @@
+"""Writes a report's files, each of them whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import msgspec
+
+from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.report.failures import FOLDER, all_files
+from ucm_cts.harness.report.foreign import clean_report
+from ucm_cts.harness.report.html import to_html
+from ucm_cts.harness.report.json_report import to_json
+from ucm_cts.harness.report.junit import to_junit
+from ucm_cts.harness.results import Report
+from ucm_cts.reference_models.life_cycle import LifeCycleTable
+
+
+def write_report(
+    report: Report,
+    catalogue: Sequence[Requirement],
+    table: LifeCycleTable,
+    interpretations: Mapping[str, str],
+    out: Path,
+) -> None:
+    """Write ``report.html``, ``report.json``, ``junit.xml`` and ``failures/*.json`` into ``out``, which is made if needed.
+
+    ``interpretations`` maps ids to decisions. Failures that an earlier run left in ``out`` are removed.
+    """
+    cleaned = clean_report(report)
+    folder = out / FOLDER
+    folder.mkdir(parents=True, exist_ok=True)
+    names = set()
+    for name, content in all_files(report):
+        _write(out / name, msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n")
+        names.add(out / name)
+    _write(out / "report.json", to_json(cleaned, catalogue))
+    _write(out / "junit.xml", to_junit(cleaned, catalogue))
+    _write(out / "report.html", to_html(cleaned, catalogue, table, interpretations).encode())
+    for stale in set(folder.glob("*.json")) - names:
+        stale.unlink(missing_ok=True)
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Put ``content`` into place at once: readers see the old file or the new one."""
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        os.chmod(temporary, 0o644)
+        os.replace(temporary, path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
