@@ -17,6 +17,9 @@ SHORT = 26
 BEFORE, AFTER = 9, 2
 """In longer ones, how many lines around an offending one stay."""
 
+TAIL = 16
+"""Of an execution that ended in an incident, so many of the last lines are shown."""
+
 SUSPECTS = 12
 """So many offending lines at most are shown."""
 
@@ -55,11 +58,13 @@ def compare(finding: Finding, execution: Execution) -> Comparison:
     )
 
 
-def excerpt(execution: Execution, longest: int = SHORT) -> Diagram:
+def excerpt(execution: Execution, longest: int = TAIL) -> Diagram:
     """The diagram of an execution, its end above all: what led to a crash or a hang."""
     whole = lay_out(execution)
     lines = list(whole.lines)
-    kept = set(range(len(lines)) if len(lines) <= longest else range(len(lines) - longest, len(lines)))
+    start = max(0, len(lines) - longest)
+    start = next((i for i in range(start, len(lines)) if _asked(lines[i])), start) if start else 0
+    kept = set(range(start, len(lines)))
     return replace(whole, lines=_elide(lines, kept, len(lines))).without_idle_lanes()
 
 
@@ -84,10 +89,17 @@ def _kept(lines: Sequence[Line]) -> set[int]:
         return set(range(len(lines)))
     suspects = [i for i, line in enumerate(lines) if line.style == "offending"]
     suspects = suspects[: SUSPECTS - 2] + suspects[-2:] if len(suspects) > SUSPECTS else suspects
-    kept = {i for i in range(suspects[0] - BEFORE, suspects[0] + AFTER + 1) if 0 <= i < len(lines)}
+    start = max(0, suspects[0] - BEFORE)
+    # begin with a call of the test, if there is one near, so that no answer stands without its question
+    start = next((i for i in range(start, max(-1, start - BEFORE), -1) if _asked(lines[i])), start)
+    kept = set(range(start, min(len(lines), suspects[0] + AFTER + 1)))
     for suspect in suspects[1:]:
         kept.update(i for i in range(suspect - 1, suspect + AFTER) if 0 <= i < len(lines))
     return kept
+
+
+def _asked(line: Line) -> bool:
+    return line.kind == "call" and line.source == TEST
 
 
 def _elide(lines: Sequence[Line], kept: set[int], end: int) -> tuple[Line, ...]:

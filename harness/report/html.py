@@ -34,11 +34,11 @@ from ucm_cts.reference_models.life_cycle import LifeCycleTable, State
 FINDINGS = 3
 """So many causes of one requirement are shown with diagrams; further ones in words."""
 
-BUDGET = 1_300_000
-"""Characters that all evidence together may take; what comes later is told without diagrams."""
+BUDGET = 1_000_000
+"""Bytes that all evidence together may take; what comes later is told without diagrams."""
 
 INCIDENTS = 20
-"""So many incidents are shown with diagrams."""
+"""So many incidents are shown with diagrams and stacks."""
 
 NOTHING = Markup("")
 
@@ -58,8 +58,8 @@ class Evidence:
 
     @property
     def size(self) -> int:
-        """Characters it adds to the page."""
-        return len(self.scenario) + len(self.observed) + len(self.expected) + len(self.text)
+        """Bytes it adds to the page."""
+        return sum(len(part.encode()) for part in (self.scenario, self.observed, self.expected, self.text))
 
 
 @dataclass(frozen=True)

@@ -90,16 +90,16 @@ def _long_way(way: tuple[State, State], items: Sequence[Transition], edge: int, 
     source, target = way
     forward = _column(target) > _column(source)
     start = _left(source) + (BOX - 40 - 14 * _column(target) if forward else 40 + 14 * (3 - _column(target)))
-    end = _left(target) + (24 + 14 * _column(source) if forward else BOX - 24 - 14 * (3 - _column(source)))
+    end = _left(target) + (66 - 14 * _column(source) if forward else BOX - 24 - 14 * _column(source))
     level = edge + offset
     turn = 10 if offset > 0 else -10
     step = 10 if end > start else -10
-    verdict = worst([item.verdict for item in items])
+    verdict = worst([item.verdict for item in items if item.chosen] or ["inconclusive"])
     path = f"M{start} {edge}V{level - turn}q0 {turn} {step} {turn}H{end - step}q{step} 0 {step} {-turn}V{edge + (turn * 9) // 10}"
     tip = f"M{end} {edge}l-4 {'-' if offset < 0 else ''}9h8z"
-    middle = (start + end) // 2
-    wide = max(_wide(item) for item in items)
-    lines = [_words(item, middle - wide // 2, level - 6 - LINE * (len(items) - 1 - i)) for i, item in enumerate(items)]
+    # words stand near the source, where no other way crosses them
+    left = start + 14 if forward else start - 14 - max(_wide(item) for item in items)
+    lines = [_words(item, left, level - 6 - LINE * (len(items) - 1 - i)) for i, item in enumerate(items)]
     return Markup('<g class="way {}"><path d="{}"/><path class="tip" d="{}"/></g>{}').format(
         _class(verdict, items), path, tip, Markup("").join(lines)
     )
@@ -112,7 +112,7 @@ def _short_way(way: tuple[State, State], items: Sequence[Transition], top: int, 
     end = _left(target) + (0 if forward else BOX)
     y = top + (box // 4 + 6 if forward else box // 2 + box // 8 + LINE)
     sign = -1 if forward else 1
-    verdict = worst([item.verdict for item in items])
+    verdict = worst([item.verdict for item in items if item.chosen] or ["inconclusive"])
     left = min(start, end) + 10
     lines = [_words(item, left, y - 7 - LINE * (len(items) - 1 - i)) for i, item in enumerate(items)]
     return Markup('<g class="way {}"><path d="M{} {}H{}"/><path class="tip" d="M{} {}l{}-4v8z"/></g>{}').format(

@@ -34,6 +34,7 @@ def to_svg(diagram: Diagram, name: str) -> Markup:
     y = {index: TOP + HEAD + 10 + ROW * index + 19 for index in range(len(diagram.lines))}
     parts += [_band(line, y[i], width) for i, line in enumerate(diagram.lines) if line.style != "normal"]
     parts += [_lifeline(x[lane.key], height) for lane in diagram.lanes]
+    parts.append(Markup('<text class="n" x="27" y="{}">#</text>').format(TOP + 15))
     parts += [_head(lane, x[lane.key]) for lane in diagram.lanes]
     parts += _bars(diagram.lines, x, y)
     for index, line in enumerate(diagram.lines):
@@ -123,11 +124,13 @@ def _bars(lines: Sequence[Line], x: dict[str, int], y: dict[int, int]) -> list[M
 
 
 def _gutter(line: Line, y: int, threads: bool) -> Markup:
-    mark = {"offending": "✗", "expected": "✓"}.get(line.style, "")
-    number = str(line.events[0]) if line.events and line.kind != "gap" else ""
-    texts = Markup('<text class="n" x="{}" y="{}">{}</text>').format(27, y + 3, mark or number)
+    mark = {"offending": "✗", "expected": "✓"}.get(line.style)
+    if mark:
+        texts = Markup('<text class="n sign {}" x="27" y="{}">{}</text>').format(line.style, y + 3, mark)
+    else:
+        texts = Markup('<text class="n" x="27" y="{}">{}</text>').format(y + 3, line.events[0] if line.events else "")
     if threads and line.events:
-        texts += Markup('<text class="n" x="{}" y="{}">t{}</text>').format(49, y + 3, line.thread)
+        texts += Markup('<text class="n" x="49" y="{}">t{}</text>').format(y + 3, line.thread)
     return texts
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
+from dataclasses import replace
 
 from ucm_cts.harness.report.excerpt import compare
 from ucm_cts.harness.report.foreign import one_line
@@ -13,6 +15,12 @@ from ucm_cts.reference_models.findings import Finding
 WIDTH = 110
 """Columns of a diagram, unless told otherwise."""
 
+NARROW = 8
+"""Lanes closer together than that get letters for names."""
+
+SHARED = 4
+"""So many lines that both diagrams share are told twice."""
+
 _MARKS = {"normal": " ", "offending": "✗", "expected": "✓"}
 
 
@@ -22,31 +30,43 @@ def replay_text(execution: Execution, finding: Finding | None = None, width: int
 
 
 def failure_text(finding: Finding, execution: Execution, width: int = WIDTH) -> str:
-    """Both diagrams of a failure, one below the other."""
+    """Both diagrams of a failure, one below the other; the second begins shortly before they part."""
     both = compare(finding, execution)
-    return f"observed\n{to_text(both.observed, width)}\n\nexpected\n{to_text(both.expected, width)}"
+    shared = next((i for i, line in enumerate(both.expected.lines) if line.style == "expected"), 0)
+    start = max(0, shared - SHARED)
+    again = replace(both.expected, lines=both.expected.lines[start:])
+    head = "expected instead" if start else "expected"
+    return f"observed\n{to_text(both.observed, width)}\n\n{head}\n{to_text(again, width)}"
 
 
 def to_text(diagram: Diagram, width: int = WIDTH) -> str:
     """A diagram as plain monospaced text, at most ``width`` columns wide."""
     numbers = max((len(str(n)) for line in diagram.lines for n in line.events[:1]), default=1)
     gutter = 2 + numbers + (4 if diagram.threads else 0) + 2
-    room = max(20, width * 3 // 5 - gutter)
-    # a lane's head may lean to the right of its lifeline, so the gap behind a lane must hold the whole head
-    gap = min(18, max(8, room // max(1, len(diagram.lanes))))
-    heads = [one_line(lane.label, gap - 1) for lane in diagram.lanes]
-    gaps = [max(5, min(gap, len(head) + 2)) for head in heads]
+    widest = (width * 3 // 5 - gutter) // max(1, len(diagram.lanes))
+    narrow = widest < NARROW
+    heads = [
+        _letter(i) if narrow else one_line(lane.label, min(17, widest - 1)) for i, lane in enumerate(diagram.lanes)
+    ]
+    gaps = [max(3, widest) if narrow else max(5, len(head) + 2) for head in heads]
     columns = {lane.key: sum(gaps[:i]) for i, lane in enumerate(diagram.lanes)}
     end = sum(gaps)
     words = max(16, width - gutter - end - 1)
-    rows = [" " * gutter + "".join(head.ljust(space) for head, space in zip(heads, gaps, strict=True)).rstrip()]
+    rows = []
+    if narrow:
+        named = ", ".join(f"{head} {lane.label}" for head, lane in zip(heads, diagram.lanes, strict=True))
+        rows += textwrap.wrap(named, width - 2, initial_indent="  ", subsequent_indent="  ")
+    rows.append(" " * gutter + "".join(head.ljust(gap) for head, gap in zip(heads, gaps, strict=True)))
     for line in diagram.lines:
         head = f"{_MARKS[line.style]} {str(line.events[0]) if line.events else '':>{numbers}}"
         if diagram.threads:
             head += f" t{line.thread:<2}" if line.events else "    "
-        head += "  "
-        rows.append(f"{head}{_drawn(line, columns, end)} {one_line(_words(line), words)}".rstrip())
-    return "\n".join(rows)
+        rows.append(f"{head}  {_drawn(line, columns, end)} {one_line(_words(line), words)}")
+    return "\n".join(row[:width].rstrip() for row in rows)
+
+
+def _letter(number: int) -> str:
+    return chr(ord("A") + number) if number < 26 else str(number)
 
 
 def _words(line: Line) -> str:

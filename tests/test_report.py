@@ -1,0 +1,709 @@
+"""What a reader of a report would miss: checked on a made-up run with real-looking traces and hostile texts."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import msgspec
+import pytest
+from lxml import etree, html
+from rich.console import Console
+
+from ucm_cts.adapters.contract.scenario import (
+    AddComponent,
+    Connect,
+    Declaration,
+    Destroy,
+    GetPortElement,
+    Invoke,
+    RemoveComponent,
+    Scenario,
+    Start,
+    Step,
+    Stop,
+)
+from ucm_cts.adapters.contract.trace import (
+    Call,
+    Create,
+    Dependency,
+    Enter,
+    Event,
+    Exit,
+    Raise,
+    Reference,
+    Reply,
+    Request,
+    Return,
+)
+from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.report import json_report, order, sequence, transitions
+from ucm_cts.harness.report.excerpt import compare
+from ucm_cts.harness.report.foreign import LONGEST, LONGEST_STACKS, clean, clean_report, one_line
+from ucm_cts.harness.report.sequence_text import failure_text, replay_text
+from ucm_cts.harness.report.summary import summary
+from ucm_cts.harness.report.write import write_report
+from ucm_cts.harness.results import (
+    Execution,
+    FailedExecution,
+    Incident,
+    IncidentReport,
+    Report,
+    RequirementResult,
+    TransitionResult,
+)
+from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.life_cycle import LifeCycleTable, Outcome, Row
+
+HOSTILE = "</script><script>alert(1)</script>\"'><img src=x onerror=alert(2)>\x00\x1b[31m\u202e\ud800{{ 7*7 }}"
+
+
+# A made-up run
+
+
+class Tape:
+    """Writes a trace: numbers and times its events."""
+
+    def __init__(self) -> None:
+        self.events: list[Event] = []
+
+    def put(self, kind: type[Any], thread: int = 0, **fields: Any) -> None:
+        n = len(self.events) + 1
+        self.events.append(kind(n=n, t=n * 1_000, thread=thread, **fields))
+
+    def step(self, number: int, value: Any = None) -> None:
+        self.put(Call, step=number)
+        self.put(Return, step=number, value=value)
+
+    def hook(self, component: str, hook: str, **more: Any) -> None:
+        self.put(Enter, component=component, instance=1, hook=hook, **more)
+        self.put(Exit, component=component, instance=1, hook=hook)
+
+    def trace(self) -> tuple[Event, ...]:
+        return tuple(self.events)
+
+
+COMPONENTS = {
+    "provider": Declaration(provides=("in_api",)),
+    "client": Declaration(requires=("out_api",), provides=("in_go",), connectable=True),
+}
+STEPS: tuple[Step, ...] = (
+    AddComponent(component="provider"),
+    AddComponent(component="client"),
+    GetPortElement(id="provider", port="in_api", bind="api"),
+    Connect(id="client", port="out_api", to="api", bind="link"),
+    Start(),
+    GetPortElement(id="client", port="in_go", bind="go"),
+    Invoke(ref="go", value=7),
+    RemoveComponent(id="provider"),
+    Stop(),
+    Destroy(),
+)
+API = Reference(component="provider", instance=1, port="in_api")
+
+
+def begin(tape: Tape) -> None:
+    """Two components, connected and started."""
+    for number, component in enumerate(("provider", "client")):
+        tape.put(Call, step=number)
+        tape.put(Create, component=component, instance=1)
+        tape.hook(component, "on_init")
+        tape.put(Return, step=number, value=number + 17)
+    tape.step(2, API)
+    tape.put(Call, step=3)
+    tape.hook("client", "on_connect", port="out_api", reference=API)
+    tape.put(Return, step=3, value=4)
+    tape.put(Call, step=4)
+    tape.hook("provider", "on_startup", dependencies=())
+    tape.hook("client", "on_startup", dependencies=(Dependency(port="out_api", references=(API,)),))
+    tape.put(Return, step=4)
+
+
+def refused_stop() -> FailedExecution:
+    """The framework forgets on_shutdown of the provider at stop."""
+    tape = Tape()
+    begin(tape)
+    steps = (*STEPS[:5], Stop(), Destroy())
+    tape.put(Call, step=5)
+    tape.hook("client", "on_shutdown")
+    tape.put(Return, step=5)
+    last = len(tape.events)
+    finding = Finding(
+        requirement="R-11.2.2.1-12",
+        rule="callbacks",
+        cause="on_shutdown missing at stop",
+        expected="stop calls on_shutdown of every started component before it returns.",
+        observed="stop returned, and provider had not heard on_shutdown.",
+        events=(last,),
+        step=5,
+        expected_events=(Arrow("manager", "provider", "on_shutdown()"), Arrow("manager", "test", "returns")),
+    )
+    tape.put(Call, step=6)
+    tape.hook("client", "on_remove")
+    tape.hook("provider", "on_remove")
+    tape.put(Return, step=6)
+    return FailedExecution(finding, Execution("stop-after-start", Scenario(COMPONENTS, steps), tape.trace()), 31)
+
+
+def wrong_error() -> FailedExecution:
+    """An undeclared exception instead of NOT_FOUND."""
+    tape = Tape()
+    steps: tuple[Step, ...] = (AddComponent(component="provider"), RemoveComponent(id="unknown"))
+    tape.put(Call, step=0)
+    tape.put(Create, component="provider", instance=1)
+    tape.hook("provider", "on_init")
+    tape.put(Return, step=0, value=1)
+    tape.put(Call, step=1)
+    tape.put(Raise, step=1, error="UNDECLARED", detail="KeyError: 99 " + HOSTILE.replace("\ud800", ""))
+    finding = Finding(
+        requirement="R-12.10-15",
+        rule="answers",
+        cause="UNDECLARED for an unknown component",
+        expected="remove_component of an unknown id ends with NOT_FOUND.",
+        observed="It ended with an exception that 12.10 does not declare: " + HOSTILE,
+        events=(len(tape.events),),
+        step=1,
+        expected_events=(Arrow("manager", "test", "raises NOT_FOUND"),),
+    )
+    return FailedExecution(finding, Execution("remove-unknown", Scenario(COMPONENTS, steps), tape.trace()), 4)
+
+
+def lost_call(rounds: int = 1) -> FailedExecution:
+    """A call between bodies comes back with another value than was returned; many rounds make a long trace."""
+    tape = Tape()
+    begin(tape)
+    steps = list(STEPS[:6])
+    tape.step(5, Reference(component="client", instance=1, port="in_go"))
+    for i in range(rounds):
+        steps.append(Invoke(ref="go", value=i))
+        tape.put(Call, step=len(steps) - 1)
+        tape.put(Enter, component="client", instance=1, hook="exchange", port="in_go", value=i)
+        tape.put(Request, component="client", instance=1, port="out_api", value=i)
+        tape.put(Enter, component="provider", instance=1, hook="exchange", port="in_api", value=i)
+        tape.put(Exit, component="provider", instance=1, hook="exchange", value=~i)
+        tape.put(Reply, component="client", instance=1, port="out_api", value=~i if i < rounds - 1 else 0)
+        bad = len(tape.events)
+        tape.put(Exit, component="client", instance=1, hook="exchange", value=~i)
+        tape.put(Return, step=len(steps) - 1, value=~i)
+    finding = Finding(
+        requirement="R-11.1.3-01",
+        rule="peer_calls",
+        cause="reply changed",
+        expected="The result of provider reaches client unchanged.",
+        observed="provider returned another value than client received.",
+        events=(bad,),
+        step=len(steps) - 1,
+        expected_events=(Arrow("provider", "client", f"returns {~(rounds - 1)}"),),
+    )
+    return FailedExecution(finding, Execution("peer-call", Scenario(COMPONENTS, tuple(steps)), tape.trace()), 2)
+
+
+def missing() -> FailedExecution:
+    """A finding that can point at no event, with a waiver."""
+    failed = refused_stop()
+    finding = msgspec.structs.replace(
+        failed.finding, events=(), requirement="R-11.2.1.2-06", cause="nothing to point at"
+    )
+    return msgspec.structs.replace(failed, finding=finding, waived="known, ticket 12")
+
+
+def crash(detail: str = "signal 11 (SIGSEGV)", stacks: str = "") -> IncidentReport:
+    """The host dies inside start, with a body still at work on a thread of the framework's own."""
+    tape = Tape()
+    begin(tape)
+    tape.put(Call, step=5)
+    tape.put(Return, step=5, value="opaque")
+    tape.put(Call, step=6)
+    tape.put(Enter, thread=3, component="client", instance=1, hook="exchange", port="in_go", value=7)
+    tape.put(Request, thread=3, component="client", instance=1, port="out_api", value=7)
+    incident = Incident(
+        "crash", detail, stacks or "Thread 1 (most recent call first):\n#0 0x7f3a in Registry::find()\n"
+    )
+    return IncidentReport(incident, Execution("call-a-peer", Scenario(COMPONENTS, STEPS), tape.trace(), incident))
+
+
+TABLE = LifeCycleTable(
+    rows=(
+        Row(
+            "add_component",
+            "absent",
+            "requires nothing",
+            "R-11.2.2.1-01",
+            (Outcome(("return",), "configured", ("on_init",)),),
+        ),
+        Row("remove_component", "absent", "never existed", "R-12.10-15", (Outcome(("NOT_FOUND",), "absent"),)),
+        Row("start", "configured", "all configured", "R-11.2.3-06", (Outcome(("return",), "ready", ("on_startup",)),)),
+        Row("stop", "ready", "", "R-11.2.3-10", (Outcome(("return",), "configured", ("on_shutdown",)),)),
+        Row(
+            "start",
+            "ready",
+            "already started",
+            "R-11.2.3-15",
+            (
+                Outcome(("return",), "ready", reading="double-start=noop"),
+                Outcome(("UCM_ERROR",), "ready", reading="double-start=error"),
+            ),
+        ),
+        Row(
+            "remove_component",
+            "ready",
+            "",
+            "R-11.2.3-11",
+            (
+                Outcome(("return",), "absent", ("on_shutdown", "on_remove"), "remove-while-ready=cascade"),
+                Outcome(("UCM_ERROR",), "ready", (), "remove-while-ready=refuse"),
+            ),
+        ),
+    ),
+    duties=(),
+    order="R-11.2.3-12",
+)
+TRANSITIONS = (
+    TransitionResult("absent/add_component/requires nothing", 800, 0),
+    TransitionResult("absent/remove_component/never existed", 4, 4),
+    TransitionResult("configured/start/all configured", 300, 0),
+    TransitionResult("ready/stop/", 200, 31),
+    TransitionResult("ready/remove_component/", 12, 0, ("remove-while-ready=refuse",)),
+)
+CATALOGUE = (
+    Requirement("R-11.1.3-01", "11.1.3", "The container lets its components communicate", "shall", "They talk.", "Values."),
+    Requirement("R-11.2.1.2-06", "11.2.1.2", "on_remove comes last", "shall", "No callback after it.", "Order of events."),
+    Requirement(
+        "R-11.2.2.1-12", "11.2.2.1", "stop shuts every component down", "shall", "Each hears it once.", "Callbacks.",
+        ("callbacks",), "", ("stop-inflight",),
+    ),
+    Requirement("R-11.2.2.1-01", "11.2.2.1", "add_component makes an instance", "shall", "It does.", "Create."),
+    Requirement("R-11.2.3-15", "11.2.3", "start twice does no harm", "should", "Ignored or refused.", "Second start."),
+    Requirement("R-11.2.3-90", "11.2.3", "Nothing to apply here", "may", "A permission."),
+    Requirement("R-11.2.3-91", "11.2.3", "The harness stumbled here", "shall", "Something."),
+    Requirement("R-12.10-15", "12.10", "NOT_FOUND for an unknown component", "shall", "An error.", "Answers."),
+    Requirement("R-11-01", "11", "The container joins things", "statement", "Text.", untestable="Describes an architecture."),
+)  # fmt: skip
+
+
+def results() -> tuple[RequirementResult, ...]:
+    """One requirement of each verdict, and four failures."""
+    titles = {entry.id: (entry.clause, entry.title) for entry in CATALOGUE}
+
+    def result(
+        name: str, verdict: Any, exercised: int, *findings: FailedExecution, reason: str = ""
+    ) -> RequirementResult:
+        return RequirementResult(name, *titles[name], verdict, exercised, findings, reason)
+
+    return (
+        result("R-12.10-15", "fail", 90, wrong_error()),
+        result("R-11.2.2.1-12", "fail", 412, lost_call(1), refused_stop()),
+        result("R-11.1.3-01", "fail", 88, lost_call(80)),
+        result("R-11.2.1.2-06", "fail", 70, missing()),
+        result("R-11.2.2.1-01", "pass", 4_012),
+        result("R-11.2.3-15", "inconclusive", 0, reason="No scenario started a container twice."),
+        result("R-11.2.3-90", "not applicable", 0, reason="Declared so by the vendor."),
+        result("R-11.2.3-91", "error", 3, reason="Judge failed: " + HOSTILE),
+    )
+
+
+def sample(**changes: Any) -> Report:
+    """The whole report."""
+    report = Report(
+        product="Fancy " + HOSTILE,
+        version="2.4 & <b>",
+        profile="container",
+        verdict="not conformant",
+        requirements=results(),
+        transitions=TRANSITIONS,
+        incidents=(crash(stacks=HOSTILE * 3), crash(detail="x" * 10_000_000)),
+        adapter="./my host --fast",
+        suite_version="0.1.0",
+        seed=42,
+        started="2031-01-02T03:04:05Z",
+        seconds=12.34,
+        scenarios=4_711,
+        events=123_456,
+    )
+    return msgspec.structs.replace(report, **changes)
+
+
+DECISIONS = {"stop-inflight": "What was begun may end."}
+
+
+@pytest.fixture(scope="module")
+def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("report")
+    write_report(sample(), CATALOGUE, TABLE, DECISIONS, folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def source(out: Path) -> str:
+    return (out / "report.html").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def page(source: str) -> Any:
+    return html.document_fromstring(source)
+
+
+# Sequence diagrams
+
+
+def test_a_known_trace_becomes_this_text() -> None:
+    failed = wrong_error()
+    finding = msgspec.structs.replace(failed.finding, observed="no")
+    trace = (*failed.execution.trace[:-1], msgspec.structs.replace(failed.execution.trace[-1], detail="KeyError: 99"))
+    text = failure_text(finding, msgspec.structs.replace(failed.execution, trace=trace))
+    assert text.splitlines() == [
+        "observed",
+        "     test  manager  provider",
+        "  1  ├────▶│        │          add_component provider",
+        "  2  │     ├───────▶│          create",
+        "  3  │     ├───────▶│          on_init()",
+        "  5  │◀╌╌╌╌┤        │          returns 1",
+        "  6  ├────▶│        │          remove_component unknown",
+        "✗ 7  │◀╌╌╌╌┤        │          raises an undeclared exception: KeyError: 99",
+        "",
+        "expected instead",
+        "     test  manager  provider",
+        "  2  │     ├───────▶│          create",
+        "  3  │     ├───────▶│          on_init()",
+        "  5  │◀╌╌╌╌┤        │          returns 1",
+        "  6  ├────▶│        │          remove_component unknown",
+        "✓    │◀╌╌╌╌┤        │          raises NOT_FOUND",
+    ]
+
+
+def test_calls_between_bodies_name_both_port_elements_and_the_result() -> None:
+    diagram = sequence.lay_out(lost_call(1).execution)
+    labels = {line.label: (line.source, line.target) for line in diagram.lines}
+    assert labels["connect client.out_api → provider.in_api"] == ("test", "manager")
+    assert labels["on_connect(out_api, provider.in_api)"] == ("manager", "client#1")
+    assert labels["on_startup(out_api → provider.in_api)"] == ("manager", "client#1")
+    assert labels["invoke client.in_go exchange(0)"] == ("test", "client#1")
+    assert labels["exchange(0) out_api → in_api ⇒ -1"] == ("client#1", "provider#1")
+
+
+def test_every_event_is_on_exactly_one_line() -> None:
+    for failed in (refused_stop(), wrong_error(), lost_call(3)):
+        lines = sequence.lay_out(failed.execution, failed.finding.events).lines
+        assert sorted(n for line in lines for n in line.events) == [event.n for event in failed.execution.trace]
+
+
+def test_a_trace_cut_off_by_a_crash_ends_with_the_incident_and_names_the_last_call() -> None:
+    execution = crash().execution
+    text = replay_text(execution).splitlines()
+    assert text[-1].startswith("✗")
+    assert text[-1].endswith("ended by crash: signal 11 (SIGSEGV)")
+    assert " t3 " in text[-2]
+    assert "exchange(7) through out_api" in text[-2]
+    assert sequence.last_call(execution) == "invoke client.in_go exchange(7)"
+
+
+def test_long_traces_are_elided_visibly_and_both_diagrams_share_their_beginning() -> None:
+    failed = lost_call(80)
+    both = compare(failed.finding, failed.execution)
+    assert both.observed.lines[0].kind == both.expected.lines[0].kind == "gap"
+    assert re.fullmatch(r"\d+ events not shown", both.observed.lines[0].label)
+    assert len(both.observed.lines) < 40
+    first = next(i for i, line in enumerate(both.observed.lines) if line.style == "offending")
+    assert both.observed.lines[:first] == both.expected.lines[:first]
+    assert {line.style for line in both.expected.lines[first:]} == {"expected"}
+
+
+def test_what_is_missing_is_marked_where_it_should_have_been() -> None:
+    failed = missing()
+    both = compare(failed.finding, failed.execution)
+    at = next(i for i, line in enumerate(both.observed.lines) if line.style == "offending")
+    assert both.observed.lines[at].label == "missing: on_shutdown()"
+    assert both.observed.lines[at + 1].label == "returns"
+
+
+def test_text_is_at_most_110_columns_wide_with_many_lanes() -> None:
+    steps = tuple(AddComponent(component=f"a-component-with-a-long-name-{i}") for i in range(12))
+    tape = Tape()
+    for i in range(12):
+        tape.put(Call, step=i)
+        tape.put(Create, component=f"a-component-with-a-long-name-{i}", instance=1)
+        tape.put(Return, step=i, value=i)
+    text = replay_text(Execution("wide", Scenario({}, steps), tape.trace()))
+    assert max(map(len, text.splitlines())) <= 110
+
+
+# The page
+
+
+def test_the_page_needs_nothing_from_outside(source: str, page: Any) -> None:
+    assert not page.xpath("//link | //img | //iframe | //object | //embed | //script[@src] | //*[@src]")
+    assert all(link.startswith("#") for link in page.xpath("//@href"))
+    assert not re.search(r"url\(|@import|https?:", source)
+    assert "default-src 'none'" in page.xpath("//meta[@http-equiv]/@content")[0]
+
+
+def test_hostile_text_stays_text(source: str, page: Any) -> None:
+    assert len(page.xpath("//script")) == 1
+    assert len(re.findall(r"</script", source)) == 1
+    assert not page.xpath("//*[@onerror]")
+    assert "{{ 7*7 }}" in page.xpath("string(//h1)")
+    assert page.xpath("//dd[contains(., '<img src=x onerror=alert(2)>')]")
+    assert not re.search("[\x00-\x08\x0b-\x1f\x7f\u202e\ud800-\udfff]", source)
+
+
+def test_the_verdict_comes_first_and_then_what_to_fix(page: Any) -> None:
+    text = page.text_content()
+    marks = [
+        "Not conformant",
+        "What to fix first",
+        "Incidents",
+        "Life cycle",
+        "Requirements",
+        "Not testable from the outside",
+        "This run",
+    ]
+    assert text.index(marks[0]) < text.index(marks[1])
+    assert [heading.text_content() for heading in page.xpath("//main//h2")] == marks[1:]
+    fixes = page.xpath("//ol[@class='fix']/li/a/@href")
+    assert fixes == ["#R-11.1.3-01", "#R-11.2.1.2-06", "#R-11.2.2.1-12", "#R-12.10-15"]
+
+
+def test_each_failure_has_both_diagrams_the_scenario_and_the_command(page: Any) -> None:
+    for result in results():
+        sections = page.xpath(f"//tbody[@id='{result.id}']//section")
+        assert len(sections) == len(result.findings)
+        for section in sections:
+            assert len(section.xpath(".//svg")) == 2
+            assert section.xpath(".//svg//*[contains(@class, 'expected')]")
+            assert section.xpath(".//svg//*[contains(@class, 'offending')]")
+            assert "ucm-cts replay failures/" in section.text_content()
+            assert "steps:" in section.text_content()
+
+
+def test_every_link_leads_somewhere(page: Any) -> None:
+    names = page.xpath("//@id")
+    assert len(names) == len(set(names))
+    known = {entry.id for entry in CATALOGUE}
+    for link in page.xpath("//@href"):
+        # rows of this test's table name requirements that its small catalogue does not have
+        assert link[1:] in names or link[1:] not in known
+
+
+def test_requirements_say_meaning_decision_waiver_and_reason(page: Any) -> None:
+    text = page.xpath("//tbody[@id='R-11.2.2.1-12']")[0].text_content()
+    assert "Each hears it once." in text
+    assert "What was begun may end." in text
+    assert "known, ticket 12" in page.xpath("//tbody[@id='R-11.2.1.2-06']")[0].text_content()
+    assert "No scenario started a container twice." in page.xpath("//tbody[@id='R-11.2.3-15']")[0].text_content()
+    assert "Describes an architecture." in page.xpath("//section[@id='untestable']")[0].text_content()
+
+
+def test_keyboard_dark_mode_print_and_reading_without_scripts(source: str, page: Any) -> None:
+    assert "prefers-color-scheme: dark" in source
+    assert "@media print" in source
+    assert ":focus-visible" in source
+    assert page.xpath("//a[@class='skip']")
+    assert page.xpath("//dialog[@id='help']//kbd[text()='/']")
+    # the filter is useless without its script, so the script brings it; everything else is there from the start
+    assert page.xpath("//div[@class='filter']/@hidden") == [""]
+    assert not page.xpath("//main//*[@hidden and not(@class='filter')]")
+    assert all(table.xpath(".//thead//th[@scope='col']") for table in page.xpath("//table"))
+    assert all(svg.get("role") == "img" and svg.get("aria-label") for svg in page.xpath("//svg"))
+
+
+@pytest.mark.parametrize("mode", [0, 1], ids=["light", "dark"])
+def test_colours_have_the_contrast_that_reading_needs(source: str, mode: int) -> None:
+    roots = re.findall(r":root \{(.*?)\}", source, re.DOTALL)
+    colours = dict(re.findall(r"--([a-z-]+): (#[0-9a-f]{6})", roots[mode]))
+    pairs = [(name, f"{name}-bg") for name in ("pass", "fail", "inc", "err", "na")]
+    pairs += [
+        (name, back) for name in ("ink", "quiet", "link", "pass", "fail", "inc") for back in ("bg", "card", "sunk")
+    ]
+    assert {pair: ratio for pair in pairs if (ratio := contrast(colours[pair[0]], colours[pair[1]])) < 4.5} == {}
+
+
+def contrast(one: str, other: str) -> float:
+    """The contrast ratio of WCAG 2."""
+
+    def luminance(colour: str) -> float:
+        parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+        red, green, blue = (p / 12.92 if p <= 0.03928 else ((p + 0.055) / 1.055) ** 2.4 for p in parts)
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+    high, low = sorted((luminance(one), luminance(other)), reverse=True)
+    return (high + 0.05) / (low + 0.05)
+
+
+def test_fifty_failures_stay_below_two_megabytes(tmp_path: Path) -> None:
+    failures = tuple(
+        RequirementResult(
+            f"R-11.9-{i:02}", "11.9", f"Made up {i}", "fail", 9, (lost_call(80), refused_stop(), missing())
+        )
+        for i in range(50)
+    )
+    incidents = tuple(crash(stacks="at some place\n" * 100_000) for _ in range(30))
+    write_report(sample(requirements=failures, incidents=incidents), CATALOGUE, TABLE, {}, tmp_path)
+    assert (tmp_path / "report.html").stat().st_size < 2_000_000
+    assert "R-11.9-49" in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_conformant_report_says_so_and_has_nothing_to_fix(tmp_path: Path) -> None:
+    kept = tuple(msgspec.structs.replace(result, verdict="pass", findings=()) for result in results())
+    write_report(sample(verdict="conformant", requirements=kept, incidents=()), CATALOGUE, TABLE, {}, tmp_path)
+    page = html.document_fromstring((tmp_path / "report.html").read_bytes().decode())
+    assert page.xpath("string(//p[@class='word'])") == "Conformant"
+    assert not page.xpath("//section[@id='fix' or @id='incidents']")
+
+
+# The life cycle
+
+
+def test_transitions_get_the_verdict_of_their_rows(page: Any) -> None:
+    found = {
+        (t.state, t.next, t.operation): t for t in transitions.transitions(transitions.rows_seen(TABLE, TRANSITIONS))
+    }
+    assert found["absent", "configured", "add_component"].verdict == "pass"
+    assert found["ready", "configured", "stop"].verdict == "fail"
+    assert found["ready", "ready", "start"].verdict == "inconclusive"
+    assert found["ready", "ready", "remove_component"].verdict == "pass"
+    assert not found["ready", "absent", "remove_component"].chosen
+    words = {
+        t.getparent().get("href"): t.text_content()
+        for t in page.xpath("//svg[@class='lc']//text[starts-with(@class, 'op')]")
+    }
+    assert words["#lc-stop-ready"].startswith("✗ stop")
+
+
+def test_the_table_lists_every_row_with_counts(page: Any) -> None:
+    rows = page.xpath("//table[@class='heat']//li[@id]")
+    assert len(rows) == len(TABLE.rows)
+    assert "31 of 200 broken" in page.xpath("string(//td[@id='lc-stop-ready'])")
+    assert "never" in page.xpath("string(//td[@id='lc-start-ready'])")
+
+
+# JUnit, JSON, saved scenarios, terminal
+
+JUNIT = """
+<grammar xmlns="http://relaxng.org/ns/structure/1.0" datatypeLibrary="http://www.w3.org/2001/XMLSchema-datatypes">
+  <start><element name="testsuites"><ref name="counts"/><attribute name="time"/>
+    <oneOrMore><element name="testsuite"><ref name="counts"/><attribute name="timestamp"/>
+      <oneOrMore><element name="testcase">
+        <attribute name="classname"/><attribute name="name"/><attribute name="time"/>
+        <optional><choice>
+          <element name="failure"><ref name="told"/></element>
+          <element name="error"><ref name="told"/></element>
+          <element name="skipped"><attribute name="message"/></element>
+          <element name="system-out"><text/></element>
+        </choice></optional>
+      </element></oneOrMore>
+    </element></oneOrMore>
+  </element></start>
+  <define name="counts"><attribute name="name"/>
+    <attribute name="tests"><data type="integer"/></attribute><attribute name="failures"><data type="integer"/></attribute>
+    <attribute name="errors"><data type="integer"/></attribute><attribute name="skipped"><data type="integer"/></attribute>
+  </define>
+  <define name="told"><attribute name="message"/><attribute name="type"/><text/></define>
+</grammar>
+"""
+
+
+def test_junit_is_valid_and_no_undecided_requirement_looks_green(out: Path) -> None:
+    document = etree.parse(out / "junit.xml")
+    schema = etree.RelaxNG(etree.fromstring(JUNIT))
+    assert schema.validate(document), schema.error_log
+    cases: dict[str, Any] = {case.get("name", "").split()[0]: case for case in document.iter("testcase")}
+    assert cases["R-11.2.2.1-01"].find("system-out") is not None
+    assert cases["R-11.2.3-15"].find("failure").get("type") == "inconclusive"
+    assert cases["R-11.2.3-91"].find("error") is not None
+    assert cases["R-11.2.3-90"].find("skipped").get("message") == "not applicable: Declared so by the vendor."
+    assert "Describes an architecture." in cases["R-11-01"].find("skipped").get("message")
+    assert cases["crash"].find("error").get("type") == "crash"
+    assert document.getroot().get("failures") == "5"
+    assert document.getroot().get("errors") == "3"
+
+
+def test_junit_failures_read_well_in_a_log(out: Path) -> None:
+    document = etree.parse(out / "junit.xml")
+    text = next(f.text or "" for f in document.iter("failure") if "R-11.2.1.2-06" in (f.text or ""))
+    for words in (
+        "R-11.2.1.2-06 on_remove comes last (clause 11.2.1.2)",
+        "expected: stop calls on_shutdown of every started component before it returns.",
+        "observed: stop returned, and provider had not heard on_shutdown.",
+        "ucm-cts replay failures/R-11.2.1.2-06.json",
+        "missing: on_shutdown()",
+        "✓",
+    ):
+        assert words in text
+
+
+def test_json_follows_its_schema_and_its_order_of_keys(out: Path) -> None:
+    document = json.loads((out / "report.json").read_text(encoding="utf-8"))
+    jsonschema.validate(document, json_report.schema())
+    assert list(document) == [
+        *("product", "version", "profile", "verdict", "requirements", "incidents", "transitions", "adapter"),
+        *("suite_version", "seed", "started", "seconds", "scenarios", "events"),
+    ]
+    failed = {entry["id"]: entry for entry in document["requirements"]}["R-11.1.3-01"]
+    assert list(failed) == ["id", "clause", "title", "level", "verdict", "exercised", "reason", "findings"]
+    finding = failed["findings"][0]
+    assert finding["replay"] == "failures/R-11.1.3-01.json"
+    assert [event["kind"] for event in finding["events"]] == ["reply"]
+
+
+def test_the_schema_in_the_tree_is_that_of_the_types() -> None:
+    assert Path(json_report.__file__).with_name(json_report.SCHEMA_FILE).read_bytes() == json_report.schema_bytes()
+
+
+def test_saved_failures_are_whole_scenarios_the_shortest_first(out: Path) -> None:
+    names = {path.name for path in (out / "failures").iterdir()}
+    assert names == {
+        *("R-11.1.3-01.json", "R-11.2.1.2-06.json", "R-11.2.2.1-12.json", "R-11.2.2.1-12-2.json", "R-12.10-15.json"),
+        *("incident-1.json", "incident-2.json"),
+    }
+    for failed in (lost_call(80), wrong_error()):
+        saved = json.loads((out / "failures" / f"{failed.finding.requirement}.json").read_text(encoding="utf-8"))
+        assert saved.pop("scenario") == failed.execution.name
+        assert saved.pop("exercises") == [failed.finding.requirement]
+        assert msgspec.convert(saved, Scenario) == failed.execution.scenario
+
+
+def test_a_second_report_replaces_the_first_and_leaves_no_litter(tmp_path: Path) -> None:
+    write_report(sample(), CATALOGUE, TABLE, DECISIONS, tmp_path)
+    write_report(sample(requirements=(), incidents=()), CATALOGUE, TABLE, DECISIONS, tmp_path)
+    assert {path.name for path in tmp_path.rglob("*")} == {"report.html", "report.json", "junit.xml", "failures"}
+
+
+def test_names_of_files_cannot_leave_the_folder(tmp_path: Path) -> None:
+    odd = RequirementResult("../../etc/passwd", "1", "t", "fail", 1, (wrong_error(),))
+    write_report(sample(requirements=(odd,), incidents=()), CATALOGUE, TABLE, {}, tmp_path / "out")
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
+def test_the_summary_is_plain_without_a_terminal_and_short() -> None:
+    plain = io.StringIO()
+    Console(file=plain, width=90).print(summary(clean_report(sample()), Path("somewhere")))
+    lines = plain.getvalue().splitlines()
+    assert "\x1b" not in plain.getvalue()
+    assert lines[0].startswith("✗ NOT CONFORMANT")
+    at = next(i for i, line in enumerate(lines) if "R-12.10-15" in line)
+    assert lines[at + 1].strip().startswith("expected  remove_component of an unknown id ends with NOT_FOUND.")
+    assert lines[at + 2].strip().startswith("observed  It ended with an exception")
+    assert lines[at + 3] == ""
+    assert any(line.startswith("⚡ crash  signal 11") for line in lines)
+    assert "somewhere/report.html" in lines[-1].replace("\\", "/")
+
+
+# Foreign text
+
+
+def test_foreign_text_is_bounded_with_a_note_and_loses_nothing_silently() -> None:
+    assert clean("a\x00b\x1b[0m\ud800\u202ec") == "a\u2400b\u241b[0m\ufffd\ufffdc"
+    assert clean("x" * 10_000_000) == "x" * LONGEST + f" [{10_000_000 - LONGEST} more characters left out]"
+    assert clean("a\r\nb\tc") == "a\nb\tc"
+    assert one_line("a\n  b" * 100, 20) == "a ba ba ba ba ba ba…"
+    report = clean_report(sample(incidents=(crash(stacks="y" * 100_000),)))
+    assert LONGEST_STACKS < len(report.incidents[0].incident.stacks) < LONGEST_STACKS + 100
+
+
+def test_clauses_are_ordered_as_in_a_table_of_contents() -> None:
+    clauses = ["12.10", "11.2.10", "11.2.2.1", "11", "11.2.2"]
+    assert sorted(clauses, key=order.clause_key) == ["11", "11.2.2", "11.2.2.1", "11.2.10", "12.10"]
