@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import functools
+from pathlib import Path
 from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Value
+from ucm_cts.harness.documents import read
+from ucm_cts.reference_models.life_cycle import LifeCycleTable
 
 Level = Literal["shall", "should", "may", "statement"]
 """How strongly the text speaks: an obligation, a recommendation, a permission, or a plain statement of what is."""
@@ -27,3 +31,33 @@ class Requirement(Value):
     untestable: str = ""
     interpretations: tuple[str, ...] = ()
     profile: str = "container"
+
+
+SUITE = Path(__file__).parent.parent / "suite"
+
+
+class Interpretation(Value):
+    """A place where the text is silent or contradicts itself: the decision, and the readings a framework may take."""
+
+    id: str
+    clauses: tuple[str, ...]
+    text: str
+    options: dict[str, tuple[str, ...]] = {}
+
+
+@functools.cache
+def load_requirements() -> tuple[Requirement, ...]:
+    """The whole catalogue, in the order of the clauses. Raises ``DocumentError``."""
+    return tuple(r for path in sorted((SUITE / "requirements").glob("*.yaml")) for r in read(path, list[Requirement]))
+
+
+@functools.cache
+def load_interpretations() -> tuple[Interpretation, ...]:
+    """All decisions about unclear places. Raises ``DocumentError``."""
+    return tuple(read(SUITE / "interpretations.yaml", list[Interpretation]))
+
+
+@functools.cache
+def load_life_cycle() -> LifeCycleTable:
+    """The life-cycle table. Raises ``DocumentError``."""
+    return read(SUITE / "life_cycle.yaml", LifeCycleTable)

@@ -14,9 +14,14 @@ Verdict = Literal["pass", "fail", "inconclusive", "not applicable", "error"]
 Overall = Literal["conformant", "not conformant", "inconclusive"]
 """A run's verdict: not conformant if any requirement failed, conformant if all that apply passed."""
 
-IncidentKind = Literal["crash", "exit", "hang", "memory", "flood", "garbage", "protocol", "refused"]
+IncidentKind = Literal[
+    "crash", "exit", "hang", "memory", "flood", "garbage", "protocol", "refused", "contradiction", "unreachable"
+]
 """How a host can fail to answer: killed by a signal; ended; silent past the deadline; too much memory; too much output;
-not JSON; JSON that breaks the schema; refused by the adapter itself."""
+not JSON; JSON that breaks the schema; refused by the adapter itself; a trace that cannot be true; no host to be had."""
+
+FRAMEWORK_INCIDENTS: frozenset[IncidentKind] = frozenset(("crash", "exit", "hang", "memory"))
+"""Incidents that are the framework's doing; the others are the adapter's and lead to ``error``, never to ``fail``."""
 
 
 class Incident(Value):

@@ -34,6 +34,9 @@ from ucm_cts.harness.results import Execution
 
 TEST = "test"
 
+LABEL = 120
+"""Characters of the longest label."""
+
 Style = Literal["normal", "offending", "expected"]
 LineKind = Literal["call", "answer", "note", "gap", "end"]
 
@@ -204,7 +207,7 @@ class _Walk:
     # the lines
 
     def _add(self, kind: LineKind, source: str, target: str, label: str, event: EventBase, **more: Any) -> int:
-        self.lines.append(Line(kind, source, target, label, (event.n,), event.thread, **more))
+        self.lines.append(Line(kind, source, target, one_line(label, LABEL), (event.n,), event.thread, **more))
         return len(self.lines) - 1
 
     def _begin(

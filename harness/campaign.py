@@ -1,0 +1,127 @@
+"""One run against one implementation under test: drive, judge, take a second look, shorten, and add up."""
+
+from __future__ import annotations
+
+import datetime
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import ucm_cts
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness import shrink
+from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.driver import Answer, Driver
+from ucm_cts.harness.known_failures import KnownFailure
+from ucm_cts.harness.results import Execution, Report
+from ucm_cts.harness.scripts import TestPurpose
+from ucm_cts.harness.tally import Cause, Tally, cause_of, finding_of_incident, overall
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.judgement import Judge
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What came out for one test purpose: the failures its scenarios showed, of whatever requirement."""
+
+    purpose: TestPurpose
+    executions: int
+    failures: tuple[tuple[Finding | None, Execution], ...]
+
+
+class Campaign:
+    """Runs test purposes on the driver's implementation and collects verdicts. Use ``check`` often, ``report`` once."""
+
+    def __init__(self, driver: Driver, profile: str, known_failures: Sequence[KnownFailure] = ()) -> None:
+        self._driver = driver
+        self._profile = profile
+        self._known = known_failures
+        self._judge = Judge(load_life_cycle())
+        self._tally = Tally()
+        self._began = time.monotonic()
+        self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
+
+    def check(self, purposes: Iterable[TestPurpose]) -> Iterator[Checked]:
+        """Run all scenarios of ``purposes`` in one pipelined stream; yields each purpose as soon as it is judged."""
+        queue: list[TestPurpose] = []
+
+        def cases() -> Iterator[tuple[str, Scenario]]:
+            for purpose in purposes:
+                queue.append(purpose)
+                yield from purpose.scenarios
+
+        answers = self._driver.run(cases())
+        failures: list[tuple[Finding | None, Execution]] = []
+        done = 0
+        for answer in answers:
+            purpose = queue[0]
+            failures.extend(self._take(answer, purpose))
+            done += 1
+            if done == len(purpose.scenarios):
+                yield Checked(queue.pop(0), done, tuple(failures))
+                failures, done = [], 0
+
+    def _take(self, answer: Answer, purpose: TestPurpose) -> Iterator[tuple[Finding | None, Execution]]:
+        if answer.incident is not None:
+            execution = self._driver.revealed(answer)
+            self._tally.add_incident(execution, purpose.requirements)
+            yield finding_of_incident(execution), execution
+            return
+        ledger = self._judge.judge(answer.disguised, answer.trace)
+        if not ledger.findings:
+            self._tally.add(Execution(answer.name, answer.scenario, answer.trace), ledger, ())
+            return
+        execution = self._driver.revealed(answer)
+        findings = [self._driver.reveal(finding) for finding in ledger.findings]
+        self._tally.add(execution, ledger, findings)
+        for finding in findings:
+            yield finding, execution
+
+    def shorten(self) -> Iterator[Cause]:
+        """Look for the shortest scenario of each failure; yields each cause when it is done."""
+        for cause, failure in list(self._tally.failures.items()):
+            if failure.execution.incident is None:
+
+                def first_failing(candidates: Sequence[Scenario], cause: Cause = cause) -> int | None:
+                    shown = self._show(cause, candidates)
+                    if shown is None:
+                        return None
+                    self._tally.replace(cause, *shown[1:])
+                    return shown[0]
+
+                shrink.shortest(failure.execution.scenario, first_failing)
+            yield cause
+
+    def _show(self, cause: Cause, candidates: Sequence[Scenario]) -> tuple[int, Finding, Execution] | None:
+        """The first of ``candidates`` that shows ``cause``; all are run, so that the host stays in step."""
+        first: tuple[int, Finding, Execution] | None = None
+        for index, answer in enumerate(self._driver.run([(f"{cause[0]}-shortest", c) for c in candidates])):
+            if first is not None or answer.incident is not None:
+                continue
+            for finding in self._judge.judge(answer.disguised, answer.trace).findings:
+                shown = self._driver.reveal(finding)
+                if first is None and cause_of(shown) == cause:
+                    first = index, shown, self._driver.revealed(answer)
+        return first
+
+    def report(self) -> Report:
+        """All verdicts of the run so far."""
+        requirements = [r for r in load_requirements() if r.profile == self._profile]
+        results = self._tally.results(requirements, self._known)
+        identity = self._driver.identity
+        return Report(
+            product=identity.product,
+            version=identity.version,
+            profile=self._profile,
+            verdict=overall(results, self._tally.incidents),
+            requirements=results,
+            transitions=self._tally.transitions(load_life_cycle()),
+            incidents=tuple(self._tally.incidents),
+            adapter=self._driver.adapter,
+            suite_version=ucm_cts.__version__,
+            seed=self._driver.seed,
+            started=self._started,
+            seconds=round(time.monotonic() - self._began, 3),
+            scenarios=self._tally.scenarios,
+            events=self._tally.events,
+        )

@@ -1,0 +1,210 @@
+"""The command line: ``ucm-cts run``, ``explain``, ``replay``. Thin: reads arguments, calls the pipeline, prints."""
+
+from __future__ import annotations
+
+import datetime
+import random
+import sys
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+import ucm_cts
+from ucm_cts.harness.campaign import Campaign
+from ucm_cts.harness.catalogue import load_interpretations, load_life_cycle, load_requirements
+from ucm_cts.harness.documents import DocumentError
+from ucm_cts.harness.driver import Driver, Limits
+from ucm_cts.harness.explanation import explanation, overview
+from ucm_cts.harness.hosts import HostUnavailable
+from ucm_cts.harness.known_failures import KnownFailure, load_known_failures, stale
+from ucm_cts.harness.locate import WrongUse, locate
+from ucm_cts.harness.purposes import PROFILES, load_purposes, select
+from ucm_cts.harness.report.sequence_text import failure_text, replay_text
+from ucm_cts.harness.report.summary import summary
+from ucm_cts.harness.report.write import write_report
+from ucm_cts.harness.results import Report
+from ucm_cts.harness.scripts import read_scripts, to_scenario
+from ucm_cts.reference_models.judgement import Judge
+
+CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
+DEFAULT_ADAPTER = "reference-cpp"
+
+adapter_argument = click.argument("adapter", default=DEFAULT_ADAPTER, required=False)
+in_process_option = click.option("--in-process", is_flag=True, help="No host process: for debuggers and sanitizers.")
+seed_option = click.option("--seed", type=int, help="Repeat a run: names and payloads are drawn from it.")
+timeout_option = click.option(
+    "--timeout", type=click.FloatRange(min=0.1), default=5.0, show_default=True, help="Seconds a scenario may take."
+)
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(ucm_cts.__version__, prog_name="ucm-cts")
+def cli() -> None:
+    """Certify a UCM framework: does it do what the Unified Component Model says, and how do you know?"""
+
+
+@cli.command()
+@adapter_argument
+@click.option("--profile", type=click.Choice(PROFILES), default="container", show_default=True)
+@click.option("-k", "expression", default="", help="Only test purposes whose id, clause or requirement contains this.")
+@seed_option
+@click.option("--out", type=click.Path(file_okay=False, path_type=Path), default=Path("ucm-cts-report"), show_default=True)
+@click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
+@in_process_option
+@timeout_option
+@click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
+def run(
+    adapter: str,
+    profile: str,
+    expression: str,
+    seed: int | None,
+    out: Path,
+    known_failures: Path | None,
+    in_process: bool,
+    timeout: float,
+    memory: int,
+) -> None:
+    """Run a profile on ADAPTER and write report.html, report.json and junit.xml.
+
+    ADAPTER is a short name (reference-cpp, reference-py, ipopo, ...), package.module:Class, a pybind11 module, an
+    executable, tcp://host:port or unix:/path. Exit status: 0 conformant, 1 not conformant or inconclusive, 2 wrong
+    use, 3 the harness failed.
+    """
+    console = Console()
+    known = _known_failures(known_failures)
+    purposes = load_purposes(profile)
+    if expression:
+        purposes = select(purposes, expression)
+        if not purposes:
+            raise WrongUse(f"no test purpose matches -k '{expression}'; try a requirement, a clause or an operation")
+    drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
+    with Driver(locate(adapter, in_process), drawn, Limits(timeout, memory)) as driver:
+        campaign = Campaign(driver, profile, known)
+        identity = driver.identity
+        console.print(f"UCM-CTS {ucm_cts.__version__}: {identity.product} {identity.version}, profile {profile}, seed {drawn}", markup=False)
+        interrupted = False
+        try:
+            with _progress(console) as progress:
+                task = progress.add_task("checking", total=len(purposes))
+                failing = 0
+                for checked in campaign.check(purposes):
+                    failing += bool(checked.failures)
+                    progress.update(task, advance=1, description=f"{failing} failing, {_short(checked.purpose.id)}")
+                if failing:
+                    progress.update(task, description="looking for the shortest scenarios")
+                    for _ in campaign.shorten():
+                        pass
+        except KeyboardInterrupt:
+            interrupted = True
+        report = campaign.report()
+    write(report, out)
+    console.print(summary(report, out))
+    outdated = stale(known, report.requirements) if not expression and not interrupted else []
+    for entry in outdated:
+        console.print(f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it", markup=False)
+    if interrupted:
+        console.print("interrupted: the report holds what was measured so far")
+    sys.exit(_status(report, bool(outdated) or interrupted))
+
+
+@cli.command()
+@click.argument("requirement", default="", required=False)
+def explain(requirement: str) -> None:
+    """Show REQUIREMENT: clause, meaning, interpretation, scenarios. Without it, list the catalogue."""
+    console = Console()
+    if not requirement:
+        console.print(overview())
+        return
+    console.print(explanation(requirement))
+
+
+@cli.command()
+@click.argument("file", type=click.Path(dir_okay=False, path_type=Path))
+@adapter_argument
+@in_process_option
+@seed_option
+@timeout_option
+def replay(file: Path, adapter: str, in_process: bool, seed: int | None, timeout: float) -> None:
+    """Run the scenario in FILE on ADAPTER and print what happens as a sequence diagram.
+
+    Exit status 1 if any rule was broken.
+    """
+    scripts = read_scripts(file)
+    judge = Judge(load_life_cycle())
+    failed = False
+    with Driver(locate(adapter, in_process), seed or 0, Limits(timeout)) as driver:
+        for answer in driver.run((script.scenario, to_scenario(script)) for script in scripts):
+            execution = driver.revealed(answer)
+            click.echo(f"{execution.name} on {driver.identity.product} {driver.identity.version}\n")
+            click.echo(replay_text(execution))
+            if execution.incident is not None:
+                failed = True
+                click.echo(f"\n{execution.incident.kind}: {execution.incident.detail}\n{execution.incident.stacks}")
+                continue
+            findings = [driver.reveal(f) for f in judge.judge(answer.disguised, answer.trace).findings]
+            for finding in findings:
+                click.echo("\n" + failure_text(finding, execution))
+            failed = failed or bool(findings)
+            click.echo("\nno rule was broken" if not findings else f"\n{len(findings)} rule(s) broken")
+    sys.exit(NOT_CONFORMANT if failed else CONFORMANT)
+
+
+def main() -> None:
+    """The console entry point: turns what goes wrong into one clear line and an exit status."""
+    try:
+        cli(standalone_mode=False)
+    except click.exceptions.Exit as end:
+        sys.exit(end.exit_code)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(WRONG_USE)
+    except (WrongUse, DocumentError, HostUnavailable) as error:
+        click.echo(f"ucm-cts: {error}", err=True)
+        sys.exit(WRONG_USE)
+    except (click.exceptions.Abort, KeyboardInterrupt):
+        click.echo("ucm-cts: interrupted", err=True)
+        sys.exit(HARNESS_FAILED)
+    except Exception as error:
+        if "--debug" in sys.argv:
+            raise
+        click.echo(f"ucm-cts: the harness failed: {type(error).__name__}: {error}", err=True)
+        sys.exit(HARNESS_FAILED)
+
+
+def _known_failures(path: Path | None) -> tuple[KnownFailure, ...]:
+    if path is None:
+        return ()
+    return load_known_failures(path, [r.id for r in load_requirements()], datetime.date.today())
+
+
+def write(report: Report, out: Path) -> None:
+    """Write all files of ``report`` into ``out``."""
+    decisions = {i.id: i.text for i in load_interpretations()}
+    write_report(report, load_requirements(), load_life_cycle(), decisions, out)
+
+
+def _status(report: Report, spoiled: bool) -> int:
+    if report.verdict == "conformant":
+        return NOT_CONFORMANT if spoiled else CONFORMANT
+    excused = not report.incidents and all(
+        r.verdict in ("pass", "not applicable") or (r.verdict == "fail" and all(f.waived for f in r.findings))
+        for r in report.requirements
+    )
+    return CONFORMANT if excused and not spoiled else NOT_CONFORMANT
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 50 else text[:47] + "..."
+
+
+def _progress(console: Console) -> Progress:
+    return Progress(
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+    )

@@ -1,0 +1,66 @@
+"""What ``ucm-cts explain`` shows of a requirement."""
+
+from __future__ import annotations
+
+import difflib
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_requirements
+from ucm_cts.harness.locate import WrongUse
+from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.reference_models.ledger import RULES
+
+
+def explanation(identifier: str) -> RenderableType:
+    """The requirement ``identifier``: clause, meaning, how observed, interpretations, rules, scenarios."""
+    requirement = _find(identifier)
+    interpretations = {i.id: i for i in load_interpretations()}
+    lines: list[RenderableType] = [
+        Text(f"{requirement.id}  {requirement.title}", style="bold"),
+        Text(f"clause {requirement.clause}, {requirement.level}, profile {requirement.profile}"),
+        Text(),
+        Text(requirement.meaning),
+    ]
+    if requirement.untestable:
+        lines += [Text(), Text("Not tested: ", style="bold") + Text(requirement.untestable)]
+    else:
+        lines += [Text(), Text("Observed: ", style="bold") + Text(requirement.observed)]
+    for name in requirement.interpretations:
+        entry = interpretations[name]
+        lines += [Text(), Text(f"Interpretation {name}: ", style="bold") + Text(entry.text)]
+        lines += [Text(f"  {option}: {', '.join(readings)}") for option, readings in entry.options.items()]
+    for rule in requirement.rules:
+        doc = (RULES[rule].check.__doc__ or "").strip().splitlines()[0]
+        lines += [Text(), Text(f"Rule {rule}: ", style="bold") + Text(doc)]
+    purposes = [p for p in load_purposes(requirement.profile) if requirement.id in p.requirements]
+    if purposes:
+        lines += [Text(), Text("Scenarios that exercise it:", style="bold")]
+        lines += [Text(f"  {p.id}: {p.text} ({_count(len(p.scenarios))})") for p in purposes]
+    return Group(*lines)
+
+
+def overview() -> RenderableType:
+    """The whole catalogue, a line a requirement."""
+    table = Table(box=None, pad_edge=False)
+    for column in ("requirement", "clause", "level", "title"):
+        table.add_column(column)
+    for r in load_requirements():
+        table.add_row(r.id, r.clause, r.level, r.title + (" (not testable)" if r.untestable else ""))
+    return table
+
+
+def _find(identifier: str) -> Requirement:
+    by_id = {r.id.lower(): r for r in load_requirements()}
+    found = by_id.get(identifier.lower()) or by_id.get(f"r-{identifier.lower()}")
+    if found is None:
+        near = difflib.get_close_matches(identifier.lower(), by_id, n=3, cutoff=0.4)
+        hint = f"; near it: {', '.join(by_id[n].id for n in near)}" if near else ""
+        raise WrongUse(f"no requirement '{identifier}'{hint}; 'ucm-cts explain' lists all")
+    return found
+
+
+def _count(number: int) -> str:
+    return f"{number} scenario{'s' if number != 1 else ''}"

@@ -1,0 +1,61 @@
+"""Known failures: a file that says which failures are expected for now, why, and until when (docs/known-failures.md).
+
+An entry matches a requirement *and* the text of what was observed. Entries that match nothing are errors, so that the
+list cannot outlive the defects it excuses. A known failure keeps its verdict in the report; only the exit status changes.
+"""
+
+from __future__ import annotations
+
+import datetime
+import fnmatch
+from collections.abc import Sequence
+from pathlib import Path
+
+from ucm_cts.adapters.contract.scenario import Value
+from ucm_cts.harness.documents import DocumentError, read, read_lines
+from ucm_cts.harness.results import RequirementResult
+from ucm_cts.reference_models.findings import Finding
+
+
+class KnownFailure(Value):
+    """``requirement`` fails with an observation like ``observed`` (``*`` stands for any text), because of ``reason``.
+
+    ``expires`` is the last day, ISO 8601, on which the entry counts. ``url`` leads to the defect's ticket.
+    """
+
+    requirement: str
+    observed: str
+    reason: str
+    expires: str
+    url: str = ""
+
+
+def load_known_failures(path: Path, requirements: Sequence[str], today: datetime.date) -> tuple[KnownFailure, ...]:
+    """The entries of the file at ``path``. Raises ``DocumentError`` for unknown requirements and expired entries."""
+    entries = read(path, list[KnownFailure])
+    _, lines = read_lines(path)
+    for index, entry in enumerate(entries):
+        line = lines.get(f"$[{index}]")
+        if entry.requirement not in requirements:
+            raise DocumentError(path, line, f"no requirement '{entry.requirement}'; 'ucm-cts explain' lists them")
+        try:
+            last = datetime.date.fromisoformat(entry.expires)
+        except ValueError:
+            raise DocumentError(path, line, f"'{entry.expires}' is no date; write it as 2027-01-31") from None
+        if last < today:
+            raise DocumentError(path, line, f"expired on {entry.expires}; mend the failure or set a new date")
+    return tuple(entries)
+
+
+def waiver_for(finding: Finding, known: Sequence[KnownFailure]) -> str:
+    """Why ``finding`` is known, or nothing."""
+    for entry in known:
+        if entry.requirement == finding.requirement and fnmatch.fnmatchcase(finding.observed, entry.observed):
+            return entry.reason
+    return ""
+
+
+def stale(known: Sequence[KnownFailure], results: Sequence[RequirementResult]) -> list[KnownFailure]:
+    """Entries that excused nothing in this run."""
+    findings = [f.finding for r in results for f in r.findings]
+    return [entry for entry in known if not any(waiver_for(finding, [entry]) for finding in findings)]

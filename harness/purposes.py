@@ -1,0 +1,38 @@
+"""The test purposes of a profile: those of the scripts and those derived from the life-cycle table."""
+
+from __future__ import annotations
+
+import functools
+
+from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.generate import generated_purposes
+from ucm_cts.harness.probes import load_probe_types
+from ucm_cts.harness.scripts import TestPurpose, load_scripts, to_scenario
+
+PROFILES = ("container",)
+
+
+@functools.cache
+def load_purposes(profile: str) -> tuple[TestPurpose, ...]:
+    """All test purposes of ``profile``: scripts first, because they read best when they fail."""
+    clauses = {r.id: r.clause for r in load_requirements() if r.profile == profile}
+    probes = load_probe_types()
+    scripted = [
+        TestPurpose(
+            script.scenario,
+            clauses[script.exercises[0]],
+            script.purpose,
+            script.exercises,
+            ((script.scenario, to_scenario(script, probes)),),
+        )
+        for script in load_scripts()
+    ]
+    return (*scripted, *generated_purposes(load_life_cycle()))
+
+
+def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:
+    """The purposes whose id, clause or requirements contain one of the words of ``expression`` (separated by ``or``)."""
+    words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
+    return tuple(
+        p for p in purposes if any(w in " ".join((p.id, p.clause, *p.requirements)).lower() for w in words)
+    )

@@ -1,0 +1,65 @@
+"""The shortest scenario that still shows a failure: leave out steps, components and plans as long as it fails the same."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario, Step
+from ucm_cts.harness.scripts import bound_by, used_by
+
+ROUNDS = 12
+"""How often the candidates of a shorter scenario are tried; each round leaves out at least one thing."""
+
+
+def shortest(scenario: Scenario, first_failing: Callable[[Sequence[Scenario]], int | None]) -> Scenario:
+    """A scenario as short as can be found. ``first_failing`` runs candidates and tells which still shows the failure."""
+    for _ in range(ROUNDS):
+        candidates = list(_shorter(scenario))
+        index = first_failing(candidates) if candidates else None
+        if index is None:
+            return scenario
+        scenario = candidates[index]
+    return scenario
+
+
+def _shorter(scenario: Scenario) -> Iterator[Scenario]:
+    """Scenarios with less in them, the boldest first."""
+    steps = scenario.steps
+    for half in (steps[: len(steps) // 2], steps[: -len(steps) // 4 or None]):
+        if 0 < len(half) < len(steps):
+            yield _tidy(scenario, half)
+    for index in range(len(steps) - 1, -1, -1):
+        yield _tidy(scenario, _without(steps, index))
+    for name, declaration in scenario.components.items():
+        for hook in declaration.plan:
+            plan = {h: a for h, a in declaration.plan.items() if h != hook}
+            simpler = msgspec.structs.replace(declaration, plan=plan)
+            yield msgspec.structs.replace(scenario, components={**scenario.components, name: simpler})
+        if declaration.connectable:
+            simpler = msgspec.structs.replace(declaration, connectable=False)
+            yield msgspec.structs.replace(scenario, components={**scenario.components, name: simpler})
+
+
+def _without(steps: tuple[Step, ...], index: int) -> tuple[Step, ...]:
+    """``steps`` without one of them, and without those that need what it binds."""
+    lost = set(bound_by(steps[index]))
+    kept = list(steps[:index])
+    for step in steps[index + 1 :]:
+        if lost.intersection(used_by(step)):
+            lost.update(bound_by(step))
+        else:
+            lost.difference_update(bound_by(step))
+            kept.append(step)
+    return tuple(kept)
+
+
+def _tidy(scenario: Scenario, steps: tuple[Step, ...]) -> Scenario:
+    """The scenario with these steps, less waits that wait for nothing and components that nobody adds."""
+    workers = {step.thread for step in steps if step.thread}
+    steps = tuple(x for x in steps if not isinstance(x, s.Join) or x.worker in workers)
+    added = {step.component for step in steps if isinstance(step, s.AddComponent)}
+    components = {name: d for name, d in scenario.components.items() if name in added}
+    return msgspec.structs.replace(scenario, components=components, steps=steps)

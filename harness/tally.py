@@ -1,0 +1,170 @@
+"""What all judged executions of a run add up to: verdicts for requirements, and the run's own."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Call, Raise, Return
+from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.known_failures import KnownFailure, waiver_for
+from ucm_cts.harness.results import (
+    FRAMEWORK_INCIDENTS,
+    Execution,
+    FailedExecution,
+    IncidentReport,
+    Overall,
+    RequirementResult,
+    TransitionResult,
+)
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.ledger import Ledger, RowTally
+from ucm_cts.reference_models.life_cycle import LifeCycleTable
+from ucm_cts.reference_models.rules_operations import DECLARED
+
+Cause = tuple[str, str, str]
+"""Requirement, rule and cause: findings that agree in these are one failure."""
+
+
+def cause_of(finding: Finding) -> Cause:
+    """What makes two findings the same failure."""
+    return finding.requirement, finding.rule, finding.cause
+
+
+class Tally:
+    """Counts what was exercised and keeps, for each cause of failure, the shortest execution that shows it."""
+
+    def __init__(self) -> None:
+        self.exercised: Counter[str] = Counter()
+        self.failures: dict[Cause, FailedExecution] = {}
+        self.rows: dict[str, RowTally] = {}
+        self.incidents: list[IncidentReport] = []
+        self.lost: dict[str, str] = {}
+        self.scenarios = 0
+        self.events = 0
+
+    def add(self, execution: Execution, ledger: Ledger, findings: Sequence[Finding]) -> None:
+        """Take in one execution, what the judge says of it, and the findings as people read them."""
+        self.scenarios += 1
+        self.events += len(execution.trace)
+        self.exercised.update(ledger.exercises)
+        for row, tally in ledger.rows.items():
+            total = self.rows.setdefault(row, RowTally())
+            total.exercised += tally.exercised
+            total.violated += tally.violated
+            total.readings |= tally.readings
+        for finding in findings:
+            self.add_failure(finding, execution)
+
+    def add_failure(self, finding: Finding, execution: Execution) -> None:
+        """One more execution that shows ``finding``."""
+        known = self.failures.get(cause_of(finding))
+        if known is None:
+            self.failures[cause_of(finding)] = FailedExecution(finding, execution)
+            return
+        best = known if _length(known.execution) <= _length(execution) else FailedExecution(finding, execution)
+        self.failures[cause_of(finding)] = msgspec.structs.replace(best, occurrences=known.occurrences + 1)
+
+    def replace(self, cause: Cause, finding: Finding, execution: Execution) -> None:
+        """A shorter execution of the same cause has been found; it does not count as another occurrence."""
+        known = self.failures[cause]
+        self.failures[cause] = msgspec.structs.replace(known, finding=finding, execution=execution)
+
+    def add_incident(self, execution: Execution, requirements: Iterable[str]) -> None:
+        """An execution that ended in an incident; ``requirements`` are those it meant to exercise."""
+        assert execution.incident is not None
+        self.scenarios += 1
+        self.events += len(execution.trace)
+        self.incidents.append(IncidentReport(execution.incident, execution))
+        if execution.incident.kind not in FRAMEWORK_INCIDENTS:
+            for requirement in requirements:
+                self.lost.setdefault(requirement, f"{execution.incident.kind}: {execution.incident.detail}")
+            return
+        finding = finding_of_incident(execution)
+        if finding is not None:
+            self.exercised[finding.requirement] += 1
+            self.add_failure(finding, execution)
+
+    def results(
+        self, requirements: Sequence[Requirement], known_failures: Sequence[KnownFailure]
+    ) -> tuple[RequirementResult, ...]:
+        """The verdict of each requirement of the profile, testable ones only."""
+        by_requirement: dict[str, list[FailedExecution]] = {}
+        for failure in self.failures.values():
+            by_requirement.setdefault(failure.finding.requirement, []).append(failure)
+        return tuple(
+            self._result(r, by_requirement.get(r.id, []), known_failures) for r in requirements if not r.untestable
+        )
+
+    def _result(
+        self, requirement: Requirement, failures: list[FailedExecution], known_failures: Sequence[KnownFailure]
+    ) -> RequirementResult:
+        exercised = self.exercised[requirement.id]
+        waived = tuple(
+            msgspec.structs.replace(f, waived=waiver_for(f.finding, known_failures))
+            for f in sorted(failures, key=lambda f: _length(f.execution))
+        )
+        if waived:
+            return RequirementResult(
+                requirement.id, requirement.clause, requirement.title, "fail", exercised, waived
+            )
+        if requirement.id in self.lost:
+            reason = f"a scenario that was to exercise it was lost ({self.lost[requirement.id]})"
+            return RequirementResult(requirement.id, requirement.clause, requirement.title, "error", exercised, (), reason)
+        if not exercised:
+            reason = "its condition never arose in this run"
+            return RequirementResult(requirement.id, requirement.clause, requirement.title, "inconclusive", 0, (), reason)
+        return RequirementResult(requirement.id, requirement.clause, requirement.title, "pass", exercised)
+
+    def transitions(self, table: LifeCycleTable) -> tuple[TransitionResult, ...]:
+        """How each row of the table fared."""
+        empty = RowTally()
+        rows = [(row.id, self.rows.get(row.id, empty)) for row in table.rows]
+        return tuple(TransitionResult(i, t.exercised, t.violated, tuple(sorted(t.readings))) for i, t in rows)
+
+
+def overall(results: Sequence[RequirementResult], incidents: Sequence[IncidentReport]) -> Overall:
+    """Not conformant if any requirement failed; conformant if all passed and nothing went wrong besides."""
+    if any(r.verdict == "fail" for r in results):
+        return "not conformant"
+    if incidents or any(r.verdict in ("inconclusive", "error") for r in results) or not results:
+        return "inconclusive"
+    return "conformant"
+
+
+def finding_of_incident(execution: Execution) -> Finding | None:
+    """A crash, exit, hang or memory blow-up inside an operation: it did not end as declared (12.10)."""
+    call = last_open_call(execution)
+    if call is None or execution.incident is None:
+        return None
+    step = execution.scenario.steps[call.step]
+    operation = s.operation(step)
+    if operation not in DECLARED:
+        return None
+    requirement, declared = DECLARED[operation]
+    incident = execution.incident
+    return Finding(
+        requirement,
+        "declared_errors",
+        f"{operation} {incident.kind}",
+        f"{operation} returns or raises {' or '.join(declared)}",
+        f"{operation} did not end: {incident.kind}, {incident.detail}",
+        (call.n,),
+        call.step,
+    )
+
+
+def last_open_call(execution: Execution) -> Call | None:
+    """The operation that was in progress when the trace broke off."""
+    calls = {e.step: e for e in execution.trace if isinstance(e, Call)}
+    for event in execution.trace:
+        if isinstance(event, Return | Raise):
+            calls.pop(event.step, None)
+    return calls[max(calls)] if calls else None
+
+
+def _length(execution: Execution) -> tuple[int, int]:
+    return len(execution.scenario.steps), len(execution.trace)

@@ -1,0 +1,12 @@
+"""Container programming model: identifiers and exceptions (12.10). One node a test purpose."""
+
+from __future__ import annotations
+
+from typing import Any
+
+CLAUSES = ("12.10",)
+
+
+def test_clause(purpose: Any, check: Any) -> None:
+    """The implementation under test breaks no rule in any scenario of the purpose."""
+    check(purpose)
