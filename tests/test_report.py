@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 import json
+import random
 import re
+import typing
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +43,7 @@ from ucm_cts.adapters.contract.trace import (
     Return,
 )
 from ucm_cts.harness.catalogue import Requirement
-from ucm_cts.harness.report import json_report, order, sequence, transitions
+from ucm_cts.harness.report import json_report, order, sequence, sequence_svg, transitions
 from ucm_cts.harness.report.excerpt import compare
 from ucm_cts.harness.report.foreign import LONGEST, LONGEST_STACKS, clean, clean_report, one_line
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
@@ -429,6 +431,42 @@ def test_text_is_at_most_110_columns_wide_with_many_lanes() -> None:
         tape.put(Return, step=i, value=i)
     text = replay_text(Execution("wide", Scenario({}, steps), tape.trace()))
     assert max(map(len, text.splitlines())) <= 110
+
+
+def test_no_trace_however_absurd_breaks_a_diagram() -> None:
+    kinds: tuple[Any, ...] = typing.get_args(Event)
+    values: dict[str, list[Any]] = {
+        "thread": [0, 0, 1, 2],
+        "step": [0, 3, 6, 99, -1],
+        "component": ["provider", "client", "odd#1", HOSTILE],
+        "instance": [1, 1, 2],
+        "hook": ["on_init", "on_startup", "on_connect", "exchange"],
+        "error": ["NOT_FOUND", "UNDECLARED"],
+        **{name: ["in_api", "out_api", "g", HOSTILE] for name in ("port", "gate", "variable", "detail")},
+        "value": [None, 7],
+        "reference": [None, "opaque", API],
+        "dependencies": [None, (Dependency(port="out_api", references=(None, "opaque", API)),)],
+        "attributes": [None, {"a": HOSTILE}],
+        "raised": [False, True],
+        "ids": [(), (1, 2)],
+    }
+    for seed in range(200):
+        chance = random.Random(seed)
+        trace = []
+        for n in range(1, 60):
+            kind = chance.choice(kinds)
+            fields = {name: chance.choice(values[name]) for name in kind.__struct_fields__ if name not in ("n", "t")}
+            trace.append(kind(n=n, t=n, **fields))
+        execution = Execution("soup", Scenario(COMPONENTS, STEPS), tuple(trace), crash().incident)
+        suspects = tuple(chance.sample(range(1, 60), chance.choice([0, 1, 30])))
+        finding = Finding(
+            "R", "r", "c", "e", "o", suspects, chance.choice([None, 3]), (Arrow("client", "nobody", "x"),)
+        )
+        both = compare(finding, execution)
+        assert max(map(len, failure_text(finding, execution).splitlines())) <= 110
+        for diagram in (both.observed, both.expected):
+            etree.fromstring(sequence_svg.to_svg(diagram, "soup"))
+        assert sorted(n for line in sequence.lay_out(execution).lines for n in line.events) == list(range(1, 60))
 
 
 # The page
