@@ -611,6 +611,13 @@ def test_transitions_get_the_verdict_of_their_rows(page: Any) -> None:
     assert words["#lc-stop-ready"].startswith("✗ stop")
 
 
+def test_choices_name_what_was_observed() -> None:
+    found = {choice.option: choice for choice in transitions.choices(transitions.rows_seen(TABLE, TRANSITIONS))}
+    assert found["remove-while-ready"].permitted == ("cascade", "refuse")
+    assert found["remove-while-ready"].observed == ("refuse",)
+    assert found["double-start"].observed == ()
+
+
 def test_the_table_lists_every_row_with_counts(page: Any) -> None:
     rows = page.xpath("//table[@class='heat']//li[@id]")
     assert len(rows) == len(TABLE.rows)

@@ -7,7 +7,6 @@ import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import get_args
 
 import jinja2
 from markupsafe import Markup
@@ -27,7 +26,7 @@ from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, clause_key, count, to_fix
 from ucm_cts.harness.report.sequence import last_call
 from ucm_cts.harness.report.sequence_text import failure_text, to_text
-from ucm_cts.harness.report.transitions import STATES, RowSeen, rows_seen, worst
+from ucm_cts.harness.report.transitions import STATES, RowSeen, choices, rows_seen, worst
 from ucm_cts.harness.results import FailedExecution, IncidentReport, Report, RequirementResult
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, State
 
@@ -128,6 +127,7 @@ def to_html(
         incidents_shown=INCIDENTS,
         diagram=life_cycle_diagram.to_svg(rows),
         cells=_cells(rows),
+        choices=choices(rows),
         states=STATES,
         rows=rows,
         shortest_first=shortest_first,
@@ -187,13 +187,12 @@ def _incident(item: IncidentReport, number: int, report: Report) -> IncidentItem
 def _cells(rows: Sequence[RowSeen]) -> list[tuple[str, list[Cell]]]:
     """The table's rows by operation and state, in the order in which operations first appear."""
     operations = list(dict.fromkeys(seen.row.operation for seen in rows))
-    states: tuple[State, ...] = get_args(State)
     return [
         (
             operation,
             [
                 Cell(operation, state, tuple(s for s in rows if (s.row.operation, s.row.state) == (operation, state)))
-                for state in states
+                for state in STATES
             ],
         )
         for operation in operations

@@ -37,7 +37,7 @@ def to_svg(rows: Sequence[RowSeen]) -> Markup:
             ways.setdefault((transition.state, transition.next), []).append(transition)
     above = _levels([way for way in ways if _column(way[1]) - _column(way[0]) > 1], ways)
     below = _levels([way for way in ways if _column(way[0]) - _column(way[1]) > 1], ways)
-    top = 14 + max((offset for offset in above.values()), default=0)
+    top = 22 + max((offset for offset in above.values()), default=0)
     box = 40 + LINE * max((len(items) for items in inner.values()), default=1)
     box = max(box, 150)
     bottom = top + box

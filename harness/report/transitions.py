@@ -63,6 +63,30 @@ def transitions(rows: Sequence[RowSeen]) -> tuple[Transition, ...]:
     return tuple(_transition(*key, group) for key, group in groups.items())
 
 
+@dataclass(frozen=True)
+class Choice:
+    """One freedom the text leaves: the readings the table permits, and those that were observed."""
+
+    option: str
+    permitted: tuple[str, ...]
+    observed: tuple[str, ...]
+
+
+def choices(rows: Sequence[RowSeen]) -> tuple[Choice, ...]:
+    """What the framework made of each freedom, in the table's order; readings are told as ``option=reading``."""
+    permitted: dict[str, dict[str, bool]] = {}
+    for seen in rows:
+        for outcome in seen.row.outcomes:
+            option, _, reading = outcome.reading.partition("=")
+            if reading:
+                known = permitted.setdefault(option, {})
+                known[reading] = known.get(reading, False) or outcome.reading in seen.readings
+    return tuple(
+        Choice(option, tuple(known), tuple(reading for reading, observed in known.items() if observed))
+        for option, known in permitted.items()
+    )
+
+
 def worst(verdicts: Sequence[Seen]) -> Seen:
     """``fail`` before ``inconclusive`` before ``pass``."""
     return min(verdicts, key=_WORST.index)
