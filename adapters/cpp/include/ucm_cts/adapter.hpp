@@ -1,0 +1,135 @@
+// The C++ door: derive from Adapter to bind a framework.
+//
+// An adapter forwards each operation of the Container API (12.10) one to one and translates errors. It adds no state
+// checks of its own: they would hide what is being measured. A framework whose C++ API already has the shape of 12.10
+// needs none of this but ShapedAdapter (shaped.hpp).
+#ifndef UCM_CTS_ADAPTER_HPP
+#define UCM_CTS_ADAPTER_HPP
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "ucm_cts/scenario.hpp"
+
+namespace ucm_cts {
+
+/// The three exceptions of 12.10. Any other exception is reported as an undeclared one, so let the framework's own
+/// surprises through.
+class NotFound : public std::runtime_error {
+  public:
+    explicit NotFound(const std::string& why) : std::runtime_error(why) {}
+};
+
+class BadParameter : public std::runtime_error {
+  public:
+    explicit BadParameter(const std::string& why) : std::runtime_error(why) {}
+};
+
+class UcmError : public std::runtime_error {
+  public:
+    explicit UcmError(const std::string& why) : std::runtime_error(why) {}
+};
+
+/// Whose port element a reference is, where the SDK can tell.
+struct Identity {
+    std::string component;
+    int instance;
+    std::string port;
+};
+
+/// A provided port element (11.2.1.1), independent of any framework.
+class PortElement {
+  public:
+    virtual ~PortElement() = default;
+    virtual std::int32_t exchange(std::int32_t value) = 0;
+
+    /// Null unless this is a probe's own port element.
+    virtual const Identity* identity() const { return nullptr; }
+};
+
+typedef std::shared_ptr<PortElement> Reference;
+
+struct PortConnection {
+    std::string from_port;
+    std::vector<Reference> to_port;
+};
+
+/// The least a fragment gets to see of its container (11.2.1.4).
+class ContainerInterface {
+  public:
+    virtual ~ContainerInterface() = default;
+    virtual std::vector<std::int32_t> get_components() = 0;
+};
+
+/// A component body (11.2.1), independent of any framework: the adapter passes on what the framework does to it.
+/// `on_connect` and `on_disconnect` are for bodies whose implementation is connectable, `set_container_interface` is
+/// for fragments.
+class Body {
+  public:
+    virtual ~Body() = default;
+    virtual void set_attribute(const std::string& name, const std::string& value) = 0;
+    virtual void on_init() = 0;
+    virtual void on_startup(const std::vector<PortConnection>& dependencies) = 0;
+    virtual void on_shutdown() = 0;
+    virtual void on_remove() = 0;
+    virtual void on_connect(const std::string& port_name, const Reference& required) = 0;
+    virtual void on_disconnect(const std::string& port_name) = 0;
+    virtual void set_container_interface(const std::shared_ptr<ContainerInterface>& container) = 0;
+
+    /// The body's own object for the provided port element of that name, or null if it has none.
+    virtual Reference get_portElement(const std::string& provided) = 0;
+};
+
+/// A component implementation the framework shall be able to instantiate. Its bodies may outlive the scenario.
+struct Implementation {
+    std::string name;
+    std::vector<std::string> provided;
+    std::vector<std::string> required;
+    std::vector<std::string> attributes;
+    bool connectable;
+    bool fragment;
+    std::function<std::shared_ptr<Body>()> create;
+};
+
+/// Whatever the adapter uses for a container.
+typedef std::shared_ptr<void> ContainerHandle;
+
+/// Binds one framework. One instance is made for each scenario and serves one runtime.
+class Adapter {
+  public:
+    virtual ~Adapter() = default;
+
+    /// Makes an empty runtime that can instantiate `implementations`; returns its root container (11.2.2.2).
+    virtual ContainerHandle create_runtime(const std::vector<Implementation>& implementations) = 0;
+
+    /// `add_component` with the configuration values that select `implementation` and set `attributes`.
+    virtual std::int32_t add_component(const ContainerHandle& container, const std::string& implementation,
+                                       const Attributes& attributes) = 0;
+    virtual void remove_component(const ContainerHandle& container, std::int32_t comp_instance) = 0;
+    virtual Reference get_port_element(const ContainerHandle& container, std::int32_t comp_instance,
+                                       const std::string& port_name) = 0;
+    virtual std::int32_t connect(const ContainerHandle& container, std::int32_t instance, const std::string& port_name,
+                                 const Reference& to_port) = 0;
+    virtual void disconnect(const ContainerHandle& container, std::int32_t connection) = 0;
+    virtual void start(const ContainerHandle& container) = 0;
+    virtual void stop(const ContainerHandle& container) = 0;
+    virtual std::vector<std::int32_t> get_components(const ContainerHandle& container) = 0;
+    virtual ContainerHandle create_container(const ContainerHandle& manager) = 0;
+    virtual void remove_container(const ContainerHandle& manager, const ContainerHandle& sub_container) = 0;
+
+    /// `destroy` the runtime. Also called after a scenario that has not done so, with any outcome ignored.
+    virtual void destroy(const ContainerHandle& manager) = 0;
+
+    /// How the framework spells the name of a port element at its API.
+    virtual std::string port_element_name() const { return "{port}_{element}"; }
+};
+
+typedef std::function<std::shared_ptr<Adapter>()> AdapterFactory;
+
+}  // namespace ucm_cts
+
+#endif

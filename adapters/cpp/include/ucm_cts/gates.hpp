@@ -1,0 +1,72 @@
+// Gates: where probes wait until the scenario lets them go on.
+#ifndef UCM_CTS_GATES_HPP
+#define UCM_CTS_GATES_HPP
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace ucm_cts {
+
+/// A scenario's patience as a duration; out of range values are clamped to what a clock can add.
+inline std::chrono::milliseconds patience_of(std::int64_t milliseconds) {
+    const std::int64_t longest = std::int64_t(1000) * 60 * 60 * 24;
+    return std::chrono::milliseconds(milliseconds < 0 ? 0 : milliseconds > longest ? longest : milliseconds);
+}
+
+class Gates {
+  public:
+    explicit Gates(std::chrono::milliseconds patience) : patience_(patience) {}
+
+    /// A probe arrives. `record_held` is called before anybody can learn of the arrival.
+    template <class Record>
+    void hold(const std::string& name, Record record_held) {
+        std::unique_lock<std::mutex> lock(mutex_);
+        Gate& gate = gates_[name];
+        record_held();
+        gate.reached = true;
+        changed_.notify_all();
+        changed_.wait_for(lock, patience_, [this, &gate] { return gate.open || all_open_; });
+    }
+
+    /// Waits until some probe has arrived at the gate; false when patience runs out.
+    bool reach(const std::string& name) {
+        std::unique_lock<std::mutex> lock(mutex_);
+        Gate& gate = gates_[name];
+        return changed_.wait_for(lock, patience_, [&gate] { return gate.reached; });
+    }
+
+    /// Opens the gate for good. `record_opened` is called before anybody goes through.
+    template <class Record>
+    void open(const std::string& name, Record record_opened) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        record_opened();
+        gates_[name].open = true;
+        changed_.notify_all();
+    }
+
+    void open_all() {
+        std::lock_guard<std::mutex> lock(mutex_);
+        all_open_ = true;
+        changed_.notify_all();
+    }
+
+  private:
+    struct Gate {
+        bool open = false;
+        bool reached = false;
+    };
+
+    const std::chrono::milliseconds patience_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::map<std::string, Gate> gates_;
+    bool all_open_ = false;
+};
+
+}  // namespace ucm_cts
+
+#endif

@@ -1,0 +1,141 @@
+// ShapedAdapter: for a framework whose C++ API already has the shape of 12.10. All types are derived from those that
+// the Traits name; see docs/adapter-cpp.md.
+#ifndef UCM_CTS_SHAPED_HPP
+#define UCM_CTS_SHAPED_HPP
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ucm_cts/adapter.hpp"
+#include "ucm_cts/shaped_body.hpp"
+
+namespace ucm_cts {
+
+/// Name and value pairs as a framework's Properties: `name` = `implementation`, then the attributes.
+template <class Properties>
+Properties properties(const std::string& name, const std::string& implementation, const Attributes& attributes) {
+    Properties all;
+    all.resize(1 + attributes.size());
+    auto property = all.begin();
+    property->name = name;
+    property->value = implementation;
+    for (const auto& attribute : attributes) {
+        ++property;
+        property->name = attribute.first;
+        property->value = attribute.second;
+    }
+    return all;
+}
+
+/// `Traits` has
+///   - types PortElementObject, ComponentObject, FragmentObject, Connectable, Container, ContainerManager, and the
+///     exceptions NOT_FOUND, BAD_PARAMETER, UCM_ERROR;
+///   - `static std::shared_ptr<ContainerManager> create_runtime(const std::vector<ShapedImplementation<Traits>>&)`;
+///   - `static Properties configuration(const std::string& implementation, const Attributes&)`, what add_component takes.
+template <class Traits>
+class ShapedAdapter : public Adapter {
+  public:
+    typedef typename Traits::Container Container;
+    typedef typename Traits::ContainerManager ContainerManager;
+
+    ContainerHandle create_runtime(const std::vector<Implementation>& implementations) override {
+        std::vector<ShapedImplementation<Traits>> shaped;
+        shaped.reserve(implementations.size());
+        for (const Implementation& implementation : implementations) {
+            shaped.push_back(ShapedImplementation<Traits>(implementation));
+        }
+        manager_ = Traits::create_runtime(shaped);
+        return std::shared_ptr<Container>(manager_);
+    }
+
+    std::int32_t add_component(const ContainerHandle& container, const std::string& implementation,
+                               const Attributes& attributes) override {
+        return translate([&] {
+            return static_cast<std::int32_t>(
+                of(container).add_component(Traits::configuration(implementation, attributes)));
+        });
+    }
+
+    void remove_component(const ContainerHandle& container, std::int32_t comp_instance) override {
+        translate([&] { of(container).remove_component(comp_instance); });
+    }
+
+    Reference get_port_element(const ContainerHandle& container, std::int32_t comp_instance,
+                               const std::string& port_name) override {
+        return translate(
+            [&] { return ShapedReference<Traits>::wrap(of(container).get_port_element(comp_instance, port_name)); });
+    }
+
+    std::int32_t connect(const ContainerHandle& container, std::int32_t instance, const std::string& port_name,
+                         const Reference& to_port) override {
+        return translate([&] {
+            return static_cast<std::int32_t>(
+                of(container).connect(instance, port_name, ShapedReference<Traits>::unwrap(to_port)));
+        });
+    }
+
+    void disconnect(const ContainerHandle& container, std::int32_t connection) override {
+        translate([&] { of(container).disconnect(connection); });
+    }
+
+    void start(const ContainerHandle& container) override {
+        translate([&] { of(container).start(); });
+    }
+
+    void stop(const ContainerHandle& container) override {
+        translate([&] { of(container).stop(); });
+    }
+
+    std::vector<std::int32_t> get_components(const ContainerHandle& container) override {
+        return translate([&] {
+            const auto ids = of(container).get_components();
+            return std::vector<std::int32_t>(ids.begin(), ids.end());
+        });
+    }
+
+    ContainerHandle create_container(const ContainerHandle&) override {
+        typedef typename std::decay<detail::Argument<decltype(&ContainerManager::create_container), 0>>::type Properties;
+        return translate([&]() -> ContainerHandle {
+            return std::shared_ptr<Container>(manager_->create_container(Properties()));
+        });
+    }
+
+    void remove_container(const ContainerHandle&, const ContainerHandle& sub_container) override {
+        translate([&] { manager_->remove_container(std::static_pointer_cast<Container>(sub_container)); });
+    }
+
+    void destroy(const ContainerHandle&) override {
+        translate([&] { manager_->destroy(); });
+    }
+
+  protected:
+    /// The framework's own container behind a handle.
+    static Container& of(const ContainerHandle& container) {
+        if (!container) {
+            throw std::logic_error("an operation of a null container cannot be called");
+        }
+        return *static_cast<Container*>(container.get());
+    }
+
+    /// Calls `operation`; the framework's three exceptions become those of the SDK, all others pass.
+    template <class Operation>
+    static auto translate(Operation operation) -> decltype(operation()) {
+        try {
+            return operation();
+        } catch (const typename Traits::NOT_FOUND& error) {
+            throw NotFound(detail::text_of(error));
+        } catch (const typename Traits::BAD_PARAMETER& error) {
+            throw BadParameter(detail::text_of(error));
+        } catch (const typename Traits::UCM_ERROR& error) {
+            throw UcmError(detail::text_of(error));
+        }
+    }
+
+    std::shared_ptr<ContainerManager> manager_;
+};
+
+}  // namespace ucm_cts
+
+#endif

@@ -1,0 +1,302 @@
+// Bodies and references in a framework's own types, for frameworks in the shape of 12.10.
+#ifndef UCM_CTS_SHAPED_BODY_HPP
+#define UCM_CTS_SHAPED_BODY_HPP
+
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "ucm_cts/adapter.hpp"
+
+namespace ucm_cts {
+namespace detail {
+
+/// Arguments and result of a member function, so that overriding functions have exactly the framework's signature.
+template <class Member>
+struct Signature;
+
+template <class Class, class R, class... A>
+struct Signature<R (Class::*)(A...)> {
+    typedef R Result;
+    typedef std::tuple<A...> Arguments;
+};
+
+template <class Class, class R, class... A>
+struct Signature<R (Class::*)(A...) const> : Signature<R (Class::*)(A...)> {};
+
+#if defined(__cpp_noexcept_function_type)
+template <class Class, class R, class... A>
+struct Signature<R (Class::*)(A...) noexcept> : Signature<R (Class::*)(A...)> {};
+
+template <class Class, class R, class... A>
+struct Signature<R (Class::*)(A...) const noexcept> : Signature<R (Class::*)(A...)> {};
+#endif
+
+template <class Member, std::size_t N>
+using Argument = typename std::tuple_element<N, typename Signature<Member>::Arguments>::type;
+
+template <class Member>
+using Result = typename Signature<Member>::Result;
+
+inline std::string text_of(const std::exception& error) { return error.what(); }
+
+template <class Error>
+typename std::enable_if<!std::is_base_of<std::exception, Error>::value, std::string>::type text_of(const Error&) {
+    return std::string();  // exceptions of 12.10 have no members
+}
+
+/// The name in a PortConnection: `from_port` (12.10) or `port_name` (13.7).
+template <class Connection>
+auto port_of(const Connection& connection, int) -> decltype(std::string(connection.from_port)) {
+    return connection.from_port;
+}
+template <class Connection>
+auto port_of(const Connection& connection, long) -> decltype(std::string(connection.port_name)) {
+    return connection.port_name;
+}
+
+/// Calls `visit` for each reference in a PortConnection: `to_port`, a sequence (12.10) or one; or `ref` (13.7).
+template <class References, class Visit>
+auto for_each_reference(const References& references, Visit visit, int) -> decltype(references.begin(), void()) {
+    for (const auto& reference : references) {
+        visit(reference);
+    }
+}
+template <class Pointer, class Visit>
+void for_each_reference(const Pointer& reference, Visit visit, long) {
+    visit(reference);
+}
+template <class Connection>
+auto references_of(const Connection& connection, int) -> decltype((connection.to_port)) {
+    return connection.to_port;
+}
+template <class Connection>
+auto references_of(const Connection& connection, long) -> decltype((connection.ref)) {
+    return connection.ref;
+}
+
+}  // namespace detail
+
+/// The probes' interface as a port element of the framework: what a code generator would have made of the model.
+template <class Traits>
+class ShapedExchange : public Traits::PortElementObject {
+  public:
+    virtual std::int32_t exchange(std::int32_t value) = 0;
+
+    /// Whose port element it is; null if it is not a probe's own.
+    virtual const Identity* identity() const { return nullptr; }
+};
+
+/// A probe's port element as the framework sees it.
+template <class Traits>
+class ShapedPort final : public ShapedExchange<Traits> {
+  public:
+    explicit ShapedPort(Reference port) : port_(std::move(port)) {}
+    std::int32_t exchange(std::int32_t value) override { return port_->exchange(value); }
+    const Identity* identity() const override { return port_->identity(); }
+
+  private:
+    const Reference port_;
+};
+
+/// A reference of the framework as the SDK sees it.
+template <class Traits>
+class ShapedReference final : public PortElement {
+  public:
+    typedef std::shared_ptr<typename Traits::PortElementObject> Pointer;
+
+    explicit ShapedReference(Pointer pointer)
+        : pointer_(std::move(pointer)), exchange_(dynamic_cast<ShapedExchange<Traits>*>(pointer_.get())) {}
+
+    static Reference wrap(const Pointer& pointer) {
+        return pointer ? std::make_shared<ShapedReference>(pointer) : nullptr;
+    }
+
+    static Pointer unwrap(const Reference& reference) {
+        const ShapedReference* const own = dynamic_cast<const ShapedReference*>(reference.get());
+        return own != nullptr ? own->pointer_ : nullptr;
+    }
+
+    std::int32_t exchange(std::int32_t value) override {
+        if (exchange_ == nullptr) {
+            throw std::logic_error("the reference does not have the interface of the port element");
+        }
+        return exchange_->exchange(value);
+    }
+
+    const Identity* identity() const override { return exchange_ != nullptr ? exchange_->identity() : nullptr; }
+
+  private:
+    const Pointer pointer_;
+    ShapedExchange<Traits>* const exchange_;
+};
+
+/// Bodies whose attributes can be set; every body in the framework's shape is one.
+class AttributeHolder {
+  public:
+    virtual ~AttributeHolder() = default;
+    virtual void set_attribute(const std::string& name, const std::string& value) = 0;
+};
+
+/// A body in the framework's shape: a ComponentObject (`Base` is it, or derives from it).
+template <class Traits, class Base>
+class ShapedBody : public Base, public AttributeHolder {
+    typedef typename Traits::ComponentObject Object;
+
+  public:
+    explicit ShapedBody(std::shared_ptr<Body> body) : body_(std::move(body)) {}
+
+    void set_attribute(const std::string& name, const std::string& value) override {
+        body_->set_attribute(name, value);
+    }
+
+    void on_init() override { body_->on_init(); }
+    void on_remove() override { body_->on_remove(); }
+    void on_shutdown() override { body_->on_shutdown(); }
+
+    void on_startup(detail::Argument<decltype(&Object::on_startup), 0> dependencies) override {
+        std::vector<PortConnection> connections;
+        for (const auto& dependency : dependencies) {
+            PortConnection connection;
+            connection.from_port = detail::port_of(dependency, 0);
+            detail::for_each_reference(
+                detail::references_of(dependency, 0),
+                [&connection](const typename ShapedReference<Traits>::Pointer& reference) {
+                    connection.to_port.push_back(ShapedReference<Traits>::wrap(reference));
+                },
+                0);
+            connections.push_back(std::move(connection));
+        }
+        body_->on_startup(connections);
+    }
+
+    detail::Result<decltype(&Object::get_portElement)> get_portElement(
+        detail::Argument<decltype(&Object::get_portElement), 0> provided) override {
+        std::lock_guard<std::mutex> lock(mutex_);
+        for (const auto& port : ports_) {
+            if (port.first == provided) {
+                return port.second;
+            }
+        }
+        const Reference reference = body_->get_portElement(provided);
+        if (!reference) {
+            return nullptr;
+        }
+        ports_.emplace_back(provided, std::make_shared<ShapedPort<Traits>>(reference));
+        return ports_.back().second;
+    }
+
+  protected:
+    const std::shared_ptr<Body> body_;
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::pair<std::string, std::shared_ptr<ShapedPort<Traits>>>> ports_;
+};
+
+/// ComponentObject and FragmentObject in one, whether FragmentObject extends ComponentObject (11.2.1.4) or not (12.10).
+template <class Traits, bool extends = std::is_base_of<typename Traits::ComponentObject,
+                                                       typename Traits::FragmentObject>::value>
+class FragmentBase : public Traits::FragmentObject {};
+
+template <class Traits>
+class FragmentBase<Traits, false> : public Traits::ComponentObject, public Traits::FragmentObject {};
+
+template <class Traits>
+class ShapedFragment : public ShapedBody<Traits, FragmentBase<Traits>> {
+    typedef detail::Argument<decltype(&Traits::FragmentObject::set_container_interface), 0> ContainerArgument;
+
+    // what a fragment does with its container, on whatever kind of pointer the framework gives
+    class Access final : public ContainerInterface {
+      public:
+        explicit Access(ContainerArgument container) : container_(container) {}
+        std::vector<std::int32_t> get_components() override {
+            const auto ids = container_->get_components();
+            return std::vector<std::int32_t>(ids.begin(), ids.end());
+        }
+
+      private:
+        const typename std::decay<ContainerArgument>::type container_;
+    };
+
+  public:
+    explicit ShapedFragment(std::shared_ptr<Body> body)
+        : ShapedBody<Traits, FragmentBase<Traits>>(std::move(body)) {}
+
+    void set_container_interface(ContainerArgument container) override {
+        this->body_->set_container_interface(container ? std::make_shared<Access>(container) : nullptr);
+    }
+};
+
+/// `Base` made Connectable.
+template <class Traits, class Base>
+class ShapedConnectable final : public Base, public Traits::Connectable {
+    typedef typename Traits::Connectable Callbacks;
+
+  public:
+    explicit ShapedConnectable(std::shared_ptr<Body> body) : Base(std::move(body)) {}
+
+    void on_connect(detail::Argument<decltype(&Callbacks::on_connect), 0> port_name,
+                    detail::Argument<decltype(&Callbacks::on_connect), 1> required) override {
+        this->body_->on_connect(port_name, ShapedReference<Traits>::wrap(required));
+    }
+
+    void on_disconnect(detail::Argument<decltype(&Callbacks::on_disconnect), 0> port_name) override {
+        this->body_->on_disconnect(port_name);
+    }
+};
+
+/// A component implementation in the framework's types, to be registered the way the framework has it.
+template <class Traits>
+struct ShapedImplementation {
+    typedef typename Traits::ComponentObject ComponentObject;
+
+    std::string name;
+    std::vector<std::string> provided;
+    std::vector<std::string> required;
+    std::vector<std::string> attributes;
+    bool connectable;
+    bool fragment;
+    std::function<std::shared_ptr<ComponentObject>()> create;
+    std::function<void(ComponentObject&, const std::string&, const std::string&)> set_attribute;
+
+    explicit ShapedImplementation(const Implementation& from)
+        : name(from.name),
+          provided(from.provided),
+          required(from.required),
+          attributes(from.attributes),
+          connectable(from.connectable),
+          fragment(from.fragment),
+          create(maker(from)),
+          set_attribute([](ComponentObject& body, const std::string& attribute, const std::string& value) {
+              dynamic_cast<AttributeHolder&>(body).set_attribute(attribute, value);
+          }) {}
+
+  private:
+    static std::function<std::shared_ptr<ComponentObject>()> maker(const Implementation& from) {
+        typedef ShapedBody<Traits, ComponentObject> Plain;
+        typedef ShapedFragment<Traits> Fragment;
+        if (from.connectable) {
+            return from.fragment ? make<ShapedConnectable<Traits, Fragment>>(from.create)
+                                 : make<ShapedConnectable<Traits, Plain>>(from.create);
+        }
+        return from.fragment ? make<Fragment>(from.create) : make<Plain>(from.create);
+    }
+
+    template <class Shaped>
+    static std::function<std::shared_ptr<ComponentObject>()> make(const std::function<std::shared_ptr<Body>()>& create) {
+        return [create] { return std::shared_ptr<ComponentObject>(std::make_shared<Shaped>(create())); };
+    }
+};
+
+}  // namespace ucm_cts
+
+#endif

@@ -1,0 +1,131 @@
+// Workers: the threads that a scenario names.
+#ifndef UCM_CTS_WORKERS_HPP
+#define UCM_CTS_WORKERS_HPP
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ucm_cts/signals.hpp"
+
+namespace ucm_cts {
+
+/// Threads by name, each made when its first task is queued, each doing its tasks in order.
+class Workers {
+  public:
+    explicit Workers(std::chrono::milliseconds patience) : patience_(patience) {}
+
+    /// Tasks must not throw, and must keep alive what they use: a stuck thread is left behind.
+    void queue(const std::string& name, std::function<void()> task) {
+        std::shared_ptr<Worker> worker;
+        {
+            std::lock_guard<std::mutex> lock(mutex_);
+            std::shared_ptr<Worker>& slot = workers_[name];
+            if (!slot) {
+                slot = std::make_shared<Worker>();
+                const std::shared_ptr<Worker> own = slot;
+                const std::string label = "worker " + name;
+                slot->thread = std::thread([own, label] { own->work(label); });
+            }
+            worker = slot;
+        }
+        std::lock_guard<std::mutex> lock(worker->mutex);
+        worker->tasks.push_back(std::move(task));
+        worker->changed.notify_all();
+    }
+
+    /// Waits until the worker, if there is one, has done all it was given; false when patience runs out.
+    bool join(const std::string& name) {
+        std::shared_ptr<Worker> worker;
+        {
+            std::lock_guard<std::mutex> lock(mutex_);
+            const auto found = workers_.find(name);
+            if (found == workers_.end()) {
+                return true;
+            }
+            worker = found->second;
+        }
+        return worker->wait_until_idle(std::chrono::steady_clock::now() + patience_);
+    }
+
+    /// Lets all workers end; returns the names of those that do not in time. Queue nothing afterwards.
+    std::vector<std::string> finish() {
+        std::vector<std::string> stuck;
+        std::lock_guard<std::mutex> lock(mutex_);
+        const auto deadline = std::chrono::steady_clock::now() + patience_;
+        for (auto& entry : workers_) {
+            Worker& worker = *entry.second;
+            if (worker.wait_until_idle(deadline)) {
+                worker.quit();
+                worker.thread.join();
+            } else {
+                worker.abandon();
+                stuck.push_back(entry.first);
+            }
+        }
+        return stuck;
+    }
+
+  private:
+    struct Worker {
+        void work(const std::string& label) {
+            const KnownThread known(label);
+            std::unique_lock<std::mutex> lock(mutex);
+            while (true) {
+                changed.wait(lock, [this] { return quitting || !tasks.empty(); });
+                if (tasks.empty()) {
+                    return;
+                }
+                const std::function<void()> task = std::move(tasks.front());
+                busy = true;
+                tasks.pop_front();
+                lock.unlock();
+                task();
+                lock.lock();
+                busy = false;
+                changed.notify_all();
+            }
+        }
+
+        bool wait_until_idle(std::chrono::steady_clock::time_point deadline) {
+            std::unique_lock<std::mutex> lock(mutex);
+            return changed.wait_until(lock, deadline, [this] { return tasks.empty() && !busy; });
+        }
+
+        void quit() {
+            std::lock_guard<std::mutex> lock(mutex);
+            quitting = true;
+            changed.notify_all();
+        }
+
+        // It ends if it ever comes back from where it is.
+        void abandon() {
+            std::lock_guard<std::mutex> lock(mutex);
+            tasks.clear();
+            quitting = true;
+            thread.detach();
+        }
+
+        std::thread thread;
+        std::mutex mutex;
+        std::condition_variable changed;
+        std::deque<std::function<void()>> tasks;
+        bool busy = false;
+        bool quitting = false;
+    };
+
+    const std::chrono::milliseconds patience_;
+    std::mutex mutex_;
+    std::map<std::string, std::shared_ptr<Worker>> workers_;
+};
+
+}  // namespace ucm_cts
+
+#endif

@@ -1,0 +1,55 @@
+// Container: membership, connections, start and stop.
+#ifndef LWUCM_SRC_CONTAINER_IMPL_HPP
+#define LWUCM_SRC_CONTAINER_IMPL_HPP
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "shared.hpp"
+
+namespace lwucm {
+
+class ContainerImpl : public virtual Container, public std::enable_shared_from_this<ContainerImpl> {
+  public:
+    explicit ContainerImpl(std::shared_ptr<Shared> shared);
+
+    componentId add_component(const Properties& configValues) override;
+    void remove_component(componentId comp_instance) override;
+    std::shared_ptr<PortElementObject> get_port_element(componentId comp_instance,
+                                                        const std::string& port_name) override;
+    connectionId connect(componentId instance, const std::string& port_name,
+                         std::shared_ptr<PortElementObject> to_port) override;
+    void disconnect(connectionId connection) override;
+    void start() override;
+    void stop() override;
+    componentIds get_components() override;
+
+  protected:
+    friend class ManagerImpl;
+
+    // The three steps of taking a container down; the caller holds the operation.
+    void shut_down_members(Attempts& attempts);
+    void disconnect_members(Attempts& attempts);
+    void remove_members(Attempts& attempts);
+
+    void check_in_place() const;
+
+    const std::shared_ptr<Shared> shared_;
+
+  private:
+    std::shared_ptr<Instance> find(componentId id) const;
+    std::shared_ptr<const Implementation> select(const Properties& configValues) const;
+    void undo(connectionId id, Attempts& attempts);
+    void undo_all(const std::vector<connectionId>& ids, Attempts& attempts);
+    void erase(const Instance& member);
+
+    std::vector<std::shared_ptr<Instance>> members_;
+    std::vector<std::shared_ptr<Instance>> startup_order_;
+    bool started_ = false;
+    bool removed_ = false;
+};
+
+}  // namespace lwucm
+
+#endif

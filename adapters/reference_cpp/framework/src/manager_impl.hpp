@@ -1,0 +1,26 @@
+// ContainerManager: sub-containers and the end of the runtime.
+#ifndef LWUCM_SRC_MANAGER_IMPL_HPP
+#define LWUCM_SRC_MANAGER_IMPL_HPP
+
+#include <memory>
+#include <vector>
+
+#include "container_impl.hpp"
+
+namespace lwucm {
+
+class ManagerImpl final : public ContainerImpl, public virtual ContainerManager {
+  public:
+    explicit ManagerImpl(std::shared_ptr<Shared> shared);
+
+    std::shared_ptr<Container> create_container(const Properties& configValues) override;
+    void remove_container(std::shared_ptr<Container> subContainer) override;
+    void destroy() override;
+
+  private:
+    std::vector<std::shared_ptr<ContainerImpl>> sub_containers_;
+};
+
+}  // namespace lwucm
+
+#endif
