@@ -1,0 +1,286 @@
+"""Engine: answers wire messages by running scenarios against an adapter, as docs/design.md says."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.adapter import Adapter
+from ucm_cts.adapters.contract.messages import (
+    PROTOCOL,
+    Happened,
+    Hello,
+    Refused,
+    Run,
+    Traced,
+    Welcome,
+    encode,
+    to_host_decoder,
+)
+from ucm_cts.adapters.contract.programming_model import BadParameter, NotFound, UcmError
+from ucm_cts.adapters.contract.scenario import Scenario, Step
+from ucm_cts.adapters.contract.trace import Call, ErrorName, Event, Opened, Raise, Return, Skip, Timeout
+from ucm_cts.adapters.python.probe import Stage
+from ucm_cts.adapters.python.recorder import Recorder
+from ucm_cts.adapters.python.variables import Unbound, Variables
+from ucm_cts.adapters.python.workers import Workers
+
+_LONGEST_DETAIL = 200
+_LONGEST_PATIENCE = 24 * 60 * 60 * 1000
+
+_DECLARED: Mapping[type[Exception], ErrorName] = {
+    NotFound: "NOT_FOUND",
+    BadParameter: "BAD_PARAMETER",
+    UcmError: "UCM_ERROR",
+}
+
+
+class ContractBroken(Exception):
+    """The adapter returned something that is not of the type its contract declares."""
+
+
+class Engine:
+    """Serves one adapter class: one message in, one answer out, in order.
+
+    ``write`` receives the messages that come before an answer when events are streamed; without it none are sent.
+    """
+
+    def __init__(self, adapter_class: type[Adapter], write: Callable[[bytes], object] | None = None) -> None:
+        self.adapter_class = adapter_class
+        self.write = write
+
+    def answer(self, line: bytes) -> bytes:
+        """The answer to one line of the wire protocol, without newline. Never raises for what the line says."""
+        try:
+            message = to_host_decoder().decode(line)
+        except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
+            return encode(Refused(f"not a message of protocol {PROTOCOL}: {error}"))
+        if isinstance(message, Hello):
+            cls = self.adapter_class
+            return encode(Welcome(PROTOCOL, cls.product, cls.version, cls.port_element_name))
+        return self._run(message)
+
+    def _run(self, message: Run) -> bytes:
+        try:
+            return encode(self._perform(message))
+        except Exception as error:  # noqa: BLE001 - a framework may raise anything
+            return encode(Refused(_describe(error), message.id))
+
+    def _perform(self, message: Run) -> Traced:
+        sink: Callable[[Event], None] | None = None
+        if message.stream and self.write:
+            write = self.write
+
+            def sink(event: Event) -> None:
+                write(encode(Happened(message.id, event)))
+
+        adapter = self.adapter_class()
+        performance: Performance | None = None
+        try:
+            performance = Performance(adapter, message.scenario, Recorder(sink))
+            return Traced(message.id, *performance.run())
+        finally:
+            if performance is None or not performance.stuck:
+                adapter.close()
+
+
+class Performance:
+    """One run of one scenario against one adapter. Making it creates the runtime."""
+
+    def __init__(self, adapter: Adapter, scenario: Scenario, recorder: Recorder) -> None:
+        patience = min(max(scenario.patience, 0), _LONGEST_PATIENCE) / 1000
+        self.stuck: tuple[str, ...] = ()
+        self._adapter = adapter
+        self._scenario = scenario
+        self._recorder = recorder
+        self._stage = Stage(recorder, patience)
+        self._workers = Workers(patience)
+        implementations = [self._stage.implementation(*declared) for declared in scenario.components.items()]
+        self._manager = adapter.create_runtime(implementations)
+        self._variables = Variables(self._manager)
+        self._destroyed = False
+
+    def run(self) -> tuple[tuple[Event, ...], tuple[str, ...]]:
+        """Take all steps; returns the events and the names of the threads that never came back.
+
+        Raises ``ContractBroken`` if the adapter made it impossible to say what happened.
+        """
+        for number, step in enumerate(self._scenario.steps):
+            if step.thread is None:
+                self._take(number, step)
+            else:
+                self._workers.queue(step.thread, partial(self._take, number, step))
+        self._stage.gates.open_all()
+        self.stuck = self._workers.finish()
+        events = self._recorder.stop()
+        if not self.stuck and not self._destroyed:  # what a stuck thread holds could block destroy for ever
+            with contextlib.suppress(Exception, SystemExit):
+                self._adapter.destroy(self._manager)
+        if self._recorder.complaint:
+            raise ContractBroken(self._recorder.complaint)
+        return events, self.stuck
+
+    def _take(self, number: int, step: Step) -> None:
+        record = self._recorder.record
+        if isinstance(step, s.OpenGate):
+            gate = step.gate
+            self._stage.gates.open(gate, lambda: record(Opened, gate=gate))
+        elif isinstance(step, s.ReachGate):
+            if not self._stage.gates.reach(step.gate):
+                record(Timeout, step=number)
+        elif isinstance(step, s.Join):
+            if not self._workers.join(step.worker):
+                record(Timeout, step=number)
+        else:
+            self._call(number, step)
+
+    def _call(self, number: int, step: Step) -> None:
+        record = self._recorder.record
+        try:
+            operate = _OPERATIONS[type(step)](self, step)
+        except Unbound as missing:
+            record(Skip, step=number, variable=missing.variable)
+            return
+        record(Call, step=number)
+        try:
+            value = operate()
+        except ContractBroken as error:
+            self._recorder.complain(f"{s.operation(step)} {error}")
+            record(Return, step=number)
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - a framework may raise anything
+            declared = next((name for kind, name in _DECLARED.items() if isinstance(error, kind)), None)
+            detail = _text(error) if declared else _describe(error)
+            record(Raise, step=number, error=declared or "UNDECLARED", detail=detail)
+        else:
+            record(Return, step=number, value=value if isinstance(step, _WITH_RESULT) else None)
+
+    # Each looks up what its step needs, raising Unbound, and returns the call that is then made and recorded.
+
+    def _add_component(self, step: s.AddComponent) -> Callable[[], Any]:
+        container = self._variables.container(step.container)
+        declaration = self._scenario.components.get(step.component)
+        attributes = dict(declaration.attributes) if declaration else {}
+
+        def operate() -> int:
+            given = _integer(self._adapter.add_component(container, step.component, attributes))
+            self._variables.bind_id(step.bind or step.component, given)
+            return given
+
+        return operate
+
+    def _remove_component(self, step: s.RemoveComponent) -> Callable[[], Any]:
+        container, member = self._variables.container(step.container), self._variables.id(step.id)
+        return partial(self._adapter.remove_component, container, member)
+
+    def _get_port_element(self, step: s.GetPortElement) -> Callable[[], Any]:
+        container, member = self._variables.container(step.container), self._variables.id(step.id)
+
+        def operate() -> Any:
+            reference = self._adapter.get_port_element(container, member, step.port)
+            self._variables.bind_reference(step.bind, reference)
+            return self._stage.recognise(reference)
+
+        return operate
+
+    def _connect(self, step: s.Connect) -> Callable[[], Any]:
+        container, member = self._variables.container(step.container), self._variables.id(step.id)
+        reference = self._variables.reference(step.to)
+
+        def operate() -> int:
+            given = _integer(self._adapter.connect(container, member, step.port, reference))
+            self._variables.bind_id(step.bind, given)
+            return given
+
+        return operate
+
+    def _disconnect(self, step: s.Disconnect) -> Callable[[], Any]:
+        container, connection = self._variables.container(step.container), self._variables.id(step.connection)
+        return partial(self._adapter.disconnect, container, connection)
+
+    def _start(self, step: s.Start) -> Callable[[], Any]:
+        container = self._variables.container(step.container)
+        return partial(self._adapter.start, container)
+
+    def _stop(self, step: s.Stop) -> Callable[[], Any]:
+        container = self._variables.container(step.container)
+        return partial(self._adapter.stop, container)
+
+    def _get_components(self, step: s.GetComponents) -> Callable[[], Any]:
+        container = self._variables.container(step.container)
+
+        def operate() -> tuple[int, ...]:
+            members = self._adapter.get_components(container)
+            try:
+                ids = tuple(_integer(member) for member in members)
+            except TypeError:
+                raise ContractBroken(f"returned {members!r}; it returns a sequence of integers") from None
+            self._variables.saw(ids)
+            return ids
+
+        return operate
+
+    def _create_container(self, step: s.CreateContainer) -> Callable[[], Any]:
+        def operate() -> None:
+            self._variables.bind_container(step.bind, self._adapter.create_container(self._manager))
+
+        return operate
+
+    def _remove_container(self, step: s.RemoveContainer) -> Callable[[], Any]:
+        container = self._variables.container(step.container)
+        return partial(self._adapter.remove_container, self._manager, container)
+
+    def _destroy(self, step: s.Destroy) -> Callable[[], Any]:
+        def operate() -> None:
+            self._adapter.destroy(self._manager)
+            self._destroyed = True
+
+        return operate
+
+    def _invoke(self, step: s.Invoke) -> Callable[[], Any]:
+        reference = self._variables.reference(step.ref)
+        if reference is None:  # nothing can be called through a null reference
+            raise Unbound(step.ref)
+        return lambda: _integer(reference.exchange(step.value))
+
+
+_OPERATIONS: dict[type[Any], Callable[[Performance, Any], Callable[[], Any]]] = {
+    s.AddComponent: Performance._add_component,
+    s.RemoveComponent: Performance._remove_component,
+    s.GetPortElement: Performance._get_port_element,
+    s.Connect: Performance._connect,
+    s.Disconnect: Performance._disconnect,
+    s.Start: Performance._start,
+    s.Stop: Performance._stop,
+    s.GetComponents: Performance._get_components,
+    s.CreateContainer: Performance._create_container,
+    s.RemoveContainer: Performance._remove_container,
+    s.Destroy: Performance._destroy,
+    s.Invoke: Performance._invoke,
+}
+
+
+_WITH_RESULT = (s.AddComponent, s.GetPortElement, s.Connect, s.GetComponents, s.Invoke)
+
+
+def _integer(value: Any) -> int:
+    if not isinstance(value, int):
+        raise ContractBroken(f"returned {value!r}; it returns an integer")
+    return int(value)
+
+
+def _describe(error: BaseException) -> str:
+    text = _text(error)
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+def _text(error: BaseException) -> str:
+    try:
+        text = str(error)
+    except Exception:  # noqa: BLE001 - the exception is the framework's
+        return ""
+    return text[:_LONGEST_DETAIL].encode("utf-8", "replace").decode()

@@ -1,0 +1,43 @@
+"""Gates: where probes wait until the scenario lets them go on."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+
+class Gates:
+    """The gates of one scenario, by name. ``patience`` is the longest wait in seconds."""
+
+    def __init__(self, patience: float) -> None:
+        self._patience = patience
+        self._changed = threading.Condition()
+        self._reached: set[str] = set()
+        self._opened: set[str] = set()
+        self._all_open = False
+
+    def hold(self, gate: str, record: Callable[[], None]) -> None:
+        """A probe arrives: wait until ``gate`` is open. ``record`` is called before anybody can learn of the arrival."""
+        with self._changed:
+            record()
+            self._reached.add(gate)
+            self._changed.notify_all()
+            self._changed.wait_for(lambda: self._all_open or gate in self._opened, self._patience)
+
+    def reach(self, gate: str) -> bool:
+        """Wait until some probe has arrived at ``gate``; False when patience runs out."""
+        with self._changed:
+            return self._changed.wait_for(lambda: gate in self._reached, self._patience)
+
+    def open(self, gate: str, record: Callable[[], None]) -> None:
+        """Open ``gate`` for good. ``record`` is called before anybody goes through."""
+        with self._changed:
+            record()
+            self._opened.add(gate)
+            self._changed.notify_all()
+
+    def open_all(self) -> None:
+        """Open every gate, known or not, for good."""
+        with self._changed:
+            self._all_open = True
+            self._changed.notify_all()

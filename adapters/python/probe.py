@@ -1,0 +1,244 @@
+"""Probes: component bodies that record what a framework does to them and act as their plan says."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from typing import Any
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.programming_model import (
+    ComponentObject,
+    Connectable,
+    ContainerInterface,
+    FragmentObject,
+    Implementation,
+    PortConnection,
+    PortElementObject,
+)
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook
+from ucm_cts.adapters.contract.trace import (
+    Create,
+    Dependency,
+    Enter,
+    Exit,
+    Held,
+    MaybeReference,
+    Reference,
+    Reply,
+    Request,
+    Siblings,
+)
+from ucm_cts.adapters.python.gates import Gates
+from ucm_cts.adapters.python.recorder import Recorder
+
+
+class PlannedFailure(Exception):
+    """What a probe raises when its plan says ``raise``: an exception no interface declares."""
+
+
+class Stage:
+    """What the probes of one scenario share. ``patience`` is the longest wait of a probe, in seconds."""
+
+    def __init__(self, recorder: Recorder, patience: float) -> None:
+        self.recorder = recorder
+        self.gates = Gates(patience)
+        self._lock = threading.Lock()
+        self._instances: dict[str, int] = {}
+
+    def implementation(self, name: str, declaration: Declaration) -> Implementation:
+        """The declaration as a framework sees it: an implementation whose bodies are probes on this stage."""
+        kind = _KINDS[declaration.connectable, declaration.fragment]
+        return Implementation(
+            name,
+            declaration.provides,
+            declaration.requires,
+            tuple(declaration.attributes),
+            declaration.connectable,
+            declaration.fragment,
+            lambda: kind(self, name, declaration),
+        )
+
+    def count(self, component: str) -> int:
+        """Number the next body made for ``component``, from 1, and record its creation."""
+        with self._lock:
+            instance = self._instances[component] = self._instances.get(component, 0) + 1
+            self.recorder.record(Create, component=component, instance=instance)
+            return instance
+
+    def recognise(self, reference: Any) -> MaybeReference:
+        """What the trace calls ``reference``: a probe's own port element is recognised, anything else is opaque."""
+        if reference is None:
+            return None
+        if isinstance(reference, ProbePort) and reference.probe.stage is self:
+            return reference.identity
+        return "opaque"
+
+
+class ProbePort(PortElementObject):
+    """A provided port element of a probe."""
+
+    def __init__(self, probe: Probe, port: str) -> None:
+        self.probe = probe
+        self.identity = Reference(probe.component, probe.instance, port)
+
+    def exchange(self, value: int) -> int:
+        return self.probe.exchange(self.identity.port, value)
+
+
+class Probe(ComponentObject):
+    """The ``instance``-th body made for ``component``. Silent, and without a plan, once the recording has stopped."""
+
+    def __init__(self, stage: Stage, component: str, declaration: Declaration) -> None:
+        self.stage = stage
+        self.component = component
+        self.instance = stage.count(component)
+        self._plan = declaration.plan
+        self._ports = {port: ProbePort(self, port) for port in declaration.provides}
+        self._attributes: dict[str, str] = {}
+        self._references: dict[str, list[PortElementObject]] = {}
+        self._container: ContainerInterface | None = None
+
+    def set_attribute(self, name: str, value: str) -> None:
+        if self._is_text("set_attribute", name, value):
+            self._attributes[name] = value
+
+    def on_init(self) -> None:
+        self._visit("on_init", attributes=dict(self._attributes))
+
+    def on_startup(self, dependencies: Sequence[PortConnection]) -> None:
+        given = self._read(dependencies)
+        self._references = {}
+        for port, references in given:
+            self._references.setdefault(port, []).extend(r for r in references if r is not None)
+        recognise = self.stage.recognise
+        self._visit(
+            "on_startup",
+            dependencies=tuple(Dependency(port, tuple(map(recognise, references))) for port, references in given),
+        )
+
+    def on_shutdown(self) -> None:
+        try:
+            self._visit("on_shutdown")
+        finally:
+            self._references = {}
+
+    def on_remove(self) -> None:
+        try:
+            self._visit("on_remove")
+        finally:
+            self._container = None
+
+    def get_portElement(self, provided: str) -> PortElementObject | None:
+        return self._ports.get(provided)
+
+    def exchange(self, port: str, value: int) -> int:
+        """The business method of provided port element ``port``."""
+        if not isinstance(value, int):
+            self.stage.recorder.complain(f"exchange was called with {value!r}, which is no integer")
+            value = 0
+        result = self._visit("exchange", result=~value, port=port, value=value)
+        assert result is not None
+        return result
+
+    def _visit(self, hook: Hook, result: int | None = None, **arguments: Any) -> int | None:
+        """Record ``enter``, carry out the plan, record ``exit``; returns what the hook returns."""
+        if not self.stage.recorder.recording:
+            return result
+        self._record(Enter, hook=hook, **arguments)
+        for action in self._plan.get(hook, ()):
+            if isinstance(action, s.RaiseError):
+                self._record(Exit, hook=hook, raised=True)
+                raise PlannedFailure(f"{self.component} fails in {hook}, as planned")
+            if isinstance(action, s.ReturnValue):
+                if hook == "exchange":
+                    result = action.value
+            else:
+                self._act(action)
+        self._record(Exit, hook=hook, value=result)
+        return result
+
+    def _act(self, action: Action) -> None:
+        if isinstance(action, s.CallPort):
+            for reference in tuple(self._references.get(action.port, ())):
+                self._call(action.port, reference, action.value)
+        elif isinstance(action, s.HoldAtGate):
+            gate = action.gate
+            self.stage.gates.hold(gate, lambda: self._record(Held, gate=gate))
+        elif isinstance(action, s.QuerySiblings):
+            self._query_siblings()
+
+    def _call(self, port: str, reference: PortElementObject, value: int) -> None:
+        self._record(Request, port=port, value=value)
+        try:
+            result = reference.exchange(value)
+        except Exception:  # noqa: BLE001 - whatever the callee raised
+            self._record(Reply, port=port, raised=True)
+            return
+        if not isinstance(result, int):
+            self.stage.recorder.complain(f"exchange returned {result!r} to a probe; it returns an integer")
+            return
+        self._record(Reply, port=port, value=result)
+
+    def _query_siblings(self) -> None:
+        try:
+            if self._container is None:
+                raise LookupError("no container interface was given")
+            members = tuple(self._container.get_components())
+        except Exception:  # noqa: BLE001 - whatever the framework raised
+            self._record(Siblings, raised=True)
+            return
+        if not all(isinstance(member, int) for member in members):
+            self.stage.recorder.complain(f"get_components of the container interface returned {members!r}, not integers")
+            return
+        self._record(Siblings, ids=members)
+
+    def _read(self, dependencies: Sequence[PortConnection]) -> list[tuple[str, tuple[PortElementObject | None, ...]]]:
+        try:
+            given = [(connection.from_port, tuple(connection.to_port)) for connection in dependencies]
+        except (TypeError, AttributeError) as error:
+            self.stage.recorder.complain(f"on_startup takes a sequence of PortConnection values ({error})")
+            return []
+        return given if self._is_text("on_startup", *(port for port, _ in given)) else []
+
+    def _is_text(self, where: str, *names: Any) -> bool:
+        for name in names:
+            if not isinstance(name, str):
+                self.stage.recorder.complain(f"{where} was given {name!r} where a string is due")
+                return False
+        return True
+
+    def _record(self, kind: Any, **fields: Any) -> None:
+        self.stage.recorder.record(kind, component=self.component, instance=self.instance, **fields)
+
+
+class ConnectableProbe(Probe, Connectable):
+    """A probe that wants to hear of each connection."""
+
+    def on_connect(self, port_name: str, required: PortElementObject | None) -> None:
+        if self._is_text("on_connect", port_name):
+            self._visit("on_connect", port=port_name, reference=self.stage.recognise(required))
+
+    def on_disconnect(self, port_name: str) -> None:
+        if self._is_text("on_disconnect", port_name):
+            self._visit("on_disconnect", port=port_name)
+
+
+class FragmentProbe(Probe, FragmentObject):
+    """A probe that is a fragment."""
+
+    def set_container_interface(self, container: ContainerInterface) -> None:
+        self._container = container
+        self._visit("set_container_interface")
+
+
+class ConnectableFragmentProbe(ConnectableProbe, FragmentProbe):
+    """A fragment that wants to hear of each connection."""
+
+
+_KINDS: dict[tuple[bool, bool], type[Probe]] = {
+    (False, False): Probe,
+    (True, False): ConnectableProbe,
+    (False, True): FragmentProbe,
+    (True, True): ConnectableFragmentProbe,
+}

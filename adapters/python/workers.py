@@ -1,0 +1,81 @@
+"""Workers: the threads that a scenario names."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+
+Task = Callable[[], None]
+
+
+class _Worker:
+    def __init__(self, name: str) -> None:
+        self._tasks: deque[Task] = deque()
+        self._changed = threading.Condition()
+        self._busy = False
+        self._quitting = False
+        threading.Thread(target=self._work, name=f"worker {name}", daemon=True).start()
+
+    def _work(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._tasks or self._quitting)
+                if not self._tasks:
+                    return
+                task = self._tasks.popleft()
+                self._busy = True
+            task()
+            with self._changed:
+                self._busy = False
+                self._changed.notify_all()
+
+    def queue(self, task: Task) -> None:
+        with self._changed:
+            self._tasks.append(task)
+            self._changed.notify_all()
+
+    def wait_until_idle(self, seconds: float) -> bool:
+        with self._changed:
+            return self._changed.wait_for(lambda: not self._tasks and not self._busy, max(seconds, 0))
+
+    def quit(self) -> None:
+        with self._changed:
+            self._quitting = True
+            self._changed.notify_all()
+
+
+class Workers:
+    """Threads by name, each made when its first task is queued, each doing its tasks in order.
+
+    Tasks must not raise. ``patience`` is the longest wait in seconds.
+    """
+
+    def __init__(self, patience: float) -> None:
+        self._patience = patience
+        self._workers: dict[str, _Worker] = {}
+        self._lock = threading.Lock()
+
+    def queue(self, name: str, task: Task) -> None:
+        """Give worker ``name`` one more task; returns at once."""
+        with self._lock:
+            if name not in self._workers:
+                self._workers[name] = _Worker(name)
+            self._workers[name].queue(task)
+
+    def join(self, name: str) -> bool:
+        """Wait until worker ``name``, if there is one, has done all it was given; False when patience runs out."""
+        with self._lock:
+            worker = self._workers.get(name)
+        return worker is None or worker.wait_until_idle(self._patience)
+
+    def finish(self) -> tuple[str, ...]:
+        """End all workers; returns the names of those that did not come back in time. Queue nothing afterwards."""
+        deadline = time.monotonic() + self._patience
+        stuck = []
+        for name, worker in self._workers.items():
+            worker.quit()
+            if not worker.wait_until_idle(deadline - time.monotonic()):
+                stuck.append(name)
+        return tuple(stuck)
