@@ -58,6 +58,7 @@ from ucm_cts.harness.results import (
     RequirementResult,
     TransitionResult,
 )
+from ucm_cts.harness.scripts import read_scripts, to_scenario
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, Outcome, Row
 
@@ -422,6 +423,32 @@ def test_what_is_missing_is_marked_where_it_should_have_been() -> None:
     assert both.observed.lines[at + 1].label == "returns"
 
 
+def test_a_hang_expects_an_end_of_the_call_and_instances_have_the_names_of_findings() -> None:
+    steps: tuple[Step, ...] = (
+        AddComponent(component="client"),
+        AddComponent(component="client", bind="other"),
+        Start(),
+    )
+    tape = Tape()
+    for instance in (1, 2):
+        tape.put(Call, step=instance - 1)
+        tape.put(Create, component="client", instance=instance)
+        tape.put(Return, step=instance - 1, value=instance)
+    tape.put(Call, step=2)
+    execution = Execution("hang", Scenario(COMPONENTS, steps), tape.trace(), Incident("hang", "silent"))
+    finding = Finding("R", "r", "c", "start returns or raises UCM_ERROR", "start did not end", (7,), 2)
+    both = compare(finding, execution)
+    assert [line.label for line in both.observed.lines[-2:]] == ["start", "hang: silent"]
+    assert [(line.label, line.style) for line in both.expected.lines[-2:]] == [
+        ("start", "normal"),
+        ("start returns or raises UCM_ERROR", "expected"),
+    ]
+    assert [lane.label for lane in both.observed.lanes] == ["test", "manager", "client", "client#2"]
+    named = msgspec.structs.replace(finding, expected_events=(Arrow("caller", "client#2", "exchange"),))
+    assert (line := compare(named, execution).expected.lines[-1]).target == "client#2"
+    assert line.source == "test"
+
+
 def test_text_is_at_most_110_columns_wide_with_many_lanes() -> None:
     steps = tuple(AddComponent(component=f"a-component-with-a-long-name-{i}") for i in range(12))
     tape = Tape()
@@ -709,6 +736,8 @@ def test_saved_failures_are_whole_scenarios_the_shortest_first(out: Path) -> Non
         assert saved.pop("scenario") == failed.execution.name
         assert saved.pop("exercises") == [failed.finding.requirement]
         assert msgspec.convert(saved, Scenario) == failed.execution.scenario
+    for path in (out / "failures").iterdir():
+        assert [to_scenario(script) for script in read_scripts(path)]
 
 
 def test_a_second_report_replaces_the_first_and_leaves_no_litter(tmp_path: Path) -> None:

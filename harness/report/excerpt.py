@@ -40,19 +40,22 @@ def compare(finding: Finding, execution: Execution) -> Comparison:
     if first is None:
         # something is missing: nothing in the trace can be pointed at, so the place where it should be is marked
         first = _place_of_step(finding, execution, lines)
-        missing = one_line(finding.expected_events[0].label if finding.expected_events else finding.expected, 60)
-        source = find_lane(finding.expected_events[0].source, whole.lanes) if finding.expected_events else TEST
-        known = source if source in {lane.key for lane in whole.lanes} else TEST
-        lines.insert(first, Line("note", known, known, f"missing: {missing}", style="offending"))
-    expected = [_expected(arrow, whole) for arrow in finding.expected_events] or [
+        lines.insert(first, _missing(finding, whole))
+    asked = lines[first].source
+    expected = [_expected(arrow, whole, asked) for arrow in finding.expected_events] or [
         Line("note", TEST, TEST, one_line(finding.expected, 90), style="expected")
     ]
     kept = _kept(lines)
-    prefix = {i for i in kept if i < first}
+    # what the test asked for is no fault: only what came of it should have been another
+    parting = (
+        first + 1 if _asked(lines[first]) and (expected[0].source != TEST or expected[0].kind == "note") else first
+    )
+    prefix = {i for i in kept if i < parting}
+    before = [replace(line, style="normal") if i == first else line for i, line in enumerate(lines)]
     lanes = replace(whole, lines=tuple(lines))
     return Comparison(
         replace(lanes, lines=_elide(lines, kept, len(lines))).without_idle_lanes(*expected),
-        replace(lanes, lines=(*_elide(lines, prefix, first), *expected)).without_idle_lanes(
+        replace(lanes, lines=(*_elide(before, prefix, parting), *expected)).without_idle_lanes(
             *(lines[i] for i in kept), *expected
         ),
     )
@@ -68,9 +71,17 @@ def excerpt(execution: Execution, longest: int = TAIL) -> Diagram:
     return replace(whole, lines=_elide(lines, kept, len(lines))).without_idle_lanes()
 
 
-def _expected(arrow: Arrow, diagram: Diagram) -> Line:
-    source, target = find_lane(arrow.source, diagram.lanes), find_lane(arrow.target, diagram.lanes)
-    kind: LineKind = "answer" if target == TEST or arrow.label.startswith(("return", "raise")) else "call"
+def _missing(finding: Finding, diagram: Diagram) -> Line:
+    wanted = finding.expected_events[0] if finding.expected_events else None
+    where = find_lane(wanted.source, diagram.lanes) if wanted else None
+    label = one_line(f"missing: {wanted.label if wanted else finding.expected}", 70)
+    return Line("note", where or TEST, where or TEST, label, style="offending")
+
+
+def _expected(arrow: Arrow, diagram: Diagram, asked: str) -> Line:
+    """An expected event as a line; a lane that the diagram does not have stands for the one that asked."""
+    source, target = find_lane(arrow.source, diagram.lanes) or asked, find_lane(arrow.target, diagram.lanes) or asked
+    kind: LineKind = "answer" if target == TEST or arrow.label.startswith(("return", "raise", "result")) else "call"
     return Line(kind, source, target, one_line(arrow.label, 90), style="expected")
 
 

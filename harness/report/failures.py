@@ -34,9 +34,9 @@ def incident_file(number: int) -> str:
     return f"{FOLDER}/incident-{number + 1}.json"
 
 
-def replay_command(file: str) -> str:
+def replay_command(file: str, adapter: str) -> str:
     """The command that plays a saved scenario again, from the report's folder."""
-    return f"ucm-cts replay {file}"
+    return f"ucm-cts replay {file} {shlex.quote(one_line(adapter))}"
 
 
 def repeat_command(adapter: str, profile: str, seed: int) -> str:

@@ -160,7 +160,7 @@ def _items(report: Report, catalogue: Sequence[Requirement], interpretations: Ma
 
 
 def _evidence(failed: FailedExecution, file: str, report: Report, drawn: bool) -> Evidence:
-    command = replay_command(file)
+    command = replay_command(file, report.adapter)
     if not drawn:
         return Evidence(failed, command)
     both = compare(failed.finding, failed.execution)
@@ -175,7 +175,7 @@ def _evidence(failed: FailedExecution, file: str, report: Report, drawn: bool) -
 
 
 def _incident(item: IncidentReport, number: int, report: Report) -> IncidentItem:
-    command = replay_command(incident_file(number))
+    command = replay_command(incident_file(number), report.adapter)
     last = last_call(item.execution)
     if number >= INCIDENTS:
         return IncidentItem(item, last, command, Markup(""), "")

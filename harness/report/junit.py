@@ -81,7 +81,7 @@ def _story(result: RequirementResult, report: Report) -> str:
             f"expected: {finding.expected}\nobserved: {finding.observed}\n"
             f"seen {failed.occurrences} times; rule {finding.rule}; scenario {failed.execution.name}\n"
             + (f"waived: {failed.waived}\n" if failed.waived else "")
-            + f"replay:   {replay_command(file_name(result.id, number))}\n\n"
+            + f"replay:   {replay_command(file_name(result.id, number), report.adapter)}\n\n"
             + failure_text(finding, failed.execution)
         )
     if len(shortest) > FINDINGS:
@@ -95,7 +95,7 @@ def _incident(case: etree._Element, report_of: IncidentReport, number: int, repo
         incident.detail,
         f"last call: {last_call(execution) or 'none'}",
         f"reproduced: {'yes' if incident.reproduced else 'no'}",
-        f"replay:    {replay_command(incident_file(number))}",
+        f"replay:    {replay_command(incident_file(number), report.adapter)}",
         "",
         to_text(excerpt(execution)),
         *(["", "stacks", incident.stacks] if incident.stacks else []),

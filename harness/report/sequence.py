@@ -31,6 +31,7 @@ from ucm_cts.adapters.contract.trace import (
 from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.wording import Wording, body_key
 from ucm_cts.harness.results import Execution
+from ucm_cts.reference_models.runtime import lane
 
 TEST = "test"
 
@@ -87,7 +88,7 @@ class Diagram:
     def without_idle_lanes(self, *others: Line) -> Diagram:
         """The diagram with those lanes only that its lines or ``others`` use; ``test`` always stays."""
         used = {key for line in (*self.lines, *others) for key in (line.source, line.target)} | {TEST}
-        return replace(self, lanes=tuple(lane for lane in self.lanes if lane.key in used))
+        return replace(self, lanes=tuple(one for one in self.lanes if one.key in used))
 
 
 @dataclass
@@ -127,13 +128,9 @@ def last_call(execution: Execution) -> str:
     return words.step(open_steps[-1]) if open_steps else ""
 
 
-def find_lane(name: str, lanes: Sequence[Lane]) -> str:
-    """The key of the lane that ``name`` means: a key, a label, or a component whose latest instance is meant."""
-    for lane in lanes:
-        if name in (lane.key, lane.label):
-            return lane.key
-    bodies = [lane.key for lane in lanes if lane.kind == "body" and lane.key.rsplit("#", 1)[0] == name]
-    return bodies[-1] if bodies else name
+def find_lane(name: str, lanes: Sequence[Lane]) -> str | None:
+    """The key of the lane that a finding calls ``name``; None if it takes no part in the diagram."""
+    return next((one.key for one in lanes if name in (one.key, one.label)), None)
 
 
 class _Walk:
@@ -148,14 +145,10 @@ class _Walk:
 
     def lanes(self) -> tuple[Lane, ...]:
         """All lanes that were met, in their final order."""
-        several = {component for component, instance in self.bodies if instance > 1}
         return (
             Lane(TEST, TEST, "test"),
             *(Lane(name, one_line(name, 40), "container") for name in self.containers),
-            *(
-                Lane(body_key(name, n), one_line(f"{name} #{n}" if name in several else name, 40), "body")
-                for name, n in self.bodies
-            ),
+            *(Lane(body_key(name, n), one_line(lane(name, n), 40), "body") for name, n in self.bodies),
         )
 
     def follow(self, event: Event) -> None:
