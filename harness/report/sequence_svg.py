@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from ucm_cts.harness.report.sequence import Diagram, Lane, Line
 from ucm_cts.harness.report.svg_text import CHARACTER, columns, shortened
@@ -42,11 +42,6 @@ def to_svg(diagram: Diagram, name: str) -> Markup:
         parts.append(_line(line, x, y[index], width))
     parts.append(Markup("</svg>"))
     return Markup("").join(parts)
-
-
-def natural_width(svg: Markup) -> int:
-    """The width the diagram has when it is not scaled."""
-    return int(svg.split('width="', 1)[1].split('"', 1)[0])
 
 
 def _lane_positions(lanes: Sequence[Lane], gutter: int) -> dict[str, int]:
@@ -173,4 +168,4 @@ def _drawing(line: Line, x: dict[str, int], y: int) -> Markup:
 
 
 def _title(whole: str, shown: str) -> Markup:
-    return Markup("<title>{}</title>").format(escape(whole)) if whole != shown else Markup("")
+    return Markup("<title>{}</title>").format(whole) if whole != shown else Markup("")
