@@ -124,6 +124,6 @@ def _scalar(path: Path, node: yaml.Node, line: int) -> object:
         return text == "true"
     if node.tag == "tag:yaml.org,2002:null":
         return None
-    if node.tag.startswith("tag:yaml.org,2002:") and node.tag not in ("tag:yaml.org,2002:binary",):
+    if node.tag.removeprefix("tag:yaml.org,2002:") in ("str", "int", "float", "bool", "timestamp", "value", "merge"):
         return text
     raise DocumentError(path, line, f"tag '{node.tag}' is not allowed; write plain text")

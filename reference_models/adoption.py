@@ -5,7 +5,6 @@ from __future__ import annotations
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Opaque, Raise, Reference, Return
 from ucm_cts.reference_models.runtime import Connection, Container, Member, Runtime, Window, raises
-from ucm_cts.reference_models.situations import undone_by
 
 
 def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
@@ -24,6 +23,8 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
             _disconnected(window)
         case s.RemoveComponent() if returned and window.subject is not None:
             _removed(runtime, window, [window.subject])
+        case s.RemoveComponent() if window.subject is not None and received(window, window.subject, "on_remove"):
+            window.subject.suspended = window.subject.doubtful = True
         case s.Start():
             _started(runtime, window, returned)
         case s.Stop():
@@ -97,7 +98,8 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, value: object)
     connection = Connection(step.bind, value, member, step.port, reference, provider)
     for earlier in member.live_connections(step.port):
         earlier.live = None
-    if member.operational or (provider is not None and provider.gone):
+    connection.stale = provider is not None and provider.gone
+    if member.operational or connection.stale:
         connection.live = None
     member.connections.append(connection)
     member.once_connected.add(step.port)
@@ -130,7 +132,7 @@ def _removed(runtime: Runtime, window: Window, removed: list[Member]) -> None:
         member.operational = False
         if member in member.container.startup_order:
             member.container.startup_order.remove(member)
-        for connection in undone_by(window, member):
+        for connection in member.connections:
             connection.live = False
 
 
@@ -154,7 +156,8 @@ def _started(runtime: Runtime, window: Window, returned: bool) -> None:
             member.operational = member in own or member.operational
         for callback in received(window, member, "on_startup"):
             _resolve(member, callback)
-        member.suspended = member.raises("on_startup") or member.instance is None
+        unseen = member.doubtful and member not in own
+        member.suspended = member.raises("on_startup") or member.instance is None or unseen
     order = {(c.component, c.instance): n for n, c in enumerate(window.callbacks) if c.hook == "on_startup"}
     for member in sorted(reached, key=lambda m: order[(m.component, m.instance or 0)]):
         member.operational = True
@@ -181,7 +184,7 @@ def _stopped(runtime: Runtime, window: Window, returned: bool) -> None:
     container.startup_order = []
     for member in container.live_members():
         member.operational = False
-        member.suspended = _unsure(member)
+        member.suspended = member.doubtful or _unsure(member)
 
 
 def _unsure(member: Member) -> bool:

@@ -261,7 +261,7 @@ def whole_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: E
             (event.n,),
         )
     elif event.hook == "on_remove" and member is not None and not member.suspended:
-        steps = [h for h in heard if h not in _CONNECTABLE_HOOKS]
+        steps = [h for h in heard if h in LIFE_CYCLE_HOOKS and h not in _CONNECTABLE_HOOKS]
         if steps[:1] == ["on_init"] and steps[1:] and steps[1:] == ["on_startup", "on_shutdown"] * (len(steps) // 2):
             ledger.exercised(requirement)
 

@@ -91,7 +91,8 @@ def no_dangling_reference(
     for port, references in given.items():
         for reference in references:
             provider = runtime.provider_of(reference)
-            if provider is not None and provider.gone:
+            stale = any(c.stale and c.reference == reference for c in member.connections)
+            if provider is not None and provider.gone and not stale:
                 ledger.violated(
                     "R-11.2.3-14",
                     "no_dangling_reference",

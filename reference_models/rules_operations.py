@@ -177,7 +177,9 @@ def membership(ledger: Ledger, runtime: Runtime, window: Window, end: Return | R
 
 def listing_problem(runtime: Runtime, container: Container, listed: tuple[int, ...]) -> str | None:
     """What is wrong with ``listed`` as the members of ``container``; the manager may list sub-containers' members too."""
-    live = [m.id for m in container.live_members()]
+    doubtful = {m.id for m in container.live_members() if m.doubtful}
+    listed = tuple(i for i in listed if i not in doubtful)
+    live = [m.id for m in container.live_members() if not m.doubtful]
     missing = [i for i in live if i not in listed]
     if missing:
         return f"lacks {missing}"

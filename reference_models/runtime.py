@@ -17,7 +17,10 @@ from ucm_cts.reference_models.life_cycle import Row, State
 
 @dataclass(slots=True, eq=False)
 class Connection:
-    """A connection: ``live`` is None where the text leaves open whether it still stands."""
+    """A connection: ``live`` is None where the text leaves open whether it still stands.
+
+    ``stale`` connections were made to a reference whose instance had been removed before.
+    """
 
     name: str
     id: int
@@ -26,11 +29,15 @@ class Connection:
     reference: MaybeReference
     provider: Member | None
     live: bool | None = True
+    stale: bool = False
 
 
 @dataclass(slots=True, eq=False)
 class Member:
-    """A component instance as far as the trace has shown it."""
+    """A component instance as far as the trace has shown it.
+
+    ``suspended``: its state is not known, so nothing about it is judged. ``doubtful``: not even whether it is a member.
+    """
 
     name: str
     component: str
@@ -40,6 +47,7 @@ class Member:
     instance: int | None
     operational: bool = False
     suspended: bool = False
+    doubtful: bool = False
     gone: bool = False
     startups: int = 0
     served: bool = False
@@ -158,13 +166,11 @@ class Runtime:
         return None, "already removed" if wanted.gone else "never existed"
 
     def find_connection(self, variable: str) -> tuple[Connection | None, str]:
-        """The connection that the id in ``variable`` designates, else None and why."""
+        """The connection, perhaps undone already, that the id in ``variable`` designates, else None and why."""
         if variable == UNKNOWN or variable not in self.connections:
             return None, "never existed"
         wanted = self.connections[variable]
-        if wanted.live is None:
-            return None, "perhaps undone"
-        if wanted.live:
+        if wanted.live is not False:
             return wanted, ""
         for other in self.connections.values():
             if other.live and other.id == wanted.id and other.client.container is wanted.client.container:

@@ -72,14 +72,14 @@ class Situations:
         if declaration is None:
             condition = "unknown implementation"
             window.judged = container.started is not None
-        elif raises(declaration, "on_init", "set_container_interface"):
+        elif raises(declaration, "on_init"):
             condition = "on_init fails, container started" if late else "on_init fails"
         else:
             needs = "ports" if declaration.requires else "nothing"
             other_kind = any(m.declaration.fragment != declaration.fragment for m in container.live_members())
             beside = ", beside the other kind" if other_kind else ""
             condition = f"container started, requires {needs}" if late else f"requires {needs}{beside}"
-        if container.started is None:
+        if container.started is None or (declaration is not None and raises(declaration, "set_container_interface")):
             window.judged = False
         self._role(window, None, "absent", condition)
 
@@ -167,7 +167,7 @@ class Situations:
             return
         window.connection = connection
         member = window.subject = connection.client
-        if member.raises("on_disconnect"):
+        if member.raises("on_disconnect") or connection.live is None:
             window.judged = False
         if member.state == "ready":
             condition = ""

@@ -273,8 +273,8 @@ TRANSITIONS = (
     TransitionResult("ready/remove_component/", 12, 0, ("remove-while-ready=refuse",)),
 )
 CATALOGUE = (
-    Requirement("R-11.1.3-01", "11.1.3", "The container lets its components communicate", "shall", "They talk.", "Values."),
-    Requirement("R-11.2.1.2-06", "11.2.1.2", "on_remove comes last", "shall", "No callback after it.", "Order of events."),
+    Requirement("R-11.1.3-01", "11.1.3", "The container lets components communicate", "shall", "They talk.", "Values."),
+    Requirement("R-11.2.1.2-06", "11.2.1.2", "on_remove comes last", "shall", "No callback after it.", "Order."),
     Requirement(
         "R-11.2.2.1-12", "11.2.2.1", "stop shuts every component down", "shall", "Each hears it once.", "Callbacks.",
         ("callbacks",), "", ("stop-inflight",),
@@ -284,7 +284,7 @@ CATALOGUE = (
     Requirement("R-11.2.3-90", "11.2.3", "Nothing to apply here", "may", "A permission."),
     Requirement("R-11.2.3-91", "11.2.3", "The harness stumbled here", "shall", "Something."),
     Requirement("R-12.10-15", "12.10", "NOT_FOUND for an unknown component", "shall", "An error.", "Answers."),
-    Requirement("R-11-01", "11", "The container joins things", "statement", "Text.", untestable="Describes an architecture."),
+    Requirement("R-11-01", "11", "It joins things", "statement", "Text.", untestable="Describes an architecture."),
 )  # fmt: skip
 
 
@@ -670,8 +670,10 @@ JUNIT = """
     </element></oneOrMore>
   </element></start>
   <define name="counts"><attribute name="name"/>
-    <attribute name="tests"><data type="integer"/></attribute><attribute name="failures"><data type="integer"/></attribute>
-    <attribute name="errors"><data type="integer"/></attribute><attribute name="skipped"><data type="integer"/></attribute>
+    <attribute name="tests"><data type="integer"/></attribute>
+    <attribute name="failures"><data type="integer"/></attribute>
+    <attribute name="errors"><data type="integer"/></attribute>
+    <attribute name="skipped"><data type="integer"/></attribute>
   </define>
   <define name="told"><attribute name="message"/><attribute name="type"/><text/></define>
 </grammar>

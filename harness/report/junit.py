@@ -21,7 +21,7 @@ FINDINGS = 3
 def to_junit(report: Report, catalogue: Sequence[Requirement]) -> bytes:
     """The report as JUnit XML, grouped by clause. The report must be clean (``foreign.clean_report``).
 
-    ``inconclusive`` is a failure of type ``inconclusive``: a CI shows a skip in green, and what was not seen is not green.
+    ``inconclusive`` is a failure of type ``inconclusive``: a skip looks green in a CI, and it must not.
     """
     name = one_line(f"{report.product} {report.version}, profile {report.profile}: {report.verdict}")
     root = etree.Element("testsuites", name=name)

@@ -1,7 +1,7 @@
 """The life cycle as a state diagram, each transition with the verdict of this run.
 
-The four states stand in a row. Transitions to the right run above, those to the left below, and what leaves the state as
-it was is listed inside it. The complete list of rows stands beside the diagram, as a table.
+The four states stand in a row. Transitions to the right run above, those to the left below, and what changes no
+state is listed inside it. The complete list of rows stands beside the diagram, as a table.
 """
 
 from __future__ import annotations
@@ -95,7 +95,10 @@ def _long_way(way: tuple[State, State], items: Sequence[Transition], edge: int, 
     turn = 10 if offset > 0 else -10
     step = 10 if end > start else -10
     verdict = worst([item.verdict for item in items if item.chosen] or ["inconclusive"])
-    path = f"M{start} {edge}V{level - turn}q0 {turn} {step} {turn}H{end - step}q{step} 0 {step} {-turn}V{edge + (turn * 9) // 10}"
+    path = (
+        f"M{start} {edge}V{level - turn}q0 {turn} {step} {turn}"
+        f"H{end - step}q{step} 0 {step} {-turn}V{edge + (turn * 9) // 10}"
+    )
     tip = f"M{end} {edge}l-4 {'-' if offset < 0 else ''}9h8z"
     # words stand near the source, where no other way crosses them
     left = start + 14 if forward else start - 14 - max(_wide(item) for item in items)

@@ -22,7 +22,7 @@ def clause_key(clause: str) -> tuple[int, ...]:
 
 
 def to_fix(results: Iterable[RequirementResult]) -> list[RequirementResult]:
-    """Failed requirements in the order to work on them: the most fundamental clause first, then what was met most often."""
+    """Failed requirements in the order to work on them: by clause, then what was met most often first."""
 
     def key(result: RequirementResult) -> tuple[tuple[int, ...], int, str]:
         return clause_key(result.clause), -sum(failed.occurrences for failed in result.findings), result.id

@@ -1,6 +1,6 @@
 """Sequence diagrams, laid out: which lanes stand side by side and which line follows which. Drawing is done elsewhere.
 
-Lanes are ``test``, the containers, and the bodies (``client#1``), each group in order of appearance. A line is one arrow
+Lanes are ``test``, the containers, and the bodies (``client#1``), each in order of appearance. A line is one arrow
 or note; an event and its answer share a line when nothing came between them and neither is under suspicion.
 """
 
@@ -55,9 +55,9 @@ class Lane:
 class Line:
     """One row of a diagram.
 
-    ``source`` and ``target`` are keys of lanes; a call that arrived nowhere has no target. ``result`` of an answer is what
-    it carries. ``begins`` and ``ends`` say that the row starts or finishes an activity on the lane it points to or comes
-    from; ``events`` are the numbers of the events it stands for.
+    ``source`` and ``target`` are keys of lanes; a call that arrived nowhere has no target. ``result`` is what an answer
+    carries. ``begins`` and ``ends`` say that the row starts or finishes an activity on the lane it points to or
+    comes from; ``events`` are the numbers of the events it stands for.
     """
 
     kind: LineKind

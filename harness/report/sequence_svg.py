@@ -135,7 +135,8 @@ def _line(line: Line, x: dict[str, int], y: int, width: int) -> Markup:
     if line.kind in ("gap", "end"):
         mark = "⋯ " if line.kind == "gap" else "⚡ "
         return Markup(
-            '<g class="{kind} {style}"><path d="M34 {y}H{right}"/><text x="46" y="{base}">{mark}{label}</text>{title}</g>'
+            '<g class="{kind} {style}"><path d="M34 {y}H{right}"/>'
+            '<text x="46" y="{base}">{mark}{label}</text>{title}</g>'
         ).format(
             kind=line.kind, style=line.style, y=y + 4, right=width - 8, base=y - 1, mark=mark, label=label, title=title
         )

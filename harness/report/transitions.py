@@ -35,7 +35,8 @@ class RowSeen:
 class Transition:
     """All outcomes by which ``operation`` leads from ``state`` to ``next``.
 
-    ``chosen`` is False when every row that leads here was exercised, and each time the framework took another permitted way.
+    ``chosen`` is False when every row that leads here was exercised, and the framework always took another permitted
+    way.
     """
 
     state: State

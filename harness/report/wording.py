@@ -35,7 +35,7 @@ def body_key(component: str, instance: int) -> str:
 
 
 class Wording:
-    """Says things about one execution; told of calls, returns and creations in their order, it knows what names mean."""
+    """Says things about one execution; told of calls, returns and creations as they come, it knows the names."""
 
     def __init__(self, execution: Execution) -> None:
         self.patience = execution.scenario.patience

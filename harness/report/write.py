@@ -26,9 +26,10 @@ def write_report(
     interpretations: Mapping[str, str],
     out: Path,
 ) -> None:
-    """Write ``report.html``, ``report.json``, ``junit.xml`` and ``failures/*.json`` into ``out``, which is made if needed.
+    """Write ``report.html``, ``report.json``, ``junit.xml`` and ``failures/*.json`` into ``out``.
 
-    ``interpretations`` maps ids to decisions. Failures that an earlier run left in ``out`` are removed.
+    The folder is made if needed. ``interpretations`` maps ids to decisions.
+    Failures that an earlier run left in ``out`` are removed.
     """
     cleaned = clean_report(report)
     folder = out / FOLDER

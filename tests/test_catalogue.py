@@ -1,0 +1,73 @@
+"""The catalogue, the table, the interpretations, the rules and the scenarios name each other correctly and completely."""
+
+from __future__ import annotations
+
+import pytest
+
+import ucm_cts.reference_models.judgement  # noqa: F401 - registers the rules
+from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_life_cycle, load_requirements
+from ucm_cts.harness.generate import generated_purposes
+from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.reference_models.ledger import RULES
+
+REQUIREMENTS = {r.id: r for r in load_requirements()}
+INTERPRETATIONS = {i.id: i for i in load_interpretations()}
+
+ONLY_UNDER_OTHER_READINGS = {
+    "initialized/connect/container started",
+    "configured/connect/container started",
+    "initialized/disconnect/container started",
+    "configured/disconnect/container started",
+    "configured/disconnect/another connection remains",
+    "configured/start/all configured after reconnecting",
+}
+"""Rows that the search does not reach when the first reading of each row is taken; scripts or variants reach them."""
+
+
+def test_ids_are_unique_and_follow_their_clause() -> None:
+    assert len(REQUIREMENTS) == len(load_requirements())
+    for requirement in REQUIREMENTS.values():
+        assert requirement.id.startswith(f"R-{requirement.clause}-"), requirement.id
+
+
+@pytest.mark.parametrize("requirement", REQUIREMENTS.values(), ids=REQUIREMENTS.keys())
+def test_requirement_is_tested_or_says_why_not(requirement: Requirement) -> None:
+    assert bool(requirement.untestable) != bool(requirement.rules)
+    assert bool(requirement.observed) == bool(requirement.rules)
+    for rule in requirement.rules:
+        assert requirement.id in RULES[rule].stands_for, f"{rule} does not stand for {requirement.id}"
+    for interpretation in requirement.interpretations:
+        assert interpretation in INTERPRETATIONS
+
+
+def test_rules_stand_for_known_requirements_that_name_them() -> None:
+    for rule in RULES.values():
+        for requirement in rule.stands_for:
+            assert rule.name in REQUIREMENTS[requirement].rules, f"{requirement} does not name {rule.name}"
+
+
+def test_table_names_known_requirements_and_readings() -> None:
+    table = load_life_cycle()
+    assert len({row.id for row in table.rows}) == len(table.rows)
+    assert {row.requirement for row in table.rows} == set(RULES["outcomes"].stands_for)
+    duties = {x for d in table.duties for x in (d.missing, d.unexpected)} | {table.order}
+    assert duties <= set(RULES["callbacks"].stands_for)
+    for outcome in (o for row in table.rows for o in row.outcomes):
+        if outcome.reading:
+            option, _, reading = outcome.reading.partition("=")
+            assert any(reading in i.options.get(option, ()) for i in INTERPRETATIONS.values()), outcome.reading
+
+
+def test_every_row_has_a_generated_scenario() -> None:
+    table = load_life_cycle()
+    reached = {purpose.id for purpose in generated_purposes(table)}
+    assert {row.id for row in table.rows} - reached == ONLY_UNDER_OTHER_READINGS
+
+
+def test_purposes_name_testable_requirements_and_are_unique() -> None:
+    purposes = load_purposes("container")
+    assert len({p.id for p in purposes}) == len(purposes)
+    for purpose in purposes:
+        assert purpose.requirements
+        for requirement in purpose.requirements:
+            assert REQUIREMENTS[requirement].rules, f"{purpose.id}: {requirement}"
