@@ -40,22 +40,24 @@ _DECLARED: Mapping[type[Exception], ErrorName] = {
 }
 
 
+Emit = Callable[[bytes], object]
+
+
 class ContractBroken(Exception):
     """The adapter returned something that is not of the type its contract declares."""
 
 
 class Engine:
-    """Serves one adapter class: one message in, one answer out, in order.
+    """Serves one adapter class: one message in, one answer out, in order."""
 
-    ``write`` receives the messages that come before an answer when events are streamed; without it none are sent.
-    """
-
-    def __init__(self, adapter_class: type[Adapter], write: Callable[[bytes], object] | None = None) -> None:
+    def __init__(self, adapter_class: type[Adapter]) -> None:
         self.adapter_class = adapter_class
-        self.write = write
 
-    def answer(self, line: bytes) -> bytes:
-        """The answer to one line of the wire protocol, without newline. Never raises for what the line says."""
+    def answer(self, line: bytes, emit: Emit | None = None) -> bytes:
+        """The answer to one line of the wire protocol, without newline. Never raises for what the line says.
+
+        ``emit`` receives the lines that come before the answer of a streamed run, each with its newline.
+        """
         try:
             message = to_host_decoder().decode(line)
         except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
@@ -63,26 +65,20 @@ class Engine:
         if isinstance(message, Hello):
             cls = self.adapter_class
             return encode(Welcome(PROTOCOL, cls.product, cls.version, cls.port_element_name))
-        return self._run(message)
-
-    def _run(self, message: Run) -> bytes:
         try:
-            return encode(self._perform(message))
+            return encode(self._perform(message, emit))
         except Exception as error:  # noqa: BLE001 - a framework may raise anything
             return encode(Refused(_describe(error), message.id))
 
-    def _perform(self, message: Run) -> Traced:
-        sink: Callable[[Event], None] | None = None
-        if message.stream and self.write:
-            write = self.write
-
-            def sink(event: Event) -> None:
-                write(encode(Happened(message.id, event)))
+    def _perform(self, message: Run, emit: Emit | None) -> Traced:
+        def sink(event: Event) -> None:
+            assert emit
+            emit(encode(Happened(message.id, event)) + b"\n")
 
         adapter = self.adapter_class()
         performance: Performance | None = None
         try:
-            performance = Performance(adapter, message.scenario, Recorder(sink))
+            performance = Performance(adapter, message.scenario, Recorder(sink if message.stream and emit else None))
             return Traced(message.id, *performance.run())
         finally:
             if performance is None or not performance.stuck:

@@ -189,7 +189,9 @@ class Probe(ComponentObject):
             self._record(Siblings, raised=True)
             return
         if not all(isinstance(member, int) for member in members):
-            self.stage.recorder.complain(f"get_components of the container interface returned {members!r}, not integers")
+            self.stage.recorder.complain(
+                f"get_components of the container interface returned {members!r}, not integers"
+            )
             return
         self._record(Siblings, ids=members)
 
