@@ -1,0 +1,241 @@
+"""Hosts: give scenarios to the host behind a door and get an answer to each, whatever happens to the host.
+
+    with Hosts(locate("reference-py")) as hosts:
+        print(hosts.welcome.product)
+        for answer in hosts.run(Run(number, scenario) for number, scenario in enumerate(scenarios)):
+            match answer.reply:
+                case Traced(): ...
+                case Refused() | Incident(): ...
+
+One host is active at a time. It is replaced after an incident, and after an answer that tells of stuck threads; the
+messages that were on their way to it are sent again to its successor.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import deque
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Self
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.messages import (
+    PROTOCOL,
+    FromHost,
+    Happened,
+    Hello,
+    Refused,
+    Run,
+    Traced,
+    Welcome,
+    encode,
+    from_host_decoder,
+)
+from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.adapters.python.loading import CannotLoad, load
+from ucm_cts.harness.host_channels import HostUnavailable, Opener, opener
+from ucm_cts.harness.host_watch import Host, HostIncident, InProcessHost, Limits, WatchedHost
+from ucm_cts.harness.locate import Door, WrongUse
+from ucm_cts.harness.results import Incident
+
+__all__ = ["Answer", "HostUnavailable", "Hosts", "Limits"]
+
+_SHOWN = 80
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came of the ``Run`` message with ``id``.
+
+    ``happened`` are the events that a streamed run sent ahead: after an incident, the trace as far as it is known.
+    """
+
+    id: int
+    reply: Traced | Refused | Incident
+    happened: tuple[Event, ...] = ()
+
+
+class Hosts:
+    """The hosts behind ``door``, one at a time. Close it, or use it in a ``with`` statement: nothing stays behind.
+
+    Raises ``WrongUse`` from ``welcome`` and ``run`` if the door leads to no adapter, ``HostUnavailable`` if no first
+    host can be had.
+    """
+
+    def __init__(self, door: Door, limits: Limits | None = None) -> None:
+        self._door = door
+        self._limits = limits or Limits()
+        self._opener: Opener | None = None
+        self._host: Host | None = None
+        self._welcome: Welcome | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    @property
+    def welcome(self) -> Welcome:
+        """Who is behind the door; starts a host if there has not been one."""
+        if self._welcome is None:
+            self._open()
+            assert self._welcome
+        return self._welcome
+
+    def run(self, runs: Iterable[Run], window: int = 32) -> Iterator[Answer]:
+        """The answers to ``runs``, in order; up to ``window`` messages are on their way at a time.
+
+        If there is no host any more, what remains is answered by incidents of kind ``unreachable``.
+        """
+        assert window > 0
+        waiting: deque[Run] = deque()
+        source = iter(runs)
+        try:
+            while True:
+                for run in itertools.islice(source, window - len(waiting)):
+                    waiting.append(run)
+                    if self._host:
+                        self._host.submit(encode(run))
+                if not waiting:
+                    return
+                if self._host is None:
+                    try:
+                        self._open()
+                    except HostUnavailable as error:
+                        if self._welcome is None:
+                            raise
+                        lost = Incident("unreachable", error.incident.detail, error.incident.stacks)
+                        for run in itertools.chain(tuple(waiting), source):
+                            yield Answer(run.id, lost)
+                        waiting.clear()
+                        return
+                    for run in waiting:
+                        self._resubmit(run)
+                answer = self._receive(waiting[0])
+                waiting.popleft()
+                yield answer
+        finally:
+            if waiting:  # nobody waits for these answers any more
+                self._discard()
+
+    def look_again(self, run: Run) -> Answer:
+        """Run one scenario alone on a fresh host that sends each event as it happens."""
+        self._discard()
+        (answer,) = self.run([msgspec.structs.replace(run, stream=True)])
+        return answer
+
+    def close(self) -> None:
+        """End the host and everything that was started for it."""
+        self._discard()
+        if self._opener:
+            self._opener.close()
+            self._opener = None
+
+    def _open(self) -> None:
+        self._discard()
+        host = self._new_host()
+        try:
+            self._welcome = self._greet(host)
+        except HostIncident as error:
+            raise HostUnavailable(_explained(error.incident, self._door)) from error
+        except BaseException:
+            host.close()
+            raise
+        self._host = host
+
+    def _new_host(self) -> Host:
+        if self._door.in_process:
+            try:
+                return InProcessHost(load(self._door.target))
+            except CannotLoad as error:
+                raise WrongUse(f"'{self._door.text}': {error}") from error
+        if self._opener is None:
+            self._opener = opener(self._door)
+        return WatchedHost(self._opener.open(), self._limits)
+
+    def _greet(self, host: Host) -> Welcome:
+        host.submit(encode(Hello(PROTOCOL)))
+        message = _decode(host, host.receive(self._limits.welcome_seconds))
+        if isinstance(message, Refused):
+            host.fail("refused", message.reason)
+        if not isinstance(message, Welcome):
+            host.fail("protocol", f"{_tag(message)} where welcome is due")
+        if message.protocol != PROTOCOL:
+            host.fail("protocol", f"the host speaks protocol {message.protocol}, the harness {PROTOCOL}")
+        return message
+
+    def _resubmit(self, run: Run) -> None:
+        assert self._host
+        self._host.submit(encode(run))
+
+    def _receive(self, run: Run) -> Answer:
+        assert self._host
+        happened: list[Event] = []
+        try:
+            reply = self._receive_reply(self._host, run, happened)
+        except HostIncident as error:
+            self._host = None
+            return Answer(run.id, error.incident, tuple(happened))
+        except BaseException:
+            self._discard()
+            raise
+        if isinstance(reply, Traced) and reply.stuck:
+            self._discard()
+        return Answer(run.id, reply, tuple(happened))
+
+    def _receive_reply(self, host: Host, run: Run, happened: list[Event]) -> Traced | Refused:
+        seconds = self._limits.seconds + waits(run.scenario)
+        while True:
+            message = _decode(host, host.receive(seconds))
+            if isinstance(message, Welcome) or (isinstance(message, Happened) and not run.stream):
+                host.fail("protocol", f"{_tag(message)} where trace is due")
+            if message.id != run.id and not (isinstance(message, Refused) and message.id is None):
+                host.fail("protocol", f"{_tag(message)} has id {message.id} where {run.id} is due")
+            if not isinstance(message, Happened):
+                return message
+            happened.append(message.event)
+
+    def _discard(self) -> None:
+        host, self._host = self._host, None
+        if host:
+            host.close()
+
+
+def waits(scenario: s.Scenario) -> float:
+    """How many seconds ``scenario`` itself may have a host wait, at most, if each probe is held at a gate once."""
+    steps = sum(isinstance(step, s.ReachGate | s.Join) for step in scenario.steps)
+    holds = sum(
+        isinstance(action, s.HoldAtGate)
+        for declaration in scenario.components.values()
+        for actions in declaration.plan.values()
+        for action in actions
+    )
+    workers = any(step.thread is not None for step in scenario.steps)
+    return (steps + holds + workers) * scenario.patience / 1000
+
+
+def _decode(host: Host, line: bytes) -> FromHost:
+    try:
+        return from_host_decoder().decode(line)
+    except msgspec.ValidationError as error:
+        host.fail("protocol", str(error))
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        shown = line[:_SHOWN].decode(errors="replace") + ("…" if len(line) > _SHOWN else "")
+        host.fail("garbage", f"not a JSON message: {shown!r}")
+
+
+def _tag(message: FromHost) -> str:
+    return str(type(message).__struct_config__.tag)
+
+
+def _explained(incident: Incident, door: Door) -> Incident:
+    return msgspec.structs.replace(
+        incident, detail=f"'{door.text}' does not answer hello: {incident.kind}, {incident.detail}"
+    )

@@ -1,0 +1,138 @@
+"""From the text that names an adapter to the door behind which it is found.
+
+Nothing is started here, and only short names import anything: an adapter that breaks when it is loaded breaks a host.
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib.machinery
+import importlib.util
+import os
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
+from typing import Literal
+from urllib.parse import urlsplit
+
+GROUP = "ucm_cts.adapters"
+"""The entry point group in which packages publish short names of adapters."""
+
+FORMS = "a short name, package.module:Class, package.module, a path, tcp://HOST:PORT or unix:/PATH"
+
+DoorKind = Literal["python", "executable", "tcp", "unix"]
+
+
+class WrongUse(Exception):
+    """What the user asked for cannot be done; the message says what is wrong and what to try."""
+
+
+@dataclass(frozen=True)
+class Door:
+    """Where an adapter is found: ``text`` as the user wrote it, ``target`` as the kind of door needs it.
+
+    ``python`` doors name a class, a module with ``answer`` or an extension module's path; ``executable`` an absolute
+    path; ``tcp`` ``HOST:PORT``; ``unix`` a path. ``in_process`` doors open inside the harness, for debuggers.
+    """
+
+    text: str
+    kind: DoorKind
+    target: str
+    in_process: bool = False
+
+
+def locate(text: str, in_process: bool = False) -> Door:
+    """The door that ``text`` names. Raises ``WrongUse``."""
+    published = _published()
+    door = _follow(published[text]) if text in published else _parse(text, published)
+    if in_process and door.kind != "python":
+        raise WrongUse(
+            f"'{text}' cannot run in the harness process: that takes a Python adapter or an extension module"
+        )
+    return replace(door, text=text, in_process=in_process)
+
+
+def _published() -> dict[str, EntryPoint]:
+    published: dict[str, EntryPoint] = {}
+    for entry in entry_points(group=GROUP):
+        known = published.setdefault(entry.name, entry)
+        if known.value != entry.value:
+            raise WrongUse(f"'{entry.name}' is published twice, as {known.value} and as {entry.value}; uninstall one")
+    return published
+
+
+def _follow(entry: EntryPoint) -> Door:
+    """Classes and modules are loaded by the host; anything else must be looked at to know which door it names."""
+    if not entry.attr:
+        return Door(entry.name, "python", entry.value)
+    try:
+        found = entry.load()
+    except (Exception, SystemExit) as error:
+        raise WrongUse(
+            f"'{entry.name}' stands for {entry.value}, which fails: {type(error).__name__}: {error}"
+        ) from error
+    if isinstance(found, str | Path):
+        return _parse(str(found), {})
+    return Door(entry.name, "python", f"{entry.module}:{entry.attr}")
+
+
+def _parse(text: str, published: Mapping[str, EntryPoint]) -> Door:
+    if text.startswith("tcp:"):
+        return Door(text, "tcp", _address(text))
+    if text.startswith("unix:"):
+        if not text.removeprefix("unix:"):
+            raise WrongUse(f"'{text}' names no socket; write unix:/PATH")
+        return Door(text, "unix", os.path.abspath(text.removeprefix("unix:")))
+    path = Path(text)
+    if os.sep in text or path.is_file():
+        return _parse_path(text, path)
+    module, colon, name = text.partition(":")
+    if not all(part.isidentifier() for part in module.split(".")) or (colon and not name.isidentifier()):
+        raise WrongUse(f"'{text}' names no adapter. {_what_there_is(text, published)}")
+    if not _is_there(module.partition(".")[0]):
+        missing = f": there is no module {module.partition('.')[0]}" if colon or "." in module else ""
+        raise WrongUse(f"'{text}' names no adapter{missing}. {_what_there_is(text, published)}")
+    return Door(text, "python", text)
+
+
+def _address(text: str) -> str:
+    try:
+        place = urlsplit(text)
+        host, port = place.hostname, place.port
+    except ValueError:
+        host = port = None
+    if not host or not port:
+        raise WrongUse(f"'{text}' is no address; write tcp://HOST:PORT, for instance tcp://127.0.0.1:4000")
+    return f"{host}:{port}"
+
+
+def _parse_path(text: str, path: Path) -> Door:
+    if not path.is_file():
+        raise WrongUse(
+            f"there is no file '{text}'" if not path.exists() else f"'{text}' is no file; name the adapter in it"
+        )
+    if path.suffix in (".so", ".pyd"):
+        return Door(text, "python", str(path.resolve()))
+    if path.suffix == ".py":
+        raise WrongUse(f"'{text}' is a Python file; name the adapter's class: {path.stem}:Class")
+    if not os.access(path, os.X_OK):
+        raise WrongUse(f"'{text}' is not executable; an adapter is an executable or an extension module (.so)")
+    return Door(text, "executable", str(path.resolve()))
+
+
+def _is_there(module: str) -> bool:
+    if importlib.machinery.PathFinder.find_spec(module, [os.getcwd(), *sys.path]):
+        return True
+    try:
+        return importlib.util.find_spec(module) is not None
+    except (ValueError, ImportError):
+        return module in sys.modules
+
+
+def _what_there_is(text: str, published: Mapping[str, EntryPoint]) -> str:
+    close = difflib.get_close_matches(text, published, 1)
+    hint = f"Did you mean '{close[0]}'? " if close else ""
+    names = ", ".join(sorted(published)) or "none: is ucm-cts installed in this environment?"
+    return f"{hint}An adapter is {FORMS}. Short names here: {names}"
