@@ -98,7 +98,8 @@ struct Implementation {
 /// Whatever the adapter uses for a container.
 typedef std::shared_ptr<void> ContainerHandle;
 
-/// Binds one framework. One instance is made for each scenario and serves one runtime.
+/// Binds one framework. One instance is made for each scenario and serves one runtime. Scenarios with threads call
+/// operations from several threads at once.
 class Adapter {
   public:
     virtual ~Adapter() = default;

@@ -4,15 +4,21 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
+#include <typeinfo>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#if defined(__GNUG__)
+#include <cxxabi.h>
+#endif
 
 #include "ucm_cts/adapter.hpp"
 #include "ucm_cts/probe.hpp"
@@ -247,10 +253,23 @@ class Engine : public std::enable_shared_from_this<Engine> {
         } catch (const UcmError& error) {
             raised(number, "UCM_ERROR", error.what());
         } catch (const std::exception& error) {
-            raised(number, "UNDECLARED", error.what());
+            raised(number, "UNDECLARED", (type_of(error) + ": " + error.what()).c_str());
         } catch (...) {
             raised(number, "UNDECLARED", "an exception that is no std::exception");
         }
+    }
+
+    static std::string type_of(const std::exception& error) {
+        const char* const name = typeid(error).name();
+#if defined(__GNUG__)
+        int status = 0;
+        const std::unique_ptr<char, void (*)(void*)> readable(abi::__cxa_demangle(name, nullptr, nullptr, &status),
+                                                              std::free);
+        if (readable) {
+            return readable.get();
+        }
+#endif
+        return name;
     }
 
     void operate(std::size_t number, const Step& step, const Arguments& with) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -84,6 +85,8 @@ class Answerer {
             out_ += '}';
         } catch (const std::exception& error) {
             refuse(std::string("the adapter could not be made: ") + error.what());
+        } catch (...) {
+            refuse("the adapter could not be made");
         }
     }
 

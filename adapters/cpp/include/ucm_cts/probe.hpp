@@ -64,10 +64,13 @@ class Probe {
     const Declaration& declaration() const { return declaration_; }
     int instance() const { return instance_; }
 
+    /// Has the scenario ended? Then the probe is silent and has no plan.
+    bool over() const { return stage_->recorder.closed(); }
+
     /// Records the entry with the arguments that `append_arguments(text)` appends, performs the plan, records the exit.
     template <class AppendArguments>
     void visit(Hook hook, AppendArguments append_arguments) {
-        if (stage_->recorder.closed()) {
+        if (over()) {
             return;
         }
         enter(hook, append_arguments);
@@ -77,7 +80,7 @@ class Probe {
 
     std::int32_t exchange(const std::string& port, std::int32_t value) {
         std::int32_t result = ~value;
-        if (stage_->recorder.closed()) {
+        if (over()) {
             return result;
         }
         enter(Hook::exchange, [&port, value](std::string& out) {
@@ -257,7 +260,10 @@ class ProbePort final : public PortElement {
         : probe_(std::move(probe)), identity_(Identity{probe_->declaration().name, probe_->instance(), port}) {}
 
     std::int32_t exchange(std::int32_t value) override { return probe_->exchange(identity_.port, value); }
-    const Identity* identity() const override { return &identity_; }
+    const std::string& port() const { return identity_.port; }
+
+    /// A port element of an earlier scenario is a stranger in this one.
+    const Identity* identity() const override { return probe_->over() ? nullptr : &identity_; }
 
   private:
     const std::shared_ptr<Probe> probe_;
@@ -337,7 +343,7 @@ class ProbeBody final : public Body {
 
     Reference get_portElement(const std::string& provided) override {
         for (const std::shared_ptr<ProbePort>& port : ports_) {
-            if (port->identity()->port == provided) {
+            if (port->port() == provided) {
                 return port;
             }
         }

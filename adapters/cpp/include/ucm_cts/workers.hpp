@@ -58,9 +58,13 @@ class Workers {
     /// Lets all workers end; returns the names of those that do not in time. Queue nothing afterwards.
     std::vector<std::string> finish() {
         std::vector<std::string> stuck;
-        std::lock_guard<std::mutex> lock(mutex_);
+        std::map<std::string, std::shared_ptr<Worker>> workers;
+        {
+            std::lock_guard<std::mutex> lock(mutex_);  // not held below: a worker may yet want to join another
+            workers = workers_;
+        }
         const auto deadline = std::chrono::steady_clock::now() + patience_;
-        for (auto& entry : workers_) {
+        for (auto& entry : workers) {
             Worker& worker = *entry.second;
             if (worker.wait_until_idle(deadline)) {
                 worker.quit();
