@@ -37,6 +37,19 @@ class Limits:
     welcome_seconds: float = 20.0
 
 
+@dataclass(frozen=True)
+class Deadline:
+    """A point of time by ``time.monotonic``, and how many seconds it was away when it was set."""
+
+    end: float
+    seconds: float
+
+    @classmethod
+    def after(cls, seconds: float) -> Deadline:
+        """The deadline ``seconds`` from now."""
+        return cls(time.monotonic() + seconds, seconds)
+
+
 class HostIncident(Exception):
     """The host did what it must not, and is gone."""
 
@@ -51,8 +64,8 @@ class Host(Protocol):
     def submit(self, line: bytes) -> None:
         """Send a message, now or while waiting for answers. Never blocks and never raises."""
 
-    def receive(self, seconds: float) -> bytes:
-        """The next message of the host. Raises ``HostIncident``, also when there is none within ``seconds``."""
+    def receive(self, deadline: Deadline) -> bytes:
+        """The next message of the host. Raises ``HostIncident``, also when the deadline passes."""
 
     def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
         """End the host because of what it said: raises ``HostIncident``."""
@@ -73,6 +86,7 @@ class WatchedHost:
         self._stderr = bytearray()
         self._looked = 0.0
         self._writing = False
+        self._ended = False
         self._selector = selectors.DefaultSelector()
         os.set_blocking(channel.source, False)
         os.set_blocking(channel.target, False)
@@ -89,16 +103,20 @@ class WatchedHost:
         if not self._writing:
             self._flush()
 
-    def receive(self, seconds: float) -> bytes:
-        deadline = time.monotonic() + seconds
+    def receive(self, deadline: Deadline) -> bytes:
+        now = time.monotonic()
+        if now >= deadline.end:
+            self._fail_hanging(deadline)
         while not self._lines:
+            if self._ended and not self._read():  # even if the pipe is held open by a process that got away
+                self._fail_ended()
             now = time.monotonic()
-            if now >= deadline:
-                self._fail_hanging(seconds)
+            if now >= deadline.end:
+                self._fail_hanging(deadline)
             if now >= self._looked + _LOOK_SECONDS:
                 self._looked = now
                 self._check_memory()
-            for key, _ in self._selector.select(min(deadline - now, _LOOK_SECONDS)):
+            for key, _ in self._selector.select(min(deadline.end - now, _LOOK_SECONDS)):
                 if key.fd == self._channel.source:
                     self._read()
                 elif key.fd == self._channel.error:
@@ -106,12 +124,12 @@ class WatchedHost:
                 elif key.fd == self._channel.target:
                     self._flush()
                 elif self._channel.status(0) is not None:
-                    self._read_rest()
+                    self._ended = True
         return self._lines.popleft()
 
-    def fail(self, kind: IncidentKind, detail: str, stacks: bytes | None = None) -> NoReturn:
+    def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
         self._drain()
-        text = bytes(self._stderr if stacks is None else stacks).decode(errors="replace")
+        text = self._stderr.decode(errors="replace")
         self._close(orderly=False)
         raise HostIncident(Incident(kind, detail, text))
 
@@ -159,13 +177,6 @@ class WatchedHost:
             self.fail("flood", f"a line of more than {self._limits.line / _MIB:g} MiB")
         return True
 
-    def _read_rest(self) -> None:
-        """The host has ended: take in what it said before, then report its end."""
-        while self._read():
-            if self._lines:
-                return
-        self._fail_ended()
-
     def _drain(self) -> int:
         """Keep the end of what there is on standard error; returns how much was new."""
         new = 0
@@ -192,7 +203,7 @@ class WatchedHost:
         if resident > self._limits.memory:
             self.fail("memory", f"{resident} MiB resident, {self._limits.memory} MiB allowed")
 
-    def _fail_hanging(self, seconds: float) -> NoReturn:
+    def _fail_hanging(self, deadline: Deadline) -> NoReturn:
         self._drain()
         self._stderr.clear()
         self._channel.signal(signal.SIGUSR1)
@@ -204,7 +215,7 @@ class WatchedHost:
                 if not patient.select(max(wait, 0)):
                     break
             self._drain()
-        self.fail("hang", f"no answer within {seconds:g} s")
+        self.fail("hang", f"no answer within {deadline.seconds:g} s")
 
     def _fail_ended(self) -> NoReturn:
         half = f" after {len(self._partial)} bytes of an answer" if self._partial else ""
@@ -229,7 +240,7 @@ class InProcessHost:
     def submit(self, line: bytes) -> None:
         self._questions.append(line)
 
-    def receive(self, seconds: float) -> bytes:
+    def receive(self, deadline: Deadline) -> bytes:
         if not self._lines:
             answer = self._answer(self._questions.popleft(), lambda line: self._lines.append(line.rstrip(b"\n")))
             self._lines.append(answer)

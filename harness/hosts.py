@@ -38,7 +38,7 @@ from ucm_cts.adapters.contract.messages import (
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.adapters.python.loading import CannotLoad, load
 from ucm_cts.harness.host_channels import HostUnavailable, Opener, opener
-from ucm_cts.harness.host_watch import Host, HostIncident, InProcessHost, Limits, WatchedHost
+from ucm_cts.harness.host_watch import Deadline, Host, HostIncident, InProcessHost, Limits, WatchedHost
 from ucm_cts.harness.locate import Door, WrongUse
 from ucm_cts.harness.results import Incident
 
@@ -116,8 +116,9 @@ class Hosts:
                             yield Answer(run.id, lost)
                         waiting.clear()
                         return
+                    assert self._host
                     for run in waiting:
-                        self._resubmit(run)
+                        self._host.submit(encode(run))
                 answer = self._receive(waiting[0])
                 waiting.popleft()
                 yield answer
@@ -162,7 +163,7 @@ class Hosts:
 
     def _greet(self, host: Host) -> Welcome:
         host.submit(encode(Hello(PROTOCOL)))
-        message = _decode(host, host.receive(self._limits.welcome_seconds))
+        message = _decode(host, host.receive(Deadline.after(self._limits.welcome_seconds)))
         if isinstance(message, Refused):
             host.fail("refused", message.reason)
         if not isinstance(message, Welcome):
@@ -170,10 +171,6 @@ class Hosts:
         if message.protocol != PROTOCOL:
             host.fail("protocol", f"the host speaks protocol {message.protocol}, the harness {PROTOCOL}")
         return message
-
-    def _resubmit(self, run: Run) -> None:
-        assert self._host
-        self._host.submit(encode(run))
 
     def _receive(self, run: Run) -> Answer:
         assert self._host
@@ -191,9 +188,9 @@ class Hosts:
         return Answer(run.id, reply, tuple(happened))
 
     def _receive_reply(self, host: Host, run: Run, happened: list[Event]) -> Traced | Refused:
-        seconds = self._limits.seconds + waits(run.scenario)
+        deadline = Deadline.after(self._limits.seconds + waits(run.scenario))
         while True:
-            message = _decode(host, host.receive(seconds))
+            message = _decode(host, host.receive(deadline))
             if isinstance(message, Welcome) or (isinstance(message, Happened) and not run.stream):
                 host.fail("protocol", f"{_tag(message)} where trace is due")
             if message.id != run.id and not (isinstance(message, Refused) and message.id is None):
