@@ -127,9 +127,15 @@ class Hosts:
                 self._discard()
 
     def look_again(self, run: Run) -> Answer:
-        """Run one scenario alone on a fresh host that sends each event as it happens."""
+        """Run one scenario alone on a host of its own that sends each event as it happens.
+
+        May be called between two answers of a ``run`` in progress, which goes on with a fresh host.
+        """
         self._discard()
-        (answer,) = self.run([msgspec.structs.replace(run, stream=True)])
+        try:
+            (answer,) = self.run([msgspec.structs.replace(run, stream=True)])
+        finally:
+            self._discard()
         return answer
 
     def close(self) -> None:

@@ -30,6 +30,9 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
         case s.Stop():
             _stopped(runtime, window, returned)
         case s.CreateContainer() as step if returned:
+            earlier = runtime.containers.get(step.bind)
+            if earlier is not None:  # the variable is bound anew; the container it held is still there
+                runtime.containers[f"{step.bind}, {len(runtime.containers)}"] = earlier
             runtime.containers[step.bind] = Container(step.bind)
         case s.RemoveContainer() as step if returned:
             container = runtime.containers.get(step.container)
@@ -43,8 +46,11 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
                     member.gone = member.gone or returned
         case _:
             pass
-    if not returned and isinstance(end, Raise) and end.error == "UNDECLARED":
+    if window.lost:
         _lose_track(window)
+    for member in runtime.members.values():
+        if member.suspended and window.callbacks:
+            _follow(window, member)
 
 
 def received(window: Window, member: Member, hook: s.Hook) -> list[Enter]:
@@ -56,7 +62,8 @@ def received(window: Window, member: Member, hook: s.Hook) -> list[Enter]:
 
 def _added(runtime: Runtime, window: Window, step: s.AddComponent, value: object) -> None:
     declaration = runtime.scenario.components.get(step.component)
-    bodies = [(c.component, c.instance) for c in window.callbacks if (c.component, c.instance) not in runtime.bodies]
+    seen = [*((c.component, c.instance) for c in window.callbacks), *window.created]
+    bodies = [body for body in seen if body not in runtime.bodies]
     own = [b for b in bodies if b[0] == step.component]
     if not isinstance(value, int) or isinstance(value, bool):
         window.container.failed_adds += 1
@@ -73,6 +80,9 @@ def _added(runtime: Runtime, window: Window, step: s.AddComponent, value: object
     member.suspended = (
         not own or declaration is None or not window.judged or raises(declaration, "on_init", "set_container_interface")
     )
+    twins = [m for m in window.container.live_members() if m.id == value]
+    for unsure in (member, *twins) if twins or declaration is None else ():
+        unsure.suspended = unsure.doubtful = True
     window.container.members.append(member)
     runtime.members[member.name] = member
     if member.instance is not None:
@@ -98,9 +108,15 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, value: object)
     connection = Connection(step.bind, value, member, step.port, reference, provider)
     for earlier in member.live_connections(step.port):
         earlier.live = None
+    twins = [c for c in runtime.connections.values() if c.live and c.id == value and c.client.container is member.container]
+    for twin in twins:
+        twin.ambiguous = connection.ambiguous = True
+        twin.client.suspended = member.suspended = True
     connection.stale = provider is not None and provider.gone
     if member.operational or connection.stale:
         connection.live = None
+    if connection.stale:
+        member.suspended = True
     member.connections.append(connection)
     member.once_connected.add(step.port)
     runtime.connections[step.bind] = connection
@@ -140,6 +156,7 @@ def _started(runtime: Runtime, window: Window, returned: bool) -> None:
     container = window.container
     reached = [m for c in runtime.containers.values() for m in c.live_members() if received(window, m, "on_startup")]
     own = [m for m in reached if m.container is container]
+    _reached_unseen(runtime, container)
     if not returned:
         failing = any(m.raises("on_startup") for m in container.live_members())
         if container.started is not False or failing or any(not received(window, m, "on_shutdown") for m in own):
@@ -156,13 +173,13 @@ def _started(runtime: Runtime, window: Window, returned: bool) -> None:
             member.operational = member in own or member.operational
         for callback in received(window, member, "on_startup"):
             _resolve(member, callback)
-        unseen = member.doubtful and member not in own
-        member.suspended = member.raises("on_startup") or member.instance is None or unseen
+        member.suspended = member.raises("on_startup") or member.instance is None or member.doubtful
     order = {(c.component, c.instance): n for n, c in enumerate(window.callbacks) if c.hook == "on_startup"}
     for member in sorted(reached, key=lambda m: order[(m.component, m.instance or 0)]):
         member.operational = True
         member.startups += 1
-        member.container.startup_order.append(member)
+        if member not in member.container.startup_order:
+            member.container.startup_order.append(member)
         if member.container is not container:
             member.container.started = True
     container.started = True
@@ -170,6 +187,7 @@ def _started(runtime: Runtime, window: Window, returned: bool) -> None:
 
 def _stopped(runtime: Runtime, window: Window, returned: bool) -> None:
     container = window.container
+    _reached_unseen(runtime, container)
     for other in runtime.containers.values():
         for member in other.live_members():
             if received(window, member, "on_shutdown"):
@@ -190,7 +208,7 @@ def _stopped(runtime: Runtime, window: Window, returned: bool) -> None:
 def _unsure(member: Member) -> bool:
     """Is it open whether the instance is configured?"""
     open_ports = {c.port for c in member.connections if c.live is None} - {c.port for c in member.live_connections()}
-    return bool(open_ports) or member.instance is None
+    return bool(open_ports) or member.instance is None or member.raises("on_init")
 
 
 def _resolve(member: Member, startup: Enter) -> None:
@@ -199,6 +217,24 @@ def _resolve(member: Member, startup: Enter) -> None:
     for connection in member.connections:
         if connection.live is None:
             connection.live = (connection.port, connection.reference) in handed_over
+
+
+def _reached_unseen(runtime: Runtime, container: Container) -> None:
+    """The manager's start or stop may have reached sub-containers without members, where nobody can tell."""
+    if container is runtime.containers[s.MANAGER]:
+        for other in runtime.containers.values():
+            if other is not container and not other.live_members():
+                other.started = None
+
+
+def _follow(window: Window, member: Member) -> None:
+    """An instance that is not judged goes where its callbacks say."""
+    for callback in window.callbacks:
+        if (callback.component, callback.instance) == (member.component, member.instance):
+            if callback.hook == "on_startup":
+                member.operational = True
+            elif callback.hook == "on_shutdown":
+                member.operational = False
 
 
 def _lose_track(window: Window) -> None:

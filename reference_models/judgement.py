@@ -108,6 +108,9 @@ class Judge:
                 case Siblings():
                     for check in self._noted:
                         check(ledger, runtime, event)
-                case Create() | _:
+                case Create():
+                    if window is not None:
+                        window.created.append((event.component, event.instance))
+                case _:
                     pass
         return ledger

@@ -33,7 +33,8 @@ class Outcome(Value):
 class Row(Value):
     """What may happen to an instance in ``state`` when ``operation`` meets ``condition``.
 
-    ``requirement`` is the one that a forbidden answer violates.
+    ``requirement`` is the one that a forbidden answer violates. ``missing``, if given, is the one that a missing
+    callback violates in this very row; otherwise the callback's duty says so.
     """
 
     operation: str
@@ -41,6 +42,7 @@ class Row(Value):
     condition: str
     requirement: str
     outcomes: tuple[Outcome, ...]
+    missing: str = ""
 
     @property
     def id(self) -> str:

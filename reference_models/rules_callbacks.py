@@ -21,7 +21,7 @@ _CONNECTABLE_HOOKS = ("on_connect", "on_disconnect")
 _FROM_DUTIES = (
     "R-11.1.3-04 R-11.2.1.2-04 R-11.2.1.2-06 R-11.2.1.2-10 R-11.2.1.3-02 R-11.2.1.3-03 R-11.2.1.3-05 R-11.2.1.4-01 "
     "R-11.2.2.1-11 R-11.2.2.1-12 R-11.2.2.2-01 R-11.2.2.2-04 R-11.2.2.2-05 R-11.2.3-01 R-11.2.3-05 R-11.2.3-09 "
-    "R-11.2.3-12"
+    "R-11.2.3-07 R-11.2.3-12 R-11.2.3-15"
 ).split()
 
 Token = tuple[str, bool]
@@ -122,7 +122,7 @@ def _instance(
     ledger.row(row).violated += 1
     if missing:
         hook = next(h for h, optional in tokens if not optional and h in missing)
-        requirement = _duty(ledger, hook, row.operation).missing
+        requirement = row.missing or _duty(ledger, hook, row.operation).missing
         if declaration.fragment and hook in ("on_init", "on_startup"):
             requirement = "R-11.2.1.4-01"
         cause, observation = f"{row.operation} without {hook}", f"{window.operation} ended without {hook} on {who}"
@@ -218,7 +218,7 @@ def _manager_forgot_its_own(ledger: Ledger, window: Window, answer: str, end: in
     due = [
         m
         for m, row in window.roles
-        if m is not None and m.container is window.container and all(hook in o.callbacks for o in row.outcomes if "return" in o.answer)
+        if m is not None and not row.missing and m.container is window.container and all(hook in o.callbacks for o in row.outcomes if "return" in o.answer)
     ]
     if not due:
         return False
@@ -278,6 +278,10 @@ def nothing_outside_life(
         return
     early = event.hook != "on_init" and "on_init" not in heard
     late = "on_remove" in heard
+    if late and window is not None and any(
+        c.hook == "on_remove" and (c.component, c.instance) == (event.component, event.instance) for c in window.callbacks
+    ):
+        return  # within the removal itself it is a matter of order
     member = runtime.member_of(event.component, event.instance)
     if not (early or late) or (member is not None and member.suspended):
         return

@@ -57,7 +57,9 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
     for port in member.declaration.requires:
         connections = [c for c in member.connections if c.port == port and c.live is not False]
         certain = [c for c in connections if c.live]
-        references = given.get(port, [])
+        undone = {c.reference for c in member.connections if c.port == port and c.live is False}
+        undone -= {c.reference for c in connections}
+        references = [r for r in given.get(port, []) if r not in undone]  # no_dangling_reference's matter
         if certain and not references:
             what = "no reference for it" if port in given else "nothing of that name"
             return "R-11.2.1.2-09", "missing", f"a reference for {port}, which is connected", what
@@ -67,8 +69,6 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
             for r in references
             if isinstance(r, Reference) and r not in wanted and all(isinstance(c.reference, Reference) for c in connections)
         ]
-        once = {c.reference for c in member.connections if c.port == port}
-        strangers = [r for r in strangers if r not in once]  # a reference undone earlier is no_dangling_reference's
         if strangers and certain:
             return "R-11.2.1.2-03", "reference", f"{port} = {_expected(member)}", f"{port} = {_show(strangers[0])}"
         if certain and len(references) > len(connections):
@@ -82,7 +82,7 @@ def no_dangling_reference(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
 ) -> None:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
-    if event.hook != "on_startup":
+    if event.hook != "on_startup" or (window is not None and window.operation == "connect"):
         return
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.operational:
@@ -91,7 +91,7 @@ def no_dangling_reference(
     for port, references in given.items():
         for reference in references:
             provider = runtime.provider_of(reference)
-            stale = any(c.stale and c.reference == reference for c in member.connections)
+            stale = any(c.stale and c.provider is provider for c in member.connections)
             if provider is not None and provider.gone and not stale:
                 ledger.violated(
                     "R-11.2.3-14",

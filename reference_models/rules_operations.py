@@ -41,6 +41,8 @@ def declared_errors(ledger: Ledger, runtime: Runtime, window: Window, end: Retur
     if isinstance(end, Return) or end.error in declared:
         ledger.exercised(requirement)
         return
+    window.lost = True
+    window.judged = False
     name = end.error if end.error != "UNDECLARED" else f"an undeclared exception ({end.detail})"
     ledger.violated(
         requirement,
@@ -62,6 +64,7 @@ def outcomes(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Rai
         return
     if window.forgiving and answer == "UCM_ERROR":
         window.judged = False
+        window.lost = True
         return
     for member, row in window.roles:
         permitted = {a for outcome in row.outcomes for a in outcome.answer}
@@ -69,6 +72,7 @@ def outcomes(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Rai
             ledger.exercised(row.requirement)
             continue
         window.judged = False
+        window.lost = True
         ledger.row(row).violated += 1
         instance = f"{member.lane} is {row.state}" if member else ""
         situation = ", ".join(filter(None, (instance, row.condition)))
@@ -177,9 +181,9 @@ def membership(ledger: Ledger, runtime: Runtime, window: Window, end: Return | R
 
 def listing_problem(runtime: Runtime, container: Container, listed: tuple[int, ...]) -> str | None:
     """What is wrong with ``listed`` as the members of ``container``; the manager may list sub-containers' members too."""
-    doubtful = {m.id for m in container.live_members() if m.doubtful}
-    listed = tuple(i for i in listed if i not in doubtful)
-    live = [m.id for m in container.live_members() if not m.doubtful]
+    if any(m.doubtful for m in container.members):
+        return None
+    live = [m.id for m in container.live_members()]
     missing = [i for i in live if i not in listed]
     if missing:
         return f"lacks {missing}"

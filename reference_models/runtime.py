@@ -19,7 +19,8 @@ from ucm_cts.reference_models.life_cycle import Row, State
 class Connection:
     """A connection: ``live`` is None where the text leaves open whether it still stands.
 
-    ``stale`` connections were made to a reference whose instance had been removed before.
+    ``stale`` connections were made to a reference whose instance had been removed before; ``ambiguous`` ones share their
+    id with another live one.
     """
 
     name: str
@@ -30,6 +31,7 @@ class Connection:
     provider: Member | None
     live: bool | None = True
     stale: bool = False
+    ambiguous: bool = False
 
 
 @dataclass(slots=True, eq=False)
@@ -106,6 +108,7 @@ class Window:
 
     ``roles`` pairs each instance concerned with the row of the life-cycle table that stands for it (the instance is
     None where the row is about one that does not exist). ``judged`` is False where the model cannot predict.
+    After a ``lost`` window nobody can say what state it left. ``created`` are the bodies made meanwhile.
     ``forgiving`` windows may end in UCM_ERROR for a reason the rows do not show. ``call`` is the call event's ``n``.
     """
 
@@ -117,7 +120,9 @@ class Window:
     roles: list[tuple[Member | None, Row]] = field(default_factory=list)
     judged: bool = True
     forgiving: bool = False
+    lost: bool = False
     callbacks: list[Enter] = field(default_factory=list)
+    created: list[tuple[str, int]] = field(default_factory=list)
     subject: Member | None = None
     connection: Connection | None = None
 

@@ -101,7 +101,8 @@ class Situations:
             self._member_role(window, member, "provider in use")
         else:
             self._member_role(window, member, "connected" if member.live_connections() else "not connected")
-        if any(c.live is None for c in member.connections):
+        doubtful = [c for m in runtime.members.values() for c in m.connections if c.live is None or c.ambiguous]
+        if any(member is c.provider or member is c.client for c in doubtful):
             window.judged = False
         for client, _ in clients:
             self._member_role(window, client, "", "remove_provider")
@@ -167,7 +168,7 @@ class Situations:
             return
         window.connection = connection
         member = window.subject = connection.client
-        if member.raises("on_disconnect") or connection.live is None:
+        if member.raises("on_disconnect") or connection.live is None or connection.ambiguous:
             window.judged = False
         if member.state == "ready":
             condition = ""

@@ -1,0 +1,25 @@
+"""Every testable requirement has a wrong subject that fails it, and fails nothing that it does not break."""
+
+from __future__ import annotations
+
+import pytest
+from pipeline import failing_requirements
+from wrong_subjects import SUBJECTS, WrongSubject
+
+from ucm_cts.harness.catalogue import load_requirements
+
+
+@pytest.mark.parametrize("subject", SUBJECTS.values(), ids=SUBJECTS.keys())
+def test_subject_fails_for_the_right_reason(subject: WrongSubject) -> None:
+    failing = failing_requirements(subject.adapter)
+    missed = set(subject.requirements) - set(failing)
+    spilled = {k: v for k, v in failing.items() if k not in subject.requirements and k not in subject.also}
+    assert not missed, f"{subject.name} survives {missed}; it fails {failing}"
+    assert not spilled, f"{subject.name} also fails {spilled}"
+
+
+def test_every_testable_requirement_has_a_wrong_subject() -> None:
+    broken = {requirement for subject in SUBJECTS.values() for requirement in subject.requirements}
+    testable = {r.id for r in load_requirements() if not r.untestable}
+    assert testable - broken == set()
+    assert broken <= testable
