@@ -20,7 +20,7 @@ from ucm_cts.harness.results import Incident, IncidentKind
 START_SECONDS = 60.0
 """How long an adapter may take to be loaded."""
 
-_RETRY_SECONDS = 2.0
+_RETRY_SECONDS = 1.0
 _FAREWELL_SECONDS = 0.5
 _LOG_TAIL = 1 << 16
 
