@@ -92,17 +92,18 @@ class Hosts:
     def run(self, runs: Iterable[Run], window: int = 32) -> Iterator[Answer]:
         """The answers to ``runs``, in order; up to ``window`` messages are on their way at a time.
 
+        Between two answers the caller may ``look_again``: what was on its way is then sent again.
+
         If there is no host any more, what remains is answered by incidents of kind ``unreachable``.
         """
         assert window > 0
         waiting: deque[Run] = deque()
         source = iter(runs)
+        current: Host | None = None
+        sent = 0  # how many of those waiting have been sent to the current host
         try:
             while True:
-                for run in itertools.islice(source, window - len(waiting)):
-                    waiting.append(run)
-                    if self._host:
-                        self._host.submit(encode(run))
+                waiting.extend(itertools.islice(source, window - len(waiting)))
                 if not waiting:
                     return
                 if self._host is None:
@@ -117,10 +118,14 @@ class Hosts:
                         waiting.clear()
                         return
                     assert self._host
-                    for run in waiting:
-                        self._host.submit(encode(run))
+                if self._host is not current:
+                    current, sent = self._host, 0
+                for run in itertools.islice(waiting, sent, None):
+                    current.submit(encode(run))
+                sent = len(waiting)
                 answer = self._receive(waiting[0])
                 waiting.popleft()
+                sent -= 1
                 yield answer
         finally:
             if waiting:  # nobody waits for these answers any more

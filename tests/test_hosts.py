@@ -82,7 +82,7 @@ def incident_of(adapter: str, limits: Limits) -> Incident:
 )
 @pytest.mark.usefixtures("no_leaks")
 def test_end_of_a_host_is_an_incident(adapter: str, kind: str, detail: str, stack: str) -> None:
-    incident = incident_of(f"adapters:{adapter}", PATIENT)
+    incident = incident_of(f"misbehaving:{adapter}", PATIENT)
     assert incident.kind == kind
     assert detail in incident.detail
     assert stack in incident.stacks
@@ -91,14 +91,14 @@ def test_end_of_a_host_is_an_incident(adapter: str, kind: str, detail: str, stac
 @pytest.mark.parametrize("adapter", ["Hangs", "HangsNatively"])
 @pytest.mark.usefixtures("no_leaks")
 def test_hang_is_an_incident_with_stacks(adapter: str) -> None:
-    incident = incident_of(f"adapters:{adapter}", LIMITS)
+    incident = incident_of(f"misbehaving:{adapter}", LIMITS)
     assert (incident.kind, incident.detail) == ("hang", "no answer within 0.3 s")
     assert "in misbehave" in incident.stacks
 
 
 @pytest.mark.usefixtures("no_leaks")
 def test_stuck_thread_is_told_and_the_host_replaced() -> None:
-    answer, others = around_trigger("adapters:HangsOnWorkers", PATIENT, IN_THREAD)
+    answer, others = around_trigger("misbehaving:HangsOnWorkers", PATIENT, IN_THREAD)
     assert isinstance(answer.reply, Traced)
     assert answer.reply.stuck == ("w",)
     assert all(isinstance(other.reply, Traced) for other in others)
@@ -106,19 +106,19 @@ def test_stuck_thread_is_told_and_the_host_replaced() -> None:
 
 @pytest.mark.parametrize("adapter", ["Prints", "FloodsStandardError", "ExitsByException"])
 def test_output_and_exit_of_a_framework_do_not_reach_the_protocol(adapter: str) -> None:
-    answer, others = around_trigger(f"adapters:{adapter}", PATIENT)
+    answer, others = around_trigger(f"misbehaving:{adapter}", PATIENT)
     assert all(isinstance(each.reply, Traced) for each in (answer, *others))
 
 
 @pytest.mark.parametrize(
     ("adapter", "reason"),
     [
-        ("GivesTextForAnId", "add_component returned 'number one'; it returns an integer"),
+        ("GivesTextForAnId", "add_component returned 'number one'; it returns an integer of 32 bits"),
         ("HasNoRuntime", "licence server"),
     ],
 )
 def test_adapter_that_breaks_its_contract_is_refused(adapter: str, reason: str) -> None:
-    answer, _ = around_trigger(f"adapters:{adapter}", PATIENT)
+    answer, _ = around_trigger(f"misbehaving:{adapter}", PATIENT)
     assert isinstance(answer.reply, Refused)
     assert reason in answer.reply.reason
 
@@ -178,7 +178,7 @@ def test_without_a_welcome_there_is_no_host(
 @pytest.mark.usefixtures("no_leaks")
 def test_second_look_tells_what_happened_before_a_crash() -> None:
     scenario = Scenario(TRIGGER.components, (s.AddComponent("calm"), s.AddComponent("trigger")))
-    with Hosts(locate("adapters:Aborts"), PATIENT) as hosts:
+    with Hosts(locate("misbehaving:Aborts"), PATIENT) as hosts:
         first = next(hosts.run([Run(1, scenario)]))
         second = hosts.look_again(Run(2, scenario))
     assert isinstance(first.reply, Incident)
@@ -187,6 +187,19 @@ def test_second_look_tells_what_happened_before_a_crash() -> None:
     assert [type(event) for event in second.happened][:2] == [Call, Create]
     assert isinstance(second.happened[-1], Call)
     assert second.happened[-1].step == 1
+
+
+@pytest.mark.usefixtures("no_leaks")
+def test_second_look_may_come_between_answers() -> None:
+    seen = []
+    with Hosts(locate("misbehaving:Aborts"), PATIENT) as hosts:
+        for answer in hosts.run(Run(n, TRIGGER if n % 7 == 3 else CALM) for n in range(100)):
+            crashed = isinstance(answer.reply, Incident)
+            seen.append((answer.id, crashed))
+            if crashed or answer.id % 10 == 0:
+                again = hosts.look_again(Run(1000, TRIGGER if crashed else CALM))
+                assert isinstance(again.reply, Incident) == crashed
+    assert seen == [(n, n % 7 == 3) for n in range(100)]
 
 
 @pytest.mark.usefixtures("no_leaks")
@@ -207,7 +220,7 @@ def test_answers_nobody_waits_for_are_not_mixed_up() -> None:
 
 @pytest.mark.usefixtures("no_leaks")
 def test_fresh_host_after_a_crash_costs_little() -> None:
-    with Hosts(locate("adapters:Aborts"), PATIENT) as hosts:
+    with Hosts(locate("misbehaving:Aborts"), PATIENT) as hosts:
         assert hosts.welcome.product
         began = time.monotonic()
         answers = list(hosts.run(Run(n, TRIGGER) for n in range(20)))
@@ -237,7 +250,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Run
 from ucm_cts.harness.hosts import Hosts, Limits
 from ucm_cts.harness.locate import locate
-hosts = Hosts(locate("adapters:Hangs"), Limits(seconds=600))
+hosts = Hosts(locate("misbehaving:Hangs"), Limits(seconds=600))
 hosts.welcome
 print("ready", flush=True)
 list(hosts.run([Run(1, s.Scenario({"trigger": s.Declaration()}, (s.AddComponent("trigger"),)))]))
@@ -264,7 +277,7 @@ def test_listening_host(tmp_path: Path, address: str) -> None:
         sys.executable,
         "-m",
         "ucm_cts.adapters.python.host",
-        "adapters:Aborts",
+        "misbehaving:Aborts",
         "--listen",
         address.format(tmp_path),
     ]
@@ -305,7 +318,7 @@ def short_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     published = {
         "as-class": REFERENCE,
         "as-path": "friendly:EXECUTABLE",
-        "as-module": "adapters",
+        "as-module": "misbehaving",
         "broken": "friendly:NO_SUCH",
     }
     (info / "entry_points.txt").write_text(
@@ -319,7 +332,7 @@ def short_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("short_names")
 def test_short_names_name_any_door() -> None:
     assert (locate("as-class").kind, locate("as-class").target) == ("python", REFERENCE)
-    assert (locate("as-module").kind, locate("as-module").target) == ("python", "adapters")
+    assert (locate("as-module").kind, locate("as-module").target) == ("python", "misbehaving")
     assert (locate("as-path").kind, locate("as-path").text) == ("executable", "as-path")
 
 
@@ -331,7 +344,7 @@ def test_short_names_name_any_door() -> None:
         ("nonsense", "Short names here: "),
         ("no_such_module:Class", "there is no module no_such_module"),
         ("./no/such/file", "there is no file"),
-        ("adapters.py", "adapters:Class"),
+        ("misbehaving.py", "misbehaving:Class"),
         ("/etc/passwd", "not executable"),
         ("/etc", "is no file"),
         ("tcp://127.0.0.1", "write tcp://HOST:PORT"),
@@ -351,9 +364,9 @@ def test_wrong_names_get_advice(text: str, advice: str) -> None:
 @pytest.mark.parametrize(
     ("text", "advice"),
     [
-        ("adapters:NoSuch", "has no NoSuch; there is"),
-        ("adapters:_Hostile.x", "names no adapter"),
-        ("adapters", "did you mean adapters:"),
+        ("misbehaving:NoSuch", "has no NoSuch; there is"),
+        ("misbehaving:_Hostile.x", "names no adapter"),
+        ("misbehaving", "did you mean misbehaving:"),
         ("speakers:Speaker", "is not a subclass"),
         ("os.nothing", "there is no module os.nothing"),
     ],

@@ -264,8 +264,8 @@ _WITH_RESULT = (s.AddComponent, s.GetPortElement, s.Connect, s.GetComponents, s.
 
 
 def _integer(value: Any) -> int:
-    if not isinstance(value, int):
-        raise ContractBroken(f"returned {value!r}; it returns an integer")
+    if not isinstance(value, int) or not -(2**31) <= value < 2**31:
+        raise ContractBroken(f"returned {value!r}; it returns an integer of 32 bits")
     return int(value)
 
 

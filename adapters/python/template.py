@@ -12,6 +12,7 @@ import ctypes
 import gc
 import json
 import os
+import resource
 import selectors
 import signal
 import socket
@@ -48,6 +49,7 @@ class Template:
         os.set_blocking(wake, False)
         signal.set_wakeup_fd(woken, warn_on_full_buffer=False)
         signal.signal(signal.SIGCHLD, lambda *_: None)
+        resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
         gc.collect()
         gc.freeze()  # so that collections in hosts do not touch, and thereby copy, the template's pages
         with selectors.DefaultSelector() as selector:

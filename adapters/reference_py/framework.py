@@ -39,7 +39,9 @@ class State(Enum):
 class Member:
     """A component or fragment in a container: its body, its implementation and its state."""
 
-    def __init__(self, number: int, implementation: Implementation, body: ComponentObject, container: Container) -> None:
+    def __init__(
+        self, number: int, implementation: Implementation, body: ComponentObject, container: Container
+    ) -> None:
         self.id = number
         self.implementation = implementation
         self.body = body
