@@ -14,7 +14,7 @@ Level = Literal["shall", "should", "may", "statement"]
 """How strongly the text speaks: an obligation, a recommendation, a permission, or a plain statement of what is."""
 
 
-class Requirement(Value):
+class Requirement(Value, frozen=True):
     """One statement of the specification, in the project's own words.
 
     ``observed`` says how a trace shows that it was kept or broken, ``rules`` which rules stand for it. A requirement
@@ -36,7 +36,7 @@ class Requirement(Value):
 SUITE = Path(__file__).parent.parent / "suite"
 
 
-class Interpretation(Value):
+class Interpretation(Value, frozen=True):
     """A place where the text is silent or contradicts itself: the decision, and the readings a framework may take."""
 
     id: str

@@ -50,7 +50,9 @@ def cli() -> None:
 @click.option("--profile", type=click.Choice(PROFILES), default="container", show_default=True)
 @click.option("-k", "expression", default="", help="Only test purposes whose id, clause or requirement contains this.")
 @seed_option
-@click.option("--out", type=click.Path(file_okay=False, path_type=Path), default=Path("ucm-cts-report"), show_default=True)
+@click.option(
+    "--out", type=click.Path(file_okay=False, path_type=Path), default=Path("ucm-cts-report"), show_default=True
+)
 @click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
 @in_process_option
 @timeout_option
@@ -83,7 +85,10 @@ def run(
     with Driver(locate(adapter, in_process), drawn, Limits(timeout, memory)) as driver:
         campaign = Campaign(driver, profile, known)
         identity = driver.identity
-        console.print(f"UCM-CTS {ucm_cts.__version__}: {identity.product} {identity.version}, profile {profile}, seed {drawn}", markup=False)
+        console.print(
+            f"UCM-CTS {ucm_cts.__version__}: {identity.product} {identity.version}, profile {profile}, seed {drawn}",
+            markup=False,
+        )
         interrupted = False
         try:
             with _progress(console) as progress:
@@ -103,7 +108,9 @@ def run(
     console.print(summary(report, out))
     outdated = stale(known, report.requirements) if not expression and not interrupted else []
     for entry in outdated:
-        console.print(f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it", markup=False)
+        console.print(
+            f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it", markup=False
+        )
     if interrupted:
         console.print("interrupted: the report holds what was measured so far")
     sys.exit(_status(report, bool(outdated) or interrupted))

@@ -80,16 +80,20 @@ def read_lines(path: Path) -> tuple[object, dict[str, int]]:
         raise DocumentError(path, None, f"not YAML: {' '.join(str(error).split())}") from None
 
 
+def _line(mark: Any) -> int:
+    return int(mark.line) + 1
+
+
 def _refuse_anchors_and_depth(path: Path, text: str) -> None:
     """Look at the event stream first: composing a deeply nested document would recurse."""
     depth = 0
     for event in yaml.parse(text, Loader=_Loader):
         if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):
-            raise DocumentError(path, event.start_mark.line + 1, "anchors and aliases are not allowed; write it out")
+            raise DocumentError(path, _line(event.start_mark), "anchors and aliases are not allowed; write it out")
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > DEEPEST:
-                raise DocumentError(path, event.start_mark.line + 1, f"nests deeper than {DEEPEST} levels")
+                raise DocumentError(path, _line(event.start_mark), f"nests deeper than {DEEPEST} levels")
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
 

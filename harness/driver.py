@@ -86,7 +86,12 @@ class Driver:
 
     def revealed(self, answer: Answer) -> Execution:
         """The answer as an execution that people can read."""
-        return Execution(answer.name, answer.scenario, self._reveal_trace(answer.trace), answer.incident and self.reveal(answer.incident))
+        return Execution(
+            answer.name,
+            answer.scenario,
+            self._reveal_trace(answer.trace),
+            answer.incident and self.reveal(answer.incident),
+        )
 
     def _reveal_trace(self, trace: Trace) -> Trace:
         return self.reveal(_Whole(trace)).trace

@@ -106,7 +106,15 @@ def _afterwards(step: ContainerCall) -> tuple[Step, ...]:
 
 def _bound(now: Prediction, step: ContainerCall) -> bool:
     runtime = now.runtime
-    known = {s.MANAGER, s.UNKNOWN, s.NIL, *runtime.containers, *runtime.members, *runtime.connections, *runtime.references}
+    known = {
+        s.MANAGER,
+        s.UNKNOWN,
+        s.NIL,
+        *runtime.containers,
+        *runtime.members,
+        *runtime.connections,
+        *runtime.references,
+    }
     return all(variable in known for variable in used_by(step))
 
 
@@ -189,7 +197,9 @@ def _pair(container: str) -> Cast:
     )
     if container != s.MANAGER:
         probes = (*probes, s.RemoveContainer(container), s.RemoveContainer(s.NIL), s.Start(), s.Stop())
-    return Cast("pair" if container == s.MANAGER else "pair-below", {"server": _SERVER, "client": _CLIENT}, moves, probes)
+    return Cast(
+        "pair" if container == s.MANAGER else "pair-below", {"server": _SERVER, "client": _CLIENT}, moves, probes
+    )
 
 
 def _fork() -> Cast:

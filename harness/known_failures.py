@@ -17,7 +17,7 @@ from ucm_cts.harness.results import RequirementResult
 from ucm_cts.reference_models.findings import Finding
 
 
-class KnownFailure(Value):
+class KnownFailure(Value, frozen=True):
     """``requirement`` fails with an observation like ``observed`` (``*`` stands for any text), because of ``reason``.
 
     ``expires`` is the last day, ISO 8601, on which the entry counts. ``url`` leads to the defect's ticket.

@@ -33,6 +33,4 @@ def load_purposes(profile: str) -> tuple[TestPurpose, ...]:
 def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:
     """The purposes whose id, clause or requirements contain one of the words of ``expression`` (separated by ``or``)."""
     words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
-    return tuple(
-        p for p in purposes if any(w in " ".join((p.id, p.clause, *p.requirements)).lower() for w in words)
-    )
+    return tuple(p for p in purposes if any(w in " ".join((p.id, p.clause, *p.requirements)).lower() for w in words))

@@ -88,7 +88,9 @@ def check(campaign: Campaign) -> object:
                     head = f"{finding.requirement}: expected {finding.expected}; observed {finding.observed}"
                     stories.append(f"{head}\n{failure_text(finding, execution)}")
                 elif execution.incident is not None:
-                    stories.append(f"{execution.incident.kind}: {execution.incident.detail}\n{execution.incident.stacks}")
+                    stories.append(
+                        f"{execution.incident.kind}: {execution.incident.detail}\n{execution.incident.stacks}"
+                    )
             if stories:
                 more = len(checked.failures) - len(stories)
                 pytest.fail("\n\n".join(stories) + (f"\n\nand {more} more" if more > 0 else ""), pytrace=False)

@@ -24,7 +24,7 @@ FRAMEWORK_INCIDENTS: frozenset[IncidentKind] = frozenset(("crash", "exit", "hang
 """Incidents that are the framework's doing; the others are the adapter's and lead to ``error``, never to ``fail``."""
 
 
-class Incident(Value):
+class Incident(Value, frozen=True):
     """A scenario that did not come back with a trace, or came back with one that cannot be true.
 
     ``detail`` names the signal, exit status, limit or offending field; ``stacks`` is what the host printed while it
@@ -37,7 +37,7 @@ class Incident(Value):
     reproduced: bool = True
 
 
-class Execution(Value):
+class Execution(Value, frozen=True):
     """One scenario run once: the trace, whole or (after an incident) as far as it is known, in the script's own names."""
 
     name: str
@@ -46,7 +46,7 @@ class Execution(Value):
     incident: Incident | None = None
 
 
-class FailedExecution(Value):
+class FailedExecution(Value, frozen=True):
     """A finding with the shortest execution that shows it, and how many executions of the run showed the same cause."""
 
     finding: Finding
@@ -55,7 +55,7 @@ class FailedExecution(Value):
     waived: str = ""
 
 
-class RequirementResult(Value):
+class RequirementResult(Value, frozen=True):
     """Verdict and evidence for one requirement of the catalogue. ``reason`` says why it is not ``pass`` or ``fail``."""
 
     id: str
@@ -67,7 +67,7 @@ class RequirementResult(Value):
     reason: str = ""
 
 
-class TransitionResult(Value):
+class TransitionResult(Value, frozen=True):
     """How often one row of the life-cycle table was exercised and violated, and which readings were observed."""
 
     row: str
@@ -76,14 +76,14 @@ class TransitionResult(Value):
     readings: tuple[str, ...] = ()
 
 
-class IncidentReport(Value):
+class IncidentReport(Value, frozen=True):
     """An incident with the execution it cost."""
 
     incident: Incident
     execution: Execution
 
 
-class Report(Value):
+class Report(Value, frozen=True):
     """Everything one run says, ready to be written as HTML, JSON and JUnit."""
 
     product: str

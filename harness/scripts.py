@@ -13,7 +13,7 @@ from ucm_cts.harness.probes import ProbeType, load_probe_types
 SCENARIOS = Path(__file__).parent.parent / "suite" / "scenarios"
 
 
-class Part(Value):
+class Part(Value, frozen=True):
     """A component of a script: a ``probe`` of the models with a plan, or, in saved scenarios, its ports spelled out."""
 
     probe: str = ""
@@ -25,7 +25,7 @@ class Part(Value):
     plan: dict[Hook, tuple[Action, ...]] = {}
 
 
-class Script(Value):
+class Script(Value, frozen=True):
     """One scenario as a person writes it: its name, its test purpose, the requirements it means to exercise."""
 
     scenario: str
@@ -110,14 +110,24 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
                 found.append((f"{where}.attributes", f"probe '{part.probe}' has no attribute '{unknown[0]}'"))
     bound = {s.MANAGER, s.UNKNOWN, s.NIL}
     workers: set[str] = set()
-    gates = {a.gate for p in script.components.values() for acts in p.plan.values() for a in acts if isinstance(a, s.HoldAtGate)}
+    gates = {
+        a.gate
+        for p in script.components.values()
+        for acts in p.plan.values()
+        for a in acts
+        if isinstance(a, s.HoldAtGate)
+    }
     for index, step in enumerate(script.steps):
         where = f".steps[{index}]"
         for variable in used_by(step):
             if variable not in bound:
-                found.append((where, f"'{variable}' is not bound by an earlier step; there are {', '.join(sorted(bound))}"))
+                found.append(
+                    (where, f"'{variable}' is not bound by an earlier step; there are {', '.join(sorted(bound))}")
+                )
         if isinstance(step, s.OpenGate | s.ReachGate) and step.gate not in gates:
-            found.append((where, f"no plan holds at gate '{step.gate}'; there are {', '.join(sorted(gates)) or 'none'}"))
+            found.append(
+                (where, f"no plan holds at gate '{step.gate}'; there are {', '.join(sorted(gates)) or 'none'}")
+            )
         if isinstance(step, s.Join) and step.worker not in workers:
             found.append((where, f"no earlier step runs on thread '{step.worker}'"))
         if step.thread:

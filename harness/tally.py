@@ -108,15 +108,17 @@ class Tally:
             for f in sorted(failures, key=lambda f: _length(f.execution))
         )
         if waived:
-            return RequirementResult(
-                requirement.id, requirement.clause, requirement.title, "fail", exercised, waived
-            )
+            return RequirementResult(requirement.id, requirement.clause, requirement.title, "fail", exercised, waived)
         if requirement.id in self.lost:
             reason = f"a scenario that was to exercise it was lost ({self.lost[requirement.id]})"
-            return RequirementResult(requirement.id, requirement.clause, requirement.title, "error", exercised, (), reason)
+            return RequirementResult(
+                requirement.id, requirement.clause, requirement.title, "error", exercised, (), reason
+            )
         if not exercised:
             reason = "its condition never arose in this run"
-            return RequirementResult(requirement.id, requirement.clause, requirement.title, "inconclusive", 0, (), reason)
+            return RequirementResult(
+                requirement.id, requirement.clause, requirement.title, "inconclusive", 0, (), reason
+            )
         return RequirementResult(requirement.id, requirement.clause, requirement.title, "pass", exercised)
 
     def transitions(self, table: LifeCycleTable) -> tuple[TransitionResult, ...]:

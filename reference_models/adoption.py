@@ -56,7 +56,9 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
 def received(window: Window, member: Member, hook: s.Hook) -> list[Enter]:
     """The ``hook`` callbacks that ``member``'s body received during the window."""
     return [
-        c for c in window.callbacks if c.hook == hook and c.component == member.component and c.instance == member.instance
+        c
+        for c in window.callbacks
+        if c.hook == hook and c.component == member.component and c.instance == member.instance
     ]
 
 
@@ -108,7 +110,9 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, value: object)
     connection = Connection(step.bind, value, member, step.port, reference, provider)
     for earlier in member.live_connections(step.port):
         earlier.live = None
-    twins = [c for c in runtime.connections.values() if c.live and c.id == value and c.client.container is member.container]
+    twins = [
+        c for c in runtime.connections.values() if c.live and c.id == value and c.client.container is member.container
+    ]
     for twin in twins:
         twin.ambiguous = connection.ambiguous = True
         twin.client.suspended = member.suspended = True
@@ -159,9 +163,10 @@ def _started(runtime: Runtime, window: Window, returned: bool) -> None:
     _reached_unseen(runtime, container)
     if not returned:
         failing = any(m.raises("on_startup") for m in container.live_members())
-        if container.started is not False or failing or any(not received(window, m, "on_shutdown") for m in own):
-            if container.started is not True or own:
-                container.suspend()
+        half_way = any(not received(window, m, "on_shutdown") for m in own)
+        unclear = container.started is not False or failing or half_way
+        if unclear and (container.started is not True or own):
+            container.suspend()
         for member in reached:
             if member.container is not container:
                 member.container.suspend()

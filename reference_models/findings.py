@@ -5,7 +5,7 @@ from __future__ import annotations
 from ucm_cts.adapters.contract.scenario import Value
 
 
-class Arrow(Value):
+class Arrow(Value, frozen=True):
     """One message of a sequence diagram: who speaks to whom, and what. Lanes are ``test``, containers and bodies."""
 
     source: str
@@ -13,7 +13,7 @@ class Arrow(Value):
     label: str
 
 
-class Finding(Value):
+class Finding(Value, frozen=True):
     """One violation of one requirement, told so that a reader understands it in a minute.
 
     ``events`` are the ``n`` of the offending events; ``step`` is the scenario step they belong to, if any;

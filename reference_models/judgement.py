@@ -28,7 +28,10 @@ class Judge:
     def __init__(self, table: LifeCycleTable) -> None:
         self._table = table
         self._situations = Situations(table)
-        at = {moment: [r for r in RULES.values() if r.moment == moment] for moment in ("ended", "entered", "replied", "noted")}
+        at = {
+            moment: [r for r in RULES.values() if r.moment == moment]
+            for moment in ("ended", "entered", "replied", "noted")
+        }
         self._ended = [r.check for r in at["ended"] if r.name != "stimulus"]
         self._entered = [r.check for r in at["entered"] if r.name not in _BUSINESS]
         self._entered_business = [r.check for r in at["entered"] if r.name in _BUSINESS]

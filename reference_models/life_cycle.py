@@ -16,7 +16,7 @@ State = Literal["absent", "initialized", "configured", "ready"]
 Answer = Literal["return", "NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"]
 
 
-class Outcome(Value):
+class Outcome(Value, frozen=True):
     """One permitted way for an operation to go, seen from one component instance.
 
     ``callbacks`` is the sequence of callbacks the instance receives before the operation ends; ``on_disconnect*`` stands for
@@ -30,7 +30,7 @@ class Outcome(Value):
     reading: str = ""
 
 
-class Row(Value):
+class Row(Value, frozen=True):
     """What may happen to an instance in ``state`` when ``operation`` meets ``condition``.
 
     ``requirement`` is the one that a forbidden answer violates. ``missing``, if given, is the one that a missing
@@ -50,7 +50,7 @@ class Row(Value):
         return f"{self.state}/{self.operation}/{self.condition}"
 
 
-class CallbackDuty(Value):
+class CallbackDuty(Value, frozen=True):
     """Which requirement a missing or an unexpected ``callback`` violates, for ``operations`` or, if empty, for all others."""
 
     callback: Hook
@@ -59,7 +59,7 @@ class CallbackDuty(Value):
     operations: tuple[str, ...] = ()
 
 
-class LifeCycleTable(Value):
+class LifeCycleTable(Value, frozen=True):
     """The whole table. ``order`` is the requirement that callbacks in a wrong order violate."""
 
     rows: tuple[Row, ...]

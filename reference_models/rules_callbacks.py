@@ -18,11 +18,27 @@ from ucm_cts.reference_models.situations import undone_by
 LIFE_CYCLE_HOOKS = frozenset(("on_init", "on_startup", "on_shutdown", "on_remove", "on_connect", "on_disconnect"))
 _CONNECTABLE_HOOKS = ("on_connect", "on_disconnect")
 
-_FROM_DUTIES = (
-    "R-11.1.3-04 R-11.2.1.2-04 R-11.2.1.2-06 R-11.2.1.2-10 R-11.2.1.3-02 R-11.2.1.3-03 R-11.2.1.3-05 R-11.2.1.4-01 "
-    "R-11.2.2.1-11 R-11.2.2.1-12 R-11.2.2.2-01 R-11.2.2.2-04 R-11.2.2.2-05 R-11.2.3-01 R-11.2.3-05 R-11.2.3-09 "
-    "R-11.2.3-07 R-11.2.3-12 R-11.2.3-15"
-).split()
+_FROM_DUTIES = [
+    "R-11.1.3-04",
+    "R-11.2.1.2-04",
+    "R-11.2.1.2-06",
+    "R-11.2.1.2-10",
+    "R-11.2.1.3-02",
+    "R-11.2.1.3-03",
+    "R-11.2.1.3-05",
+    "R-11.2.1.4-01",
+    "R-11.2.2.1-11",
+    "R-11.2.2.1-12",
+    "R-11.2.2.2-01",
+    "R-11.2.2.2-04",
+    "R-11.2.2.2-05",
+    "R-11.2.3-01",
+    "R-11.2.3-05",
+    "R-11.2.3-09",
+    "R-11.2.3-07",
+    "R-11.2.3-12",
+    "R-11.2.3-15",
+]
 
 Token = tuple[str, bool]
 """A callback of an outcome's pattern, and whether it may be left out."""
@@ -112,7 +128,9 @@ def _instance(
         _visited(ledger, row, [o for o, _ in fitting])
         _kept(ledger, row, declaration, observed, fitting[0][1], answer)
         return
-    tokens = min(patterns, key=lambda t: sum(_difference(t, observed)[0].values()) + sum(_difference(t, observed)[1].values()))
+    tokens = min(
+        patterns, key=lambda t: sum(_difference(t, observed)[0].values()) + sum(_difference(t, observed)[1].values())
+    )
     missing, surplus = _difference(tokens, observed)
     who = member.lane if member else lane(component, instance or 1)
     if member is not None:
@@ -132,7 +150,10 @@ def _instance(
         requirement = _duty(ledger, hook, row.operation).unexpected
         offending = tuple(e.n for e in events if e.hook == hook)
         times = f" {len(offending)} times" if len(offending) > 1 else ""
-        cause, observation = f"{hook} by {row.id}", f"{who} received {hook}{times} from {window.operation} while {row.state}"
+        cause, observation = (
+            f"{hook} by {row.id}",
+            f"{who} received {hook}{times} from {window.operation} while {row.state}",
+        )
     else:
         requirement, cause = ledger.table.order, f"{row.operation} order"
         observation, offending = f"{who} received {', '.join(observed)}", tuple(e.n for e in events)
@@ -218,7 +239,10 @@ def _manager_forgot_its_own(ledger: Ledger, window: Window, answer: str, end: in
     due = [
         m
         for m, row in window.roles
-        if m is not None and not row.missing and m.container is window.container and all(hook in o.callbacks for o in row.outcomes if "return" in o.answer)
+        if m is not None
+        and not row.missing
+        and m.container is window.container
+        and all(hook in o.callbacks for o in row.outcomes if "return" in o.answer)
     ]
     if not due:
         return False
@@ -278,8 +302,13 @@ def nothing_outside_life(
         return
     early = event.hook != "on_init" and "on_init" not in heard
     late = "on_remove" in heard
-    if late and window is not None and any(
-        c.hook == "on_remove" and (c.component, c.instance) == (event.component, event.instance) for c in window.callbacks
+    if (
+        late
+        and window is not None
+        and any(
+            c.hook == "on_remove" and (c.component, c.instance) == (event.component, event.instance)
+            for c in window.callbacks
+        )
     ):
         return  # within the removal itself it is a matter of order
     member = runtime.member_of(event.component, event.instance)
@@ -333,7 +362,7 @@ def configuration_first(ledger: Ledger, runtime: Runtime, window: Window, end: R
     if window.operation != "start" or not isinstance(end, Return):
         return
     own = [m for m in window.container.live_members() if m.instance is not None]
-    late = [c for m in own for hook in ("on_init", "on_connect") for c in received(window, m, hook)]  # type: ignore[arg-type]
+    late = [c for m in own for c in (*received(window, m, "on_init"), *received(window, m, "on_connect"))]
     if late:
         ledger.violated(
             "R-11.2.1.2-08",

@@ -67,7 +67,9 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
         strangers = [
             r
             for r in references
-            if isinstance(r, Reference) and r not in wanted and all(isinstance(c.reference, Reference) for c in connections)
+            if isinstance(r, Reference)
+            and r not in wanted
+            and all(isinstance(c.reference, Reference) for c in connections)
         ]
         if strangers and certain:
             return "R-11.2.1.2-03", "reference", f"{port} = {_expected(member)}", f"{port} = {_show(strangers[0])}"

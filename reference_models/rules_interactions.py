@@ -97,7 +97,9 @@ def interactions(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Re
         ledger.exercised("R-11.2.3-03")
         return
     expected = f"{caller.lane} and {providers[0].lane} are ready, so the call comes back"
-    _violate(ledger, "R-11.2.3-03", "interactions", "refused", expected, "the call raised", call.n, reply.n, providers[0])
+    _violate(
+        ledger, "R-11.2.3-03", "interactions", "refused", expected, "the call raised", call.n, reply.n, providers[0]
+    )
 
 
 @rule("entered", "R-11.2.3-02")
@@ -106,7 +108,7 @@ def disabled_ports(
 ) -> None:
     """Before start was called on its container, no component is called by another one or by the framework."""
     member = runtime.member_of(event.component, event.instance)
-    if member is None or (call is not None and call.step is not None) or member.startups and not member.operational:
+    if member is None or (call is not None and call.step is not None) or (member.startups and not member.operational):
         return
     container = member.container
     starting = window is not None and window.operation == "start"
@@ -173,7 +175,15 @@ def _providers(runtime: Runtime, call: BusinessCall) -> list[Member]:
 
 
 def _violate(
-    ledger: Ledger, requirement: str, rule_name: str, cause: str, expected: str, observed: str, begin: int, end: int, member: Member
+    ledger: Ledger,
+    requirement: str,
+    rule_name: str,
+    cause: str,
+    expected: str,
+    observed: str,
+    begin: int,
+    end: int,
+    member: Member,
 ) -> None:
     ledger.violated(
         requirement,

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.reference_models.life_cycle import LifeCycleTable, Row
+from ucm_cts.reference_models.life_cycle import LifeCycleTable, Row, State
 from ucm_cts.reference_models.runtime import Connection, Container, Member, Runtime, Window, raises
 
-_FAILING_END = ("on_shutdown", "on_disconnect", "on_remove")
+_FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")
 
 
 class MissingRow(Exception):
@@ -55,9 +55,9 @@ class Situations:
             window.judged = False
         return window
 
-    def _role(self, window: Window, member: Member | None, state: str, condition: str, operation: str = "") -> None:
+    def _role(self, window: Window, member: Member | None, state: State, condition: str, operation: str = "") -> None:
         key = (state, operation or window.operation, condition)
-        row = self._rows.get(key)  # type: ignore[call-overload]
+        row = self._rows.get(key)
         if row is None:
             raise MissingRow("/".join(key))
         window.roles.append((member, row))
@@ -117,7 +117,9 @@ class Situations:
         elif step.port in member.declaration.provides:
             self._member_role(window, member, "provided")
         else:
-            self._member_role(window, member, "required" if step.port in member.declaration.requires else "unknown name")
+            self._member_role(
+                window, member, "required" if step.port in member.declaration.requires else "unknown name"
+            )
 
     def _connect(self, runtime: Runtime, window: Window, step: s.Connect) -> None:
         member, why = runtime.find_member(window.container, step.id)
@@ -224,7 +226,9 @@ class Situations:
             if not member.operational:
                 self._member_role(window, member, "not started")
             elif failing:
-                self._member_role(window, member, "on_shutdown fails" if member in failing else "a peer's on_shutdown fails")
+                self._member_role(
+                    window, member, "on_shutdown fails" if member in failing else "a peer's on_shutdown fails"
+                )
             else:
                 self._member_role(window, member, "")
         self._reach_below(runtime, window)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Mapping, Sequence
 
 from wrong_subjects import Base, GivesOutProxies, Proxy, bind
@@ -191,10 +192,8 @@ class swallows_exceptions(Base):
     """What bodies raise is ignored."""
 
     def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        try:
+        with contextlib.suppress(Exception):
             super()._configure(member, attributes)
-        except Exception:  # noqa: BLE001, S110
-            pass
 
     def _start_up(self, member: Member, failures: Failures) -> bool:
         super()._start_up(member, _Deaf()) or self._count_as_started(member)

@@ -696,9 +696,7 @@ class starts_a_part(Base):
         pass
 
     def _start_order(self) -> Sequence[Member]:
-        return [
-            m for m in super()._start_order() if all(self._is_connected(m, p) for p in m.implementation.requires)
-        ]
+        return [m for m in super()._start_order() if all(self._is_connected(m, p) for p in m.implementation.requires)]
 
 
 @breaks("R-11.2.3-08", also=("R-11.2.2.1-08",))
@@ -800,9 +798,9 @@ class late_add_is_not_found(Base):
     """add_component to a started container is answered by an id, and by nothing else."""
 
     def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
-        if self.is_started and instance in self.members and to_port is not None:
-            if port_name in self.members[instance].implementation.requires:
-                raise NotFound("too late")
+        member = self.members.get(instance) if self.is_started and to_port is not None else None
+        if member is not None and port_name in member.implementation.requires:
+            raise NotFound("too late")
         return super().connect(instance, port_name, to_port)
 
 
@@ -1030,4 +1028,3 @@ class no_list_while_ready(Base):
         if self.is_started:
             raise UcmError("busy")
         return super().get_components()
-

@@ -19,17 +19,17 @@ from ucm_cts.adapters.contract.trace import Event
 PROTOCOL = 1
 
 
-class Message(Value, tag_field="type"):
+class Message(Value, frozen=True, tag_field="type"):
     """Base of all messages."""
 
 
-class Hello(Message, tag="hello"):
+class Hello(Message, frozen=True, tag="hello"):
     """Harness to host, first: the protocol version the harness speaks."""
 
     protocol: int
 
 
-class Welcome(Message, tag="welcome"):
+class Welcome(Message, frozen=True, tag="welcome"):
     """Host to harness, answering hello: who is there.
 
     ``port_element_name`` says how the framework spells port element names from ``{port}`` and ``{element}``.
@@ -41,7 +41,7 @@ class Welcome(Message, tag="welcome"):
     port_element_name: str = "{port}_{element}"
 
 
-class Run(Message, tag="run"):
+class Run(Message, frozen=True, tag="run"):
     """Harness to host: run ``scenario`` on a fresh runtime; ``id`` comes back in the answer."""
 
     id: int
@@ -49,7 +49,7 @@ class Run(Message, tag="run"):
     stream: bool = False
 
 
-class Traced(Message, tag="trace"):
+class Traced(Message, frozen=True, tag="trace"):
     """Host to harness: what happened. ``stuck`` names the threads that never came back."""
 
     id: int
@@ -57,14 +57,14 @@ class Traced(Message, tag="trace"):
     stuck: tuple[str, ...] = ()
 
 
-class Happened(Message, tag="event"):
+class Happened(Message, frozen=True, tag="event"):
     """Host to harness, streaming only: one event, as soon as it happened."""
 
     id: int
     event: Event
 
 
-class Refused(Message, tag="refused"):
+class Refused(Message, frozen=True, tag="refused"):
     """Host to harness: the message just received breaks the protocol, or the adapter could not set up its framework."""
 
     reason: str

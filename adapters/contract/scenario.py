@@ -25,30 +25,30 @@ class Value(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaul
     """Base of all scenario values: immutable, and an unknown or wrong-typed field is an error."""
 
 
-class RaiseError(Value, tag_field="do", tag="raise"):
+class RaiseError(Value, frozen=True, tag_field="do", tag="raise"):
     """The probe leaves the hook with an exception that no interface declares."""
 
 
-class ReturnValue(Value, tag_field="do", tag="return"):
+class ReturnValue(Value, frozen=True, tag_field="do", tag="return"):
     """The probe's ``exchange`` returns ``value`` instead of its own computation."""
 
     value: int
 
 
-class CallPort(Value, tag_field="do", tag="call"):
+class CallPort(Value, frozen=True, tag_field="do", tag="call"):
     """The probe calls ``exchange(value)`` on every reference it holds for its required port element ``port``."""
 
     port: PortElementName
     value: int
 
 
-class HoldAtGate(Value, tag_field="do", tag="hold"):
+class HoldAtGate(Value, frozen=True, tag_field="do", tag="hold"):
     """The probe waits inside the hook until the scenario opens ``gate``."""
 
     gate: str
 
 
-class QuerySiblings(Value, tag_field="do", tag="siblings"):
+class QuerySiblings(Value, frozen=True, tag_field="do", tag="siblings"):
     """A fragment asks the container interface it was given for ``get_components`` (11.2.1.4)."""
 
 
@@ -67,7 +67,7 @@ Hook = Literal[
 """Where a probe is entered: the callbacks of clause 11.2.1, and ``exchange``, the probes' one business method."""
 
 
-class Declaration(Value):
+class Declaration(Value, frozen=True):
     """One component implementation the framework shall be able to instantiate: a probe body and its plan.
 
     ``provides`` and ``requires`` list port element names; ``attributes`` maps attribute names to configured values;
@@ -83,13 +83,13 @@ class Declaration(Value):
     plan: dict[Hook, tuple[Action, ...]] = {}
 
 
-class StepBase(Value, kw_only=True):
+class StepBase(Value, frozen=True, kw_only=True):
     """Common to all steps. With ``thread`` the step runs on that worker thread and the scenario goes on at once."""
 
     thread: str | None = None
 
 
-class AddComponent(StepBase, tag_field="op", tag="add_component"):
+class AddComponent(StepBase, frozen=True, tag_field="op", tag="add_component"):
     """``add_component`` for an instance of declaration ``component``; the id is bound to ``bind`` or ``component``.
 
     A ``component`` that the scenario does not declare asks for an implementation nobody registered.
@@ -100,14 +100,14 @@ class AddComponent(StepBase, tag_field="op", tag="add_component"):
     bind: str = ""
 
 
-class RemoveComponent(StepBase, tag_field="op", tag="remove_component"):
+class RemoveComponent(StepBase, frozen=True, tag_field="op", tag="remove_component"):
     """``remove_component`` of the component bound to ``id``."""
 
     id: str
     container: str = MANAGER
 
 
-class GetPortElement(StepBase, tag_field="op", tag="get_port_element"):
+class GetPortElement(StepBase, frozen=True, tag_field="op", tag="get_port_element"):
     """``get_port_element``; the reference is bound to ``bind``."""
 
     id: str
@@ -116,7 +116,7 @@ class GetPortElement(StepBase, tag_field="op", tag="get_port_element"):
     container: str = MANAGER
 
 
-class Connect(StepBase, tag_field="op", tag="connect"):
+class Connect(StepBase, frozen=True, tag_field="op", tag="connect"):
     """``connect`` required port element ``port`` of ``id`` to the reference bound to ``to``; binds the connection id."""
 
     id: str
@@ -126,67 +126,67 @@ class Connect(StepBase, tag_field="op", tag="connect"):
     container: str = MANAGER
 
 
-class Disconnect(StepBase, tag_field="op", tag="disconnect"):
+class Disconnect(StepBase, frozen=True, tag_field="op", tag="disconnect"):
     """``disconnect`` the connection bound to ``connection``."""
 
     connection: str
     container: str = MANAGER
 
 
-class Start(StepBase, tag_field="op", tag="start"):
+class Start(StepBase, frozen=True, tag_field="op", tag="start"):
     """``start`` the container."""
 
     container: str = MANAGER
 
 
-class Stop(StepBase, tag_field="op", tag="stop"):
+class Stop(StepBase, frozen=True, tag_field="op", tag="stop"):
     """``stop`` the container."""
 
     container: str = MANAGER
 
 
-class GetComponents(StepBase, tag_field="op", tag="get_components"):
+class GetComponents(StepBase, frozen=True, tag_field="op", tag="get_components"):
     """``get_components`` of the container."""
 
     container: str = MANAGER
 
 
-class CreateContainer(StepBase, tag_field="op", tag="create_container"):
+class CreateContainer(StepBase, frozen=True, tag_field="op", tag="create_container"):
     """``create_container`` on the manager; the new container is bound to ``bind``."""
 
     bind: str
 
 
-class RemoveContainer(StepBase, tag_field="op", tag="remove_container"):
+class RemoveContainer(StepBase, frozen=True, tag_field="op", tag="remove_container"):
     """``remove_container`` of the container bound to ``container``."""
 
     container: str
 
 
-class Destroy(StepBase, tag_field="op", tag="destroy"):
+class Destroy(StepBase, frozen=True, tag_field="op", tag="destroy"):
     """``destroy`` the runtime."""
 
 
-class Invoke(StepBase, tag_field="op", tag="invoke"):
+class Invoke(StepBase, frozen=True, tag_field="op", tag="invoke"):
     """Stimulus: call ``exchange(value)`` on the provided port element reference bound to ``ref``."""
 
     ref: str
     value: int
 
 
-class OpenGate(StepBase, tag_field="op", tag="open"):
+class OpenGate(StepBase, frozen=True, tag_field="op", tag="open"):
     """Let every probe held at ``gate`` go on, now and later."""
 
     gate: str
 
 
-class ReachGate(StepBase, tag_field="op", tag="reach"):
+class ReachGate(StepBase, frozen=True, tag_field="op", tag="reach"):
     """Wait until some probe is held at ``gate``, for at most the scenario's patience."""
 
     gate: str
 
 
-class Join(StepBase, tag_field="op", tag="join"):
+class Join(StepBase, frozen=True, tag_field="op", tag="join"):
     """Wait until worker ``worker`` has done all its steps, for at most the scenario's patience."""
 
     worker: str
@@ -226,7 +226,7 @@ ContainerCall = (
 """The steps that are operations of Container or ContainerManager (12.10)."""
 
 
-class Scenario(Value):
+class Scenario(Value, frozen=True):
     """Component declarations by name, steps in order, and ``patience``: milliseconds a wait step may take."""
 
     components: dict[str, Declaration]

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from typing import Literal
 
-import msgspec
-
 from ucm_cts.adapters.contract.scenario import Hook, PortElementName, Value
 
 DeclaredError = Literal["NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"]
@@ -19,7 +17,7 @@ ErrorName = Literal["NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR", "UNDECLARED"]
 """What left an operation: one of 12.10's exceptions, or anything else."""
 
 
-class Reference(Value):
+class Reference(Value, frozen=True):
     """A provided port element that the SDK recognised: ``port`` of the ``instance``-th body made for ``component``."""
 
     component: str
@@ -33,14 +31,14 @@ Opaque = Literal["opaque"]
 MaybeReference = Reference | Opaque | None
 
 
-class Dependency(Value):
+class Dependency(Value, frozen=True):
     """One PortConnection of ``on_startup``: the name the framework used and the references it handed over."""
 
     port: PortElementName
     references: tuple[MaybeReference, ...]
 
 
-class EventBase(Value, tag_field="kind"):
+class EventBase(Value, frozen=True, tag_field="kind"):
     """Common to all events."""
 
     n: int
@@ -48,20 +46,20 @@ class EventBase(Value, tag_field="kind"):
     thread: int
 
 
-class Call(EventBase, tag="call"):
+class Call(EventBase, frozen=True, tag="call"):
     """Scenario step number ``step`` (from 0) is handed to the framework."""
 
     step: int
 
 
-class Return(EventBase, tag="return"):
+class Return(EventBase, frozen=True, tag="return"):
     """The step's operation came back; ``value`` is an id, a list of ids, a reference, or a business result."""
 
     step: int
     value: int | tuple[int, ...] | Reference | Opaque | None = None
 
 
-class Raise(EventBase, tag="raise"):
+class Raise(EventBase, frozen=True, tag="raise"):
     """The step's operation ended with an exception; ``detail`` is its text, for people."""
 
     step: int
@@ -69,31 +67,31 @@ class Raise(EventBase, tag="raise"):
     detail: str = ""
 
 
-class Skip(EventBase, tag="skip"):
+class Skip(EventBase, frozen=True, tag="skip"):
     """The step was not tried, because ``variable`` was never bound."""
 
     step: int
     variable: str
 
 
-class Timeout(EventBase, tag="timeout"):
+class Timeout(EventBase, frozen=True, tag="timeout"):
     """A wait step ran out of patience."""
 
     step: int
 
 
-class BodyEvent(EventBase):
+class BodyEvent(EventBase, frozen=True):
     """Common to events inside the ``instance``-th body (from 1) that the framework made for ``component``."""
 
     component: str
     instance: int
 
 
-class Create(BodyEvent, tag="create"):
+class Create(BodyEvent, frozen=True, tag="create"):
     """The framework instantiated the body."""
 
 
-class Enter(BodyEvent, tag="enter"):
+class Enter(BodyEvent, frozen=True, tag="enter"):
     """The framework entered the body at ``hook``.
 
     ``port`` and ``reference`` are the arguments of the Connectable callbacks, ``port`` and ``value`` those of
@@ -108,7 +106,7 @@ class Enter(BodyEvent, tag="enter"):
     attributes: dict[str, str] | None = None
 
 
-class Exit(BodyEvent, tag="exit"):
+class Exit(BodyEvent, frozen=True, tag="exit"):
     """The body left ``hook``: with ``value``, or with an exception when ``raised``."""
 
     hook: Hook
@@ -116,14 +114,14 @@ class Exit(BodyEvent, tag="exit"):
     raised: bool = False
 
 
-class Request(BodyEvent, tag="request"):
+class Request(BodyEvent, frozen=True, tag="request"):
     """The body is about to call ``exchange(value)`` through its required port element ``port``."""
 
     port: PortElementName
     value: int
 
 
-class Reply(BodyEvent, tag="reply"):
+class Reply(BodyEvent, frozen=True, tag="reply"):
     """That call came back with ``value``, or with an exception when ``raised``."""
 
     port: PortElementName
@@ -131,39 +129,25 @@ class Reply(BodyEvent, tag="reply"):
     raised: bool = False
 
 
-class Siblings(BodyEvent, tag="siblings"):
+class Siblings(BodyEvent, frozen=True, tag="siblings"):
     """A fragment asked its container interface for ``get_components``: the ids, or an exception when ``raised``."""
 
     ids: tuple[int, ...] = ()
     raised: bool = False
 
 
-class Held(BodyEvent, tag="held"):
+class Held(BodyEvent, frozen=True, tag="held"):
     """The body waits at ``gate``."""
 
     gate: str
 
 
-class Opened(EventBase, tag="opened"):
+class Opened(EventBase, frozen=True, tag="opened"):
     """The scenario opened ``gate``."""
 
     gate: str
 
 
-Event = (
-    Call
-    | Return
-    | Raise
-    | Skip
-    | Timeout
-    | Create
-    | Enter
-    | Exit
-    | Request
-    | Reply
-    | Siblings
-    | Held
-    | Opened
-)
+Event = Call | Return | Raise | Skip | Timeout | Create | Enter | Exit | Request | Reply | Siblings | Held | Opened
 
 Trace = tuple[Event, ...]
