@@ -110,6 +110,8 @@ class TemplateProcess:
         """How the host ended, or None if it has not within ``seconds``; -9 when the template is gone."""
         deadline = time.monotonic() + seconds
         while pid not in self._ended:
+            if self._control is None:
+                return -signal.SIGKILL
             try:
                 if not self._read_notices(deadline):
                     return None
