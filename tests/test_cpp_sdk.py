@@ -12,7 +12,6 @@ import signal
 import socket
 import subprocess
 import sys
-
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -158,7 +157,18 @@ class Builds:
         )
         build = folder / "build"
         package = self.prefix / "share" / "cmake" / "ucm_cts"
-        run(["cmake", "-S", folder, "-B", build, f"-Ducm_cts_DIR={package}", f"-Dacme_DIR={folder}", *self._cmake_options()])
+        run(
+            [
+                "cmake",
+                "-S",
+                folder,
+                "-B",
+                build,
+                f"-Ducm_cts_DIR={package}",
+                f"-Dacme_DIR={folder}",
+                *self._cmake_options(),
+            ]
+        )
         run(["cmake", "--build", build, "-j2"])
         return build
 
@@ -176,6 +186,10 @@ def builds(tmp_path_factory: pytest.TempPathFactory) -> Builds:
     return Builds(tmp_path_factory.mktemp("cpp"))
 
 
+def wire(*lines: bytes | m.ToHost) -> bytes:
+    return b"".join(line if isinstance(line, bytes) else m.encode(line) + b"\n" for line in lines)
+
+
 class Host:
     """A stand-alone adapter in a process of its own."""
 
@@ -186,19 +200,26 @@ class Host:
 
     def send(self, *lines: bytes | m.ToHost) -> None:
         assert self.process.stdin
-        self.process.stdin.write(b"".join(line if isinstance(line, bytes) else m.encode(line) + b"\n" for line in lines))
+        self.process.stdin.write(
+            b"".join(line if isinstance(line, bytes) else m.encode(line) + b"\n" for line in lines)
+        )
 
-    def end(self) -> tuple[list[m.FromHost], str, int]:
-        """Close its input; its answers, standard error and exit status."""
-        out, err = self.process.communicate(timeout=30)
+    def end(self, *lines: bytes | m.ToHost) -> tuple[list[m.FromHost], str, int]:
+        """Send these last messages and close its input; its answers, standard error and exit status."""
+        try:
+            out, err = self.process.communicate(wire(*lines), timeout=30)
+        finally:
+            self.process.kill()
         decoder = m.from_host_decoder()
-        return [decoder.decode(line) for line in out.splitlines()], err.decode(errors="replace"), self.process.returncode
+        return (
+            [decoder.decode(line) for line in out.splitlines()],
+            err.decode(errors="replace"),
+            self.process.returncode,
+        )
 
 
 def talk(program: Path, *lines: bytes | m.ToHost) -> tuple[list[m.FromHost], str, int]:
-    host = Host(program)
-    host.send(*lines)
-    return host.end()
+    return Host(program).end(*lines)
 
 
 def events(program: Path, scenario: s.Scenario) -> tuple[t.Event, ...]:
@@ -294,7 +315,14 @@ def test_host_and_harness_agree_on_what_is_a_message(builds: Builds) -> None:
     message = json.loads(m.encode(m.Run(1, s.Scenario({"A": declared}, steps, patience=50), stream=False)))
     message["scenario"]["patience"] = 50
     lines = [json.dumps(changed).encode() for changed in mutations(copy.deepcopy(message))]
-    lines += [b"x", b"{}", b"[]", b'{"type":"hello","protocol":1}x', b'{"type":"hello","protocol":"1"}', b'{"type":"run"']
+    lines += [
+        b"x",
+        b"{}",
+        b"[]",
+        b'{"type":"hello","protocol":1}x',
+        b'{"type":"hello","protocol":"1"}',
+        b'{"type":"run"',
+    ]
     lines += [b'\xff{"type":"hello","protocol":1}', b'{"type":"hello","protocol":2}', b"[" * 100_000]
     lines = [line for line in lines if b'"stream": true' not in line]
     assert len(lines) > 500
@@ -344,7 +372,9 @@ def connect(address: str) -> socket.socket:
 @pytest.mark.parametrize("kind", ["tcp", "unix"])
 def test_listening(builds: Builds, kind: str, tmp_path: Path) -> None:
     where = "tcp://127.0.0.1:0" if kind == "tcp" else f"unix:{tmp_path}/socket"
-    server = subprocess.Popen([builds.program("rude"), "--listen", where], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    server = subprocess.Popen(
+        [builds.program("rude"), "--listen", where], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+    )
     assert server.stdout
     try:
         address = server.stdout.readline().decode().removeprefix("listening on ").strip()
@@ -375,7 +405,13 @@ def test_what_leaves_an_operation(builds: Builds) -> None:
         s.Destroy(),
     )
     raised = {e.step: e for e in events(builds.program("rude"), s.Scenario({}, steps)) if isinstance(e, t.Raise)}
-    assert [raised[n].error for n in (0, 1, 2, 5, 9)] == ["UNDECLARED", "UNDECLARED", "NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"]
+    assert [raised[n].error for n in (0, 1, 2, 5, 9)] == [
+        "UNDECLARED",
+        "UNDECLARED",
+        "NOT_FOUND",
+        "BAD_PARAMETER",
+        "UCM_ERROR",
+    ]
     assert raised[1].detail.startswith("std::length_error: xxx")
     assert len(raised[1].detail) == 200
     assert raised[2].detail == '"quoted" ä \ufffd'
@@ -409,7 +445,9 @@ def test_crash_is_seen_with_its_signal_and_place(builds: Builds, what: str, numb
 
 
 def test_stuck_threads_are_named_and_end_the_host(builds: Builds) -> None:
-    scenario = s.Scenario({}, (s.AddComponent("hang", thread="w"), s.Join("w"), s.AddComponent("fine", thread="v")), 100)
+    scenario = s.Scenario(
+        {}, (s.AddComponent("hang", thread="w"), s.Join("w"), s.AddComponent("fine", thread="v")), 100
+    )
     answers, _, status = talk(builds.program("rude"), m.Run(1, scenario), m.Hello(m.PROTOCOL))
     assert len(answers) == 1, "after stuck threads the host ends itself"
     assert isinstance(answers[0], m.Traced)
@@ -467,7 +505,15 @@ def concurrent_scenarios() -> list[s.Scenario]:
     joins = tuple(s.Join(f"t{n}") for n in range(4))
     crowd = s.Scenario(
         {"P": PROVIDER, "bad": s.Declaration(plan={"on_init": (s.RaiseError(),)})},
-        (*adds, s.GetComponents(), *joins, s.AddComponent("bad"), s.Start(thread="a"), s.Stop(thread="b"), s.GetComponents()),
+        (
+            *adds,
+            s.GetComponents(),
+            *joins,
+            s.AddComponent("bad"),
+            s.Start(thread="a"),
+            s.Stop(thread="b"),
+            s.GetComponents(),
+        ),
     )
     left = s.Scenario(PAIR, (*CONNECTED, s.Start(), s.CreateContainer("sub"), s.AddComponent("P", container="sub")))
     return [gates, crowd, left, s.Scenario(PAIR, (*LIFE, s.Destroy()))]
@@ -497,7 +543,7 @@ def test_sanitizers_have_nothing_to_say(builds: Builds, sanitizer: str) -> None:
 
 # the reference framework
 
-RAISES: Callable[[s.Hook], s.Declaration] = lambda hook: s.Declaration(("p_e",), plan={hook: (s.RaiseError(),)})  # noqa: E731
+RAISES: Callable[[s.Hook], s.Declaration] = lambda hook: s.Declaration(("p_e",), plan={hook: (s.RaiseError(),)})
 
 READINGS: dict[str, tuple[dict[str, s.Declaration], tuple[s.Step, ...], str]] = {
     "a failed on_startup shuts down those already started": (
@@ -589,7 +635,12 @@ READINGS: dict[str, tuple[dict[str, s.Declaration], tuple[s.Step, ...], str]] = 
     ),
     "not everything that is asked for exists": (
         PAIR,
-        (s.AddComponent("nobody"), s.RemoveContainer("nil"), s.RemoveContainer("manager"), s.RemoveComponent("unknown")),
+        (
+            s.AddComponent("nobody"),
+            s.RemoveContainer("nil"),
+            s.RemoveContainer("manager"),
+            s.RemoveComponent("unknown"),
+        ),
         "add_component: UCM_ERROR, remove_container: NOT_FOUND, remove_container: NOT_FOUND, remove_component: NOT_FOUND",
     ),
 }
