@@ -127,8 +127,15 @@ class Builds:
         return self._vendor.result()
 
     def _compile(self, name: str, sources: Sequence[Path], flags: Sequence[str]) -> Future[Path]:
-        includes = ["-I", SDK / "include", "-I", FRAMEWORK / "include"]
-        command = [os.environ.get("CXX", "c++"), *flags, *includes, *sources, "-o", self.folder / name]
+        includes: list[str | Path] = ["-I", SDK / "include", "-I", FRAMEWORK / "include"]
+        command: list[str | Path] = [
+            os.environ.get("CXX", "c++"),
+            *flags,
+            *includes,
+            *sources,
+            "-o",
+            self.folder / name,
+        ]
         return self._pool.submit(lambda: (run([*command, "-pthread", "-rdynamic"]), self.folder / name)[1])
 
     def _install(self) -> Path:
@@ -394,7 +401,7 @@ def test_listening(builds: Builds, kind: str, tmp_path: Path) -> None:
 
 
 def test_what_leaves_an_operation(builds: Builds) -> None:
-    steps = (
+    steps: tuple[s.Step, ...] = (
         *(s.AddComponent(f"throw {what}") for what in ("int", "long", "text")),
         s.AddComponent("fine"),
         s.GetComponents(),
