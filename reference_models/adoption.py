@@ -2,67 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Enter, Opaque, Raise, Reference, Return
+from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Raise, Reference, Return
 from ucm_cts.reference_models.runtime import Connection, Container, Member, Runtime, Window, raises
 
 
 def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Bring ``runtime`` up to date with the operation that just ended."""
-    returned = isinstance(end, Return)
-    value = end.value if isinstance(end, Return) else None
-    match window.step:
-        case s.AddComponent() as step:
-            _added(runtime, window, step, value if returned else None)
-        case s.GetPortElement() as step if returned:
-            reference: Reference | Opaque | None = value if isinstance(value, Reference) or value == "opaque" else None
-            runtime.references[step.bind] = (reference, window.subject)
-        case s.Connect() as step if returned:
-            _connected(runtime, window, step, value)
-        case s.Disconnect() if returned:
-            _disconnected(window)
-        case s.RemoveComponent() if returned and window.subject is not None:
-            _removed(runtime, window, [window.subject])
-        case s.RemoveComponent() if window.subject is not None and received(window, window.subject, "on_remove"):
-            window.subject.suspended = window.subject.doubtful = True
-        case s.Start():
-            _started(runtime, window, returned)
-        case s.Stop():
-            _stopped(runtime, window, returned)
-        case s.CreateContainer() as step if returned:
-            earlier = runtime.containers.get(step.bind)
-            if earlier is not None:  # the variable is bound anew; the container it held is still there
-                runtime.containers[f"{step.bind}, {len(runtime.containers)}"] = earlier
-            runtime.containers[step.bind] = Container(step.bind)
-        case s.RemoveContainer() as step if returned:
-            container = runtime.containers.get(step.container)
-            if container is not None and not container.removed and container.name != s.MANAGER:
-                _removed(runtime, window, container.live_members())
-                container.removed = True
-        case s.Destroy():
-            runtime.destroyed = True
-            for container in runtime.containers.values():
-                for member in container.members:
-                    member.gone = member.gone or returned
-        case _:
-            pass
+    _TAKEN_OVER[window.operation](runtime, window, window.step, end)
     if window.lost:
         _lose_track(window)
-    for member in runtime.members.values():
-        if member.suspended and window.callbacks:
-            _follow(window, member)
+    if window.callbacks:
+        for member in runtime.members.values():
+            if member.suspended:
+                _follow(window, member)
 
 
 def received(window: Window, member: Member, hook: s.Hook) -> list[Enter]:
     """The ``hook`` callbacks that ``member``'s body received during the window."""
-    return [
-        c
-        for c in window.callbacks
-        if c.hook == hook and c.component == member.component and c.instance == member.instance
-    ]
+    return [c for c in window.by_body.get((member.component, member.instance), ()) if c.hook == hook]
 
 
-def _added(runtime: Runtime, window: Window, step: s.AddComponent, value: object) -> None:
+def _added(runtime: Runtime, window: Window, step: s.AddComponent, end: Return | Raise) -> None:
+    value = end.value if isinstance(end, Return) else None
     declaration = runtime.scenario.components.get(step.component)
     seen = [*((c.component, c.instance) for c in window.callbacks), *window.created]
     bodies = [body for body in seen if body not in runtime.bodies]
@@ -99,10 +64,18 @@ def _added(runtime: Runtime, window: Window, step: s.AddComponent, value: object
     window.subject = member
 
 
-def _connected(runtime: Runtime, window: Window, step: s.Connect, value: object) -> None:
+def _found(runtime: Runtime, window: Window, step: s.GetPortElement, end: Return | Raise) -> None:
+    if isinstance(end, Return):
+        recognised = isinstance(end.value, Reference) or end.value == "opaque"
+        reference: MaybeReference = end.value if recognised else None  # type: ignore[assignment]
+        runtime.references[step.bind] = (reference, window.subject)
+
+
+def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | Raise) -> None:
     member = window.subject
-    if member is None:
+    if member is None or isinstance(end, Raise):
         return
+    value = end.value
     reference, provider = runtime.reference(step.to)
     if not isinstance(value, int) or step.port not in member.declaration.requires or step.to == s.NIL:
         member.suspended = True
@@ -128,14 +101,47 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, value: object)
         member.suspended = True
 
 
-def _disconnected(window: Window) -> None:
+def _disconnected(runtime: Runtime, window: Window, step: s.Disconnect, end: Return | Raise) -> None:
     connection = window.connection
-    if connection is None:
+    if connection is None or isinstance(end, Raise):
         return
     connection.live = False
     client = connection.client
     if any(c.live is None and c.port == connection.port for c in client.connections):
         client.suspended = True
+
+
+def _component_removed(runtime: Runtime, window: Window, step: s.RemoveComponent, end: Return | Raise) -> None:
+    member = window.subject
+    if member is None:
+        return
+    if isinstance(end, Return):
+        _removed(runtime, window, [member])
+    elif received(window, member, "on_remove"):
+        member.suspended = member.doubtful = True
+
+
+def _container_created(runtime: Runtime, window: Window, step: s.CreateContainer, end: Return | Raise) -> None:
+    if isinstance(end, Return):
+        earlier = runtime.containers.get(step.bind)
+        if earlier is not None:  # the variable is bound anew; the container it held is still there
+            runtime.containers[f"{step.bind}, {len(runtime.containers)}"] = earlier
+        runtime.containers[step.bind] = Container(step.bind)
+
+
+def _container_removed(runtime: Runtime, window: Window, step: s.RemoveContainer, end: Return | Raise) -> None:
+    container = runtime.containers.get(step.container)
+    known = container is not None and not container.removed and container.name != s.MANAGER
+    if isinstance(end, Return) and known and container is not None:
+        _removed(runtime, window, container.live_members())
+        container.removed = True
+
+
+def _destroyed(runtime: Runtime, window: Window, step: s.Destroy, end: Return | Raise) -> None:
+    runtime.destroyed = True
+    for container in runtime.containers.values():
+        for member in container.members:
+            member.gone = member.gone or isinstance(end, Return)
 
 
 def _removed(runtime: Runtime, window: Window, removed: list[Member]) -> None:
@@ -156,7 +162,8 @@ def _removed(runtime: Runtime, window: Window, removed: list[Member]) -> None:
             connection.live = False
 
 
-def _started(runtime: Runtime, window: Window, returned: bool) -> None:
+def _started(runtime: Runtime, window: Window, step: s.Start, end: Return | Raise) -> None:
+    returned = isinstance(end, Return)
     container = window.container
     reached = [m for c in runtime.containers.values() for m in c.live_members() if received(window, m, "on_startup")]
     own = [m for m in reached if m.container is container]
@@ -190,7 +197,8 @@ def _started(runtime: Runtime, window: Window, returned: bool) -> None:
     container.started = True
 
 
-def _stopped(runtime: Runtime, window: Window, returned: bool) -> None:
+def _stopped(runtime: Runtime, window: Window, step: s.Stop, end: Return | Raise) -> None:
+    returned = isinstance(end, Return)
     container = window.container
     _reached_unseen(runtime, container)
     for other in runtime.containers.values():
@@ -234,12 +242,11 @@ def _reached_unseen(runtime: Runtime, container: Container) -> None:
 
 def _follow(window: Window, member: Member) -> None:
     """An instance that is not judged goes where its callbacks say."""
-    for callback in window.callbacks:
-        if (callback.component, callback.instance) == (member.component, member.instance):
-            if callback.hook == "on_startup":
-                member.operational = True
-            elif callback.hook == "on_shutdown":
-                member.operational = False
+    for callback in window.by_body.get((member.component, member.instance), ()):
+        if callback.hook == "on_startup":
+            member.operational = True
+        elif callback.hook == "on_shutdown":
+            member.operational = False
 
 
 def _lose_track(window: Window) -> None:
@@ -248,3 +255,18 @@ def _lose_track(window: Window) -> None:
     for member, _ in window.roles:
         if member is not None:
             member.suspended = True
+
+
+_TAKEN_OVER: dict[str, Callable[[Runtime, Window, Any, Return | Raise], None]] = {
+    "add_component": _added,
+    "remove_component": _component_removed,
+    "get_port_element": _found,
+    "connect": _connected,
+    "disconnect": _disconnected,
+    "start": _started,
+    "stop": _stopped,
+    "get_components": lambda runtime, window, step, end: None,
+    "create_container": _container_created,
+    "remove_container": _container_removed,
+    "destroy": _destroyed,
+}

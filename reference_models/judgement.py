@@ -2,118 +2,144 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any, get_args
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Call, Create, Enter, Exit, Raise, Reply, Request, Return, Siblings, Trace
-from ucm_cts.reference_models import (
-    rules_callbacks,
-    rules_dependencies,
-    rules_interactions,
-    rules_operations,
-)
+from ucm_cts.reference_models import rules_callbacks, rules_dependencies, rules_interactions, rules_operations
 from ucm_cts.reference_models.adoption import adopt
-from ucm_cts.reference_models.ledger import RULES, Ledger
+from ucm_cts.reference_models.duties import Duties
+from ucm_cts.reference_models.ledger import Ledger, checks
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.rules_interactions import BusinessCall
 from ucm_cts.reference_models.runtime import Runtime, Window
 from ucm_cts.reference_models.situations import Situations
 
-_MODULES = (rules_operations, rules_dependencies, rules_interactions, rules_callbacks)
-
-_BUSINESS = ("disabled_ports", "nothing_after_stop")
+RULE_MODULES = (rules_operations, rules_dependencies, rules_interactions, rules_callbacks)
+"""Importing these registers all rules; rules of one moment look in this order."""
 
 
 class Judge:
     """Judges traces against one life-cycle table. Holds no state between traces."""
 
     def __init__(self, table: LifeCycleTable) -> None:
-        self._table = table
-        self._situations = Situations(table)
-        at = {
-            moment: [r for r in RULES.values() if r.moment == moment]
-            for moment in ("ended", "entered", "replied", "noted")
-        }
-        self._ended = [r.check for r in at["ended"] if r.name != "stimulus"]
-        self._entered = [r.check for r in at["entered"] if r.name not in _BUSINESS]
-        self._entered_business = [r.check for r in at["entered"] if r.name in _BUSINESS]
-        self._replied = [r.check for r in at["replied"]]
-        self._noted = [r.check for r in at["noted"]]
-        self._stimulus = RULES["stimulus"].check
+        self.situations = Situations(table)
+        self.duties = Duties(table)
+        self.ended = {op: checks("ended", op) for op in rules_operations.DECLARED}
+        self.entered = {hook: checks("entered", hook) for hook in get_args(s.Hook)}
+        self.called = checks("called", "exchange")
+        self.answered = checks("answered", "exchange")
+        self.replied = checks("replied", "exchange")
+        self.noted = checks("noted", "siblings")
 
     def judge(self, scenario: s.Scenario, trace: Trace) -> Ledger:
         """Everything the rules say about ``trace``, which may break off anywhere."""
-        ledger = Ledger(scenario, self._table)
-        runtime = Runtime(scenario)
-        heard: dict[tuple[str, int], list[s.Hook]] = {}
-        window: Window | None = None
-        stimuli: dict[int, BusinessCall] = {}
-        open_calls: dict[int, list[BusinessCall]] = {}
-        hooks: dict[int, list[str]] = {}
-        steps = scenario.steps
+        reading = _Reading(self, scenario)
+        take = reading.take
         for event in trace:
-            match event:
-                case Enter():
-                    member = runtime.bodies.get((event.component, event.instance))
-                    if event.hook == "exchange":
-                        calls = open_calls.get(event.thread)
-                        call = calls[-1] if calls else None
-                        if call is not None:
-                            call.entries.append((event, None))
-                        for check in self._entered_business:
-                            check(ledger, runtime, window, event, call)
-                        if member is not None and member.operational:
-                            member.served = True
-                    else:
-                        said = heard.setdefault((event.component, event.instance), [])
-                        for check in self._entered:
-                            check(ledger, runtime, window, event, said)
-                        said.append(event.hook)
-                        if window is not None:
-                            window.callbacks.append(event)
-                    hooks.setdefault(event.thread, []).append(event.hook)
-                case Exit():
-                    entered = hooks.get(event.thread)
-                    if entered:
-                        entered.pop()
-                    if event.hook == "exchange":
-                        for call in reversed(open_calls.get(event.thread, ())):
-                            call.close(event)
-                            break
-                case Call():
-                    step = steps[event.step]
-                    if isinstance(step, s.Invoke):
-                        call = BusinessCall(step.value, event.n, step=step)
-                        stimuli[event.step] = call
-                        open_calls.setdefault(event.thread, []).append(call)
-                    elif isinstance(step, s.ContainerCall):
-                        window = self._situations.open(runtime, event.step, step)
-                        window.call = event.n
-                case Return() | Raise():
-                    step = steps[event.step]
-                    if isinstance(step, s.Invoke):
-                        call = stimuli[event.step]
-                        open_calls[event.thread].remove(call)
-                        self._stimulus(ledger, runtime, call, event)
-                    elif window is not None and window.step_number == event.step:
-                        for check in self._ended:
-                            check(ledger, runtime, window, event)
-                        adopt(runtime, window, event)
-                        window = None
-                case Request():
-                    inside = hooks.get(event.thread)
-                    call = BusinessCall(event.value, event.n, request=event, caller_hook=inside[-1] if inside else "")
-                    open_calls.setdefault(event.thread, []).append(call)
-                case Reply():
-                    calls = open_calls.get(event.thread)
-                    if calls:
-                        call = calls.pop()
-                        for check in self._replied:
-                            check(ledger, runtime, call, event)
-                case Siblings():
-                    for check in self._noted:
-                        check(ledger, runtime, event)
-                case Create():
-                    if window is not None:
-                        window.created.append((event.component, event.instance))
-                case _:
-                    pass
-        return ledger
+            handler = take.get(type(event))
+            if handler is not None:
+                handler(event)
+        reading.ledger.close()
+        return reading.ledger
+
+
+class _Reading:
+    """One trace being read: the model, the operation in progress, and who is inside whom on each thread."""
+
+    def __init__(self, judge: Judge, scenario: s.Scenario) -> None:
+        self.judge = judge
+        self.ledger = Ledger(scenario, judge.duties)
+        self.runtime = Runtime(scenario)
+        self.window: Window | None = None
+        self.heard: dict[tuple[str, int], list[s.Hook]] = {}
+        self.calls: dict[int, list[BusinessCall]] = {}
+        self.hooks: dict[int, list[s.Hook]] = {}
+        self.take: dict[type[Any], Callable[[Any], None]] = {
+            Call: self.call,
+            Return: self.end,
+            Raise: self.end,
+            Create: self.create,
+            Enter: self.enter,
+            Exit: self.exit,
+            Request: self.request,
+            Reply: self.reply,
+            Siblings: self.siblings,
+        }
+
+    def call(self, event: Call) -> None:
+        step = self.ledger.scenario.steps[event.step]
+        if isinstance(step, s.Invoke):
+            self.calls.setdefault(event.thread, []).append(BusinessCall(step.value, event.n, step=step))
+        elif isinstance(step, s.ContainerCall):
+            self.window = self.judge.situations.open(self.runtime, event.step, step)
+            self.window.call = event.n
+
+    def end(self, event: Return | Raise) -> None:
+        window = self.window
+        if isinstance(self.ledger.scenario.steps[event.step], s.Invoke):
+            calls = self.calls.get(event.thread)
+            if calls:
+                call = calls.pop()
+                for check in self.judge.answered:
+                    check(self.ledger, self.runtime, call, event)
+        elif window is not None and window.step_number == event.step:
+            for check in self.judge.ended[window.operation]:
+                check(self.ledger, self.runtime, window, event)
+            adopt(self.runtime, window, event)
+            self.window = None
+
+    def create(self, event: Create) -> None:
+        if self.window is not None:
+            self.window.created.append((event.component, event.instance))
+
+    def enter(self, event: Enter) -> None:
+        self.hooks.setdefault(event.thread, []).append(event.hook)
+        if event.hook == "exchange":
+            self.enter_business(event)
+            return
+        body = (event.component, event.instance)
+        heard = self.heard.get(body)
+        if heard is None:
+            heard = self.heard[body] = []
+        for check in self.judge.entered[event.hook]:
+            check(self.ledger, self.runtime, self.window, event, heard)
+        heard.append(event.hook)
+        if self.window is not None:
+            self.window.hear(event)
+
+    def enter_business(self, event: Enter) -> None:
+        calls = self.calls.get(event.thread)
+        call = calls[-1] if calls else None
+        if call is not None:
+            call.entries.append((event, None))
+        for check in self.judge.called:
+            check(self.ledger, self.runtime, self.window, event, call)
+        member = self.runtime.member_of(event.component, event.instance)
+        if member is not None and member.operational:
+            member.served = True
+
+    def exit(self, event: Exit) -> None:
+        hooks = self.hooks.get(event.thread)
+        if hooks:
+            hooks.pop()
+        calls = self.calls.get(event.thread)
+        if event.hook == "exchange" and calls:
+            calls[-1].close(event)
+
+    def request(self, event: Request) -> None:
+        inside = self.hooks.get(event.thread)
+        hook = inside[-1] if inside else ""
+        self.calls.setdefault(event.thread, []).append(BusinessCall(event.value, event.n, event, caller_hook=hook))
+
+    def reply(self, event: Reply) -> None:
+        calls = self.calls.get(event.thread)
+        if calls:
+            call = calls.pop()
+            for check in self.judge.replied:
+                check(self.ledger, self.runtime, call, event)
+
+    def siblings(self, event: Siblings) -> None:
+        for check in self.judge.noted:
+            check(self.ledger, self.runtime, event)

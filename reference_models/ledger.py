@@ -8,21 +8,26 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.reference_models.duties import Duties, Fit
 from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.life_cycle import LifeCycleTable, Row
+from ucm_cts.reference_models.life_cycle import Row
 
-Moment = Literal["ended", "entered", "left", "replied", "noted"]
-"""When a rule looks: an operation or stimulus ended, a body was entered or left, a body's call came back, a fragment's
-query came back."""
+Moment = Literal["ended", "entered", "called", "answered", "replied", "noted"]
+"""When a rule looks: an operation ended; a body was entered by a callback, or by a business call; a stimulus of the test
+came back; a body's own call came back; a fragment's query came back."""
 
 
 @dataclass(frozen=True)
 class Rule:
-    """A named check and the requirements it stands for; ``check`` takes what the judge offers at ``moment``."""
+    """A named check and the requirements it stands for; ``check`` takes what the judge offers at ``moment``.
+
+    ``at`` names the operations, or for ``entered`` the hooks, that it looks at; empty stands for all.
+    """
 
     name: str
     moment: Moment
     stands_for: tuple[str, ...]
+    at: tuple[str, ...]
     check: Callable[..., None]
 
 
@@ -30,14 +35,21 @@ RULES: dict[str, Rule] = {}
 """All rules by name, filled as the rule modules are imported."""
 
 
-def rule(moment: Moment, *stands_for: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+def rule(
+    moment: Moment, *stands_for: str, at: tuple[str, ...] = ()
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Register the decorated function, under its own name, as a rule that looks at ``moment``."""
 
     def register(check: Callable[..., None]) -> Callable[..., None]:
-        RULES[check.__name__] = Rule(check.__name__, moment, stands_for, check)
+        RULES[check.__name__] = Rule(check.__name__, moment, stands_for, at, check)
         return check
 
     return register
+
+
+def checks(moment: Moment, at: str) -> list[Callable[..., None]]:
+    """The checks of all rules that look at this operation or hook at ``moment``."""
+    return [r.check for r in RULES.values() if r.moment == moment and (not r.at or at in r.at)]
 
 
 @dataclass(slots=True)
@@ -54,10 +66,11 @@ class Ledger:
     """The judgement of one trace in the making."""
 
     scenario: Scenario
-    table: LifeCycleTable
+    duties: Duties
     exercises: Counter[str] = field(default_factory=Counter)
     findings: list[Finding] = field(default_factory=list)
-    rows: dict[str, RowTally] = field(default_factory=dict)
+    tallies: dict[int, tuple[Row, RowTally]] = field(default_factory=dict)
+    fits: dict[Fit, int] = field(default_factory=dict)
 
     def exercised(self, requirement: str) -> None:
         """The requirement's condition really arose, and it was kept."""
@@ -75,12 +88,32 @@ class Ledger:
         instead: tuple[Arrow, ...] = (),
     ) -> None:
         """The requirement was broken. It was exercised, too."""
-        self.exercises[requirement] += 1
+        self.exercised(requirement)
         self.findings.append(Finding(requirement, rule, cause, expected, observed, events, step, instead))
 
     def row(self, row: Row) -> RowTally:
         """The tally of ``row``."""
-        tally = self.rows.get(row.id)
-        if tally is None:
-            tally = self.rows[row.id] = RowTally()
-        return tally
+        known = self.tallies.get(id(row))
+        if known is None:
+            known = self.tallies[id(row)] = (row, RowTally())
+        return known[1]
+
+    def fitted(self, row: Row, fit: Fit) -> None:
+        """An instance went a way that ``row`` permits."""
+        tally = self.row(row)
+        tally.exercised += 1
+        if fit.reading:
+            tally.readings.add(fit.reading)
+        self.fits[fit] = self.fits.get(fit, 0) + 1
+
+    def close(self) -> None:
+        """The trace is over: add up what the fits exercised."""
+        for fit, times in self.fits.items():
+            for requirement in fit.exercised:
+                self.exercises[requirement] += times
+        self.fits.clear()
+
+    @property
+    def rows(self) -> dict[str, RowTally]:
+        """All tallies, by the rows' ids."""
+        return {row.id: tally for row, tally in self.tallies.values()}

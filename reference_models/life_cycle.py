@@ -60,8 +60,13 @@ class CallbackDuty(Value, frozen=True):
 
 
 class LifeCycleTable(Value, frozen=True):
-    """The whole table. ``order`` is the requirement that callbacks in a wrong order violate."""
+    """The whole table.
+
+    ``order`` is the requirement that callbacks in a wrong order violate, ``fragments`` the one that a fragment without
+    on_init or on_startup violates.
+    """
 
     rows: tuple[Row, ...]
     duties: tuple[CallbackDuty, ...]
     order: str
+    fragments: str

@@ -10,10 +10,10 @@ from typing import get_args
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import DeclaredError, Enter, Raise, Reference, Return
 from ucm_cts.reference_models.adoption import adopt
+from ucm_cts.reference_models.duties import Listener, pattern
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
-from ucm_cts.reference_models.rules_callbacks import pattern
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
-from ucm_cts.reference_models.situations import Situations
+from ucm_cts.reference_models.situations import Situations, undone_by
 
 
 class Prediction:
@@ -40,9 +40,10 @@ class Prediction:
             outcome = next((o for o in row.outcomes if answer in o.answer), row.outcomes[0])
             connectable = member.declaration.connectable if member else self._declares_connectable(step)
             component, instance = self._body(step, member)
-            for hook, optional in pattern(outcome, window, member, connectable):
+            undone = len(undone_by(window, member)) if member else 0
+            for hook, optional in pattern(outcome, Listener(connectable, False, undone)):
                 if not optional and component:
-                    window.callbacks.append(Enter(0, 0, 0, component, instance, hook))  # type: ignore[arg-type]
+                    window.hear(Enter(0, 0, 0, component, instance, hook))  # type: ignore[arg-type]
         adopt(self.runtime, window, self._end(step, window, answer))
         return window
 

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reference, Return, Siblings
 from ucm_cts.reference_models.adoption import received
+from ucm_cts.reference_models.duties import CONNECTABLE_HOOKS, LIFE_CYCLE_HOOKS, Deviation, Listener
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.ledger import Ledger, rule
-from ucm_cts.reference_models.life_cycle import CallbackDuty, Outcome, Row
+from ucm_cts.reference_models.life_cycle import Row
 from ucm_cts.reference_models.rules_operations import listing_problem
 from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
 from ucm_cts.reference_models.situations import undone_by
-
-LIFE_CYCLE_HOOKS = frozenset(("on_init", "on_startup", "on_shutdown", "on_remove", "on_connect", "on_disconnect"))
-_CONNECTABLE_HOOKS = ("on_connect", "on_disconnect")
 
 _FROM_DUTIES = [
     "R-11.1.3-04",
@@ -40,163 +37,85 @@ _FROM_DUTIES = [
     "R-11.2.3-15",
 ]
 
-Token = tuple[str, bool]
-"""A callback of an outcome's pattern, and whether it may be left out."""
-
-
-def pattern(outcome: Outcome, window: Window, member: Member | None, connectable: bool) -> list[Token]:
-    """The callbacks that ``outcome`` asks for, for this instance and its connections."""
-    tokens: list[Token] = []
-    for text in outcome.callbacks:
-        hook = text.rstrip("?*")
-        if hook in _CONNECTABLE_HOOKS and not connectable:
-            continue
-        count = len(undone_by(window, member)) if text.endswith("*") and member is not None else 1
-        tokens.extend([(hook, text.endswith("?"))] * count)
-    return tokens
-
-
-def fits(tokens: Sequence[Token], observed: Sequence[str]) -> bool:
-    """Is ``observed`` a sequence that ``tokens`` permits?"""
-    if not tokens:
-        return not observed
-    hook, optional = tokens[0]
-    if observed and observed[0] == hook and fits(tokens[1:], observed[1:]):
-        return True
-    return optional and fits(tokens[1:], observed)
-
-
-def _duty(ledger: Ledger, hook: str, operation: str) -> CallbackDuty:
-    return next(
-        d for d in ledger.table.duties if d.callback == hook and (not d.operations or operation in d.operations)
-    )
-
 
 def _observed(window: Window, component: str, instance: int | None) -> list[Enter]:
-    return [
-        c
-        for c in window.callbacks
-        if c.component == component and c.instance == instance and c.hook in LIFE_CYCLE_HOOKS
-    ]
+    return [c for c in window.by_body.get((component, instance), ()) if c.hook in LIFE_CYCLE_HOOKS]
 
 
 @rule("ended", *_FROM_DUTIES)
 def callbacks(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Each instance receives exactly the callbacks that the life-cycle table asks for, in its order."""
     answer = "return" if isinstance(end, Return) else end.error
-    _others(ledger, runtime, window)
-    if not window.judged:
-        return
-    if _manager_forgot_its_own(ledger, window, answer, end.n):
+    if len(runtime.members) > len(window.roles) or window.callbacks:
+        _others(ledger, runtime, window)
+    if not window.judged or _manager_forgot_its_own(ledger, window, answer, end.n):
         return
     for member, row in window.roles:
-        if isinstance(window.step, s.AddComponent):
-            _instance(ledger, runtime, window, row, None, answer, end.n)
-        elif member is not None:
-            _instance(ledger, runtime, window, row, member, answer, end.n)
-        else:
-            _visited(ledger, row, [o for o in row.outcomes if answer in o.answer])
+        component, instance, listener = _listener(runtime, window, member)
+        events = _observed(window, component, instance) if window.callbacks else []
+        if row.operation == "start":  # a late on_init or on_connect is configuration_first's matter
+            events = [e for e in events if e.hook not in ("on_init", "on_connect")]
+        heard = tuple([e.hook for e in events])
+        fit = ledger.duties.fit(row, answer, listener, heard)
+        if fit is None:
+            ledger.row(row).violated += 1
+            who = lane(component, instance or 1)
+            _deviates(ledger, window, row, who, ledger.duties.deviation(row, answer, listener, heard), events, end)
+            if member is not None:
+                member.suspended = True
+            else:
+                window.judged = False
+            continue
+        ledger.fitted(row, fit)
 
 
-def _visited(ledger: Ledger, row: Row, fitting: list[Outcome]) -> None:
-    tally = ledger.row(row)
-    tally.exercised += 1
-    if len(fitting) == 1 and fitting[0].reading:
-        tally.readings.add(fitting[0].reading)
+_NOBODY = Listener(False, False, 0)
 
 
-def _instance(
-    ledger: Ledger, runtime: Runtime, window: Window, row: Row, member: Member | None, answer: str, end: int
+def _listener(runtime: Runtime, window: Window, member: Member | None) -> tuple[str, int | None, Listener]:
+    """The body that a role is about, and what decides which callbacks it gets; a new instance has no member yet."""
+    if member is not None:
+        undone = len(undone_by(window, member)) if member.connections else 0
+        declaration = member.declaration
+        return member.component, member.instance, Listener(declaration.connectable, declaration.fragment, undone)
+    if not isinstance(window.step, s.AddComponent):
+        return "", None, _NOBODY
+    component = window.step.component
+    wanted = runtime.scenario.components.get(component)
+    fresh = (c.instance for c in window.callbacks if c.component == component)
+    instance = next((i for i in fresh if (component, i) not in runtime.bodies), None)
+    return component, instance, Listener(wanted.connectable, wanted.fragment, 0) if wanted is not None else _NOBODY
+
+
+def _deviates(
+    ledger: Ledger, window: Window, row: Row, who: str, deviation: Deviation, events: list[Enter], end: Return | Raise
 ) -> None:
-    """Hold what one instance received against its row; a new instance has no ``member`` yet."""
-    if member is not None:
-        declaration, component, instance = member.declaration, member.component, member.instance
-    else:
-        assert isinstance(window.step, s.AddComponent)
-        component = window.step.component
-        declaration = runtime.scenario.components.get(component, s.Declaration())
-        fresh = [c.instance for c in window.callbacks if c.component == component]
-        instance = next((i for i in fresh if (component, i) not in runtime.bodies), None)
-    events = _observed(window, component, instance)
-    if row.operation == "start":  # a late on_init or on_connect is configuration_first's matter
-        events = [e for e in events if e.hook not in ("on_init", "on_connect")]
-    observed: list[str] = [e.hook for e in events]
-    candidates = [o for o in row.outcomes if answer in o.answer]
-    patterns = [pattern(o, window, member, declaration.connectable) for o in candidates]
-    fitting = [(o, t) for o, t in zip(candidates, patterns, strict=True) if fits(t, observed)]
-    if fitting:
-        _visited(ledger, row, [o for o, _ in fitting])
-        _kept(ledger, row, declaration, observed, fitting[0][1], answer)
-        return
-    tokens = min(
-        patterns, key=lambda t: sum(_difference(t, observed)[0].values()) + sum(_difference(t, observed)[1].values())
-    )
-    missing, surplus = _difference(tokens, observed)
-    who = member.lane if member else lane(component, instance or 1)
-    if member is not None:
-        member.suspended = True
-    else:
-        window.judged = False
-    ledger.row(row).violated += 1
-    if missing:
-        hook = next(h for h, optional in tokens if not optional and h in missing)
-        requirement = row.missing or _duty(ledger, hook, row.operation).missing
-        if declaration.fragment and hook in ("on_init", "on_startup"):
-            requirement = "R-11.2.1.4-01"
-        cause, observation = f"{row.operation} without {hook}", f"{window.operation} ended without {hook} on {who}"
-        offending: tuple[int, ...] = (end,)
-    elif surplus:
-        hook = next(h for h in observed if h in surplus)
-        requirement = _duty(ledger, hook, row.operation).unexpected
-        offending = tuple(e.n for e in events if e.hook == hook)
-        times = f" {len(offending)} times" if len(offending) > 1 else ""
-        cause, observation = (
-            f"{hook} by {row.id}",
-            f"{who} received {hook}{times} from {window.operation} while {row.state}",
+    hook, operation = deviation.hook, window.operation
+    if deviation.missing:
+        cause, observed, offending = (
+            f"{row.operation} without {hook}",
+            f"{operation} ended without {hook} on {who}",
+            [end.n],
         )
+    elif hook:
+        offending = [e.n for e in events if e.hook == hook]
+        times = f" {len(offending)} times" if len(offending) > 1 else ""
+        cause, observed = f"{hook} by {row.id}", f"{who} received {hook}{times} from {operation} while {row.state}"
     else:
-        requirement, cause = ledger.table.order, f"{row.operation} order"
-        observation, offending = f"{who} received {', '.join(observed)}", tuple(e.n for e in events)
-    wanted = [h for h, optional in tokens if not optional]
+        offending = [e.n for e in events]
+        cause, observed = f"{row.operation} order", f"{who} received {', '.join(e.hook for e in events)}"
+    situation = f"{row.state}, {row.condition}" if row.condition else row.state
     ledger.violated(
-        requirement,
+        deviation.requirement,
         "callbacks",
         cause,
-        f"{window.operation} brings {who} {', '.join(wanted) if wanted else 'no callback'} ({row.state}{', ' * bool(row.condition)}{row.condition})",
-        observation,
-        offending,
+        f"{operation} brings {who} {', '.join(deviation.wanted) or 'no callback'} ({situation})",
+        observed,
+        tuple(offending),
         window.step_number,
-        tuple(Arrow(window.container.name, who, h) for h in wanted)
-        or (Arrow(window.container.name, "test", f"{answer}, no callback"),),
+        tuple(Arrow(window.container.name, who, h) for h in deviation.wanted)
+        or (Arrow(window.container.name, "test", "return, no callback"),),
     )
-
-
-def _difference(tokens: Sequence[Token], observed: Sequence[str]) -> tuple[Counter[str], Counter[str]]:
-    """Callbacks that should be there and are not, and those that are there and should not."""
-    required = Counter(h for h, optional in tokens if not optional)
-    permitted = Counter(h for h, _ in tokens)
-    seen = Counter(observed)
-    return required - seen, seen - permitted
-
-
-def _kept(
-    ledger: Ledger, row: Row, declaration: s.Declaration, observed: list[str], tokens: list[Token], answer: str
-) -> None:
-    for hook in set(observed):
-        duty = _duty(ledger, hook, row.operation)
-        if any(h == hook for h, _ in tokens):
-            ledger.exercised(duty.missing)
-            if declaration.fragment and hook in ("on_init", "on_startup"):
-                ledger.exercised("R-11.2.1.4-01")
-    if len(observed) > 1 and "on_remove" in observed and answer == "return":
-        ledger.exercised(ledger.table.order)
-    if row.operation == "connect" and declaration.connectable and not observed:
-        ledger.exercised(_duty(ledger, "on_connect", "connect").unexpected)
-    if row.state != "absent":
-        for hook in ("on_init", "on_startup", "on_shutdown"):
-            duty = _duty(ledger, hook, row.operation)
-            if hook not in observed and duty.missing != duty.unexpected:
-                ledger.exercised(duty.unexpected)
 
 
 def _others(ledger: Ledger, runtime: Runtime, window: Window) -> None:
@@ -218,7 +137,7 @@ def _others(ledger: Ledger, runtime: Runtime, window: Window) -> None:
         role = "elsewhere" if elsewhere else "bystander"
         member.suspended = True
         ledger.violated(
-            _duty(ledger, hook, role).unexpected,
+            ledger.duties.of(hook, role).unexpected,
             "callbacks",
             f"{hook} by another's {window.operation}",
             f"{window.operation} on {'another container' if elsewhere else 'another instance'} leaves {member.lane} alone",
@@ -264,11 +183,9 @@ def _manager_forgot_its_own(ledger: Ledger, window: Window, answer: str, end: in
     return True
 
 
-@rule("entered", "R-11.1.1-01", "R-11.1.2-01")
+@rule("entered", "R-11.1.1-01", "R-11.1.2-01", at=LIFE_CYCLE_HOOKS)
 def whole_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]) -> None:
     """Life-cycle callbacks come during operations of the container; a whole life has them in order."""
-    if event.hook not in LIFE_CYCLE_HOOKS:
-        return
     declaration = runtime.scenario.components.get(event.component)
     requirement = "R-11.1.2-01" if declaration is not None and declaration.fragment else "R-11.1.1-01"
     member = runtime.member_of(event.component, event.instance)
@@ -285,18 +202,16 @@ def whole_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: E
             (event.n,),
         )
     elif event.hook == "on_remove" and member is not None and not member.suspended:
-        steps = [h for h in heard if h in LIFE_CYCLE_HOOKS and h not in _CONNECTABLE_HOOKS]
+        steps = [h for h in heard if h in LIFE_CYCLE_HOOKS and h not in CONNECTABLE_HOOKS]
         if steps[:1] == ["on_init"] and steps[1:] and steps[1:] == ["on_startup", "on_shutdown"] * (len(steps) // 2):
             ledger.exercised(requirement)
 
 
-@rule("entered", "R-11.2.1.2-01")
+@rule("entered", "R-11.2.1.2-01", at=LIFE_CYCLE_HOOKS)
 def nothing_outside_life(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
 ) -> None:
     """No callback before on_init or after on_remove."""
-    if event.hook not in LIFE_CYCLE_HOOKS:
-        return
     if event.hook == "on_remove" and heard[:1] == ["on_init"] and "on_remove" not in heard:
         ledger.exercised("R-11.2.1.2-01")
         return
@@ -330,12 +245,12 @@ def nothing_outside_life(
         member.suspended = True
 
 
-@rule("entered", "R-11.2.1.2-05")
+@rule("entered", "R-11.2.1.2-05", at=("on_init",))
 def attributes_before_init(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
 ) -> None:
     """On entry to on_init the body holds the configured attribute values."""
-    if event.hook != "on_init" or "on_init" in heard:
+    if "on_init" in heard:
         return
     declaration = runtime.scenario.components.get(event.component)
     if declaration is None or not declaration.attributes:
@@ -356,10 +271,10 @@ def attributes_before_init(
     )
 
 
-@rule("ended", "R-11.2.1.2-08")
+@rule("ended", "R-11.2.1.2-08", at=("start",))
 def configuration_first(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Once start has started a member, nothing of the container is initialised or connected any more."""
-    if window.operation != "start" or not isinstance(end, Return):
+    if not isinstance(end, Return):
         return
     own = [m for m in window.container.live_members() if m.instance is not None]
     late = [c for m in own for c in (*received(window, m, "on_init"), *received(window, m, "on_connect"))]
@@ -377,12 +292,12 @@ def configuration_first(ledger: Ledger, runtime: Runtime, window: Window, end: R
         ledger.exercised("R-11.2.1.2-08")
 
 
-@rule("entered", "R-11.2.1.3-04")
+@rule("entered", "R-11.2.1.3-04", at=("on_connect",))
 def connect_arguments(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
 ) -> None:
     """on_connect is given the port element's name and the reference that connect was given."""
-    if event.hook != "on_connect" or window is None or not isinstance(window.step, s.Connect):
+    if window is None or not isinstance(window.step, s.Connect):
         return
     member = window.subject
     if member is None or member.suspended or (member.component, member.instance) != (event.component, event.instance):
@@ -407,12 +322,12 @@ def connect_arguments(
     )
 
 
-@rule("entered", "R-11.2.1.3-06")
+@rule("entered", "R-11.2.1.3-06", at=("on_disconnect",))
 def disconnect_arguments(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
 ) -> None:
     """on_disconnect is given the name of the port element whose connection is undone."""
-    if event.hook != "on_disconnect" or window is None:
+    if window is None:
         return
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended:
@@ -436,7 +351,7 @@ def disconnect_arguments(
     )
 
 
-@rule("entered", "R-11.2.1.4-02")
+@rule("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"))
 def container_interface(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
 ) -> None:

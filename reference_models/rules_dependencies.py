@@ -18,11 +18,9 @@ def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
     return by_port
 
 
-@rule("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25")
+@rule("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
 def dependencies(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]) -> None:
     """on_startup names each connected required port element and gives the reference it was connected to."""
-    if event.hook != "on_startup":
-        return
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended or member.operational:
         return
@@ -79,12 +77,12 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
     return None
 
 
-@rule("entered", "R-11.2.2.1-10", "R-11.2.3-14")
+@rule("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
 def no_dangling_reference(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
 ) -> None:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
-    if event.hook != "on_startup" or (window is not None and window.operation == "connect"):
+    if window is not None and window.operation == "connect":
         return
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.operational:

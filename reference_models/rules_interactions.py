@@ -35,7 +35,7 @@ class BusinessCall:
                 return
 
 
-@rule("ended", "R-11.2.1.1-02", "R-11.2.1.2-07")
+@rule("answered", "R-11.2.1.1-02", "R-11.2.1.2-07")
 def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
     """A call through a reference enters an operational body once, with the value sent, and returns its result."""
     assert call.step is not None
@@ -102,7 +102,7 @@ def interactions(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Re
     )
 
 
-@rule("entered", "R-11.2.3-02")
+@rule("called", "R-11.2.3-02")
 def disabled_ports(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
 ) -> None:
@@ -131,7 +131,7 @@ def disabled_ports(
     )
 
 
-@rule("entered", "R-11.2.3-17")
+@rule("called", "R-11.2.3-17")
 def nothing_after_stop(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
 ) -> None:
@@ -152,10 +152,10 @@ def nothing_after_stop(
     )
 
 
-@rule("ended", "R-11.2.3-17")
+@rule("ended", "R-11.2.3-17", at=("get_components", "get_port_element"))
 def quiet_after_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
-    """Counts what nothing_after_stop watched: operations on a container stopped after it had served calls."""
-    if window.operation in ("start", "stop") or window.container.started is not False:
+    """Counts what nothing_after_stop watched: queries of a container stopped after it had served calls."""
+    if window.container.started is not False:
         return
     if any(m.served and not m.suspended for m in window.container.live_members()):
         ledger.exercised("R-11.2.3-17")

@@ -116,18 +116,18 @@ def outcomes(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Rai
         return
 
 
-@rule("ended", "R-11.2.2.1-03", "R-12.10-02")
+@rule("ended", "R-11.2.2.1-03", "R-12.10-02", at=("add_component",))
 def component_ids(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Component ids are 32-bit, and distinct among the live members of a container."""
-    if window.operation == "add_component" and isinstance(end, Return):
+    if isinstance(end, Return):
         live = [m.id for m in window.container.live_members()]
         _identifier(ledger, window, end, live, "component", "R-11.2.2.1-03", "R-12.10-02")
 
 
-@rule("ended", "R-11.2.2.1-09", "R-12.10-03")
+@rule("ended", "R-11.2.2.1-09", "R-12.10-03", at=("connect",))
 def connection_ids(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Connection ids are 32-bit, and distinct among the live connections of a container."""
-    if window.operation == "connect" and isinstance(end, Return) and window.judged:
+    if isinstance(end, Return) and window.judged:
         live = [c.id for c in runtime.connections.values() if c.live and c.client.container is window.container]
         _identifier(ledger, window, end, live, "connection", "R-11.2.2.1-09", "R-12.10-03")
 
@@ -153,7 +153,7 @@ def _identifier(
         ledger.exercised(unique)
 
 
-@rule("ended", "R-11.2.2.1-06")
+@rule("ended", "R-11.2.2.1-06", at=("get_port_element",))
 def port_element_identity(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """get_port_element gives the object that the designated body made for that name."""
     if not isinstance(window.step, s.GetPortElement) or not isinstance(end, Return):
@@ -179,10 +179,10 @@ def port_element_identity(ledger: Ledger, runtime: Runtime, window: Window, end:
         )
 
 
-@rule("ended", "R-11.2.2.1-14", "R-12.10-22")
+@rule("ended", "R-11.2.2.1-14", "R-12.10-22", at=("get_components",))
 def membership(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """get_components lists exactly the live members; a failed add has left nothing among them."""
-    if window.operation != "get_components" or not isinstance(end, Return) or not window.judged:
+    if not isinstance(end, Return) or not window.judged:
         return
     listed = end.value if isinstance(end.value, tuple) else ()
     problem = listing_problem(runtime, window.container, listed)
@@ -224,7 +224,7 @@ def listing_problem(runtime: Runtime, container: Container, listed: tuple[int, .
     return None
 
 
-@rule("ended", "R-11.2.2.1-02")
+@rule("ended", "R-11.2.2.1-02", at=("add_component",))
 def right_body(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """The one body initialised by add_component is of the implementation asked for."""
     if not isinstance(window.step, s.AddComponent) or not isinstance(end, Return) or not window.judged:
@@ -249,10 +249,10 @@ def right_body(ledger: Ledger, runtime: Runtime, window: Window, end: Return | R
     )
 
 
-@rule("ended", "R-11.2.2.1-13")
+@rule("ended", "R-11.2.2.1-13", at=("stop",))
 def stop_order(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """stop shuts members down in the reverse of the order they were started in."""
-    if window.operation != "stop" or not isinstance(end, Return):
+    if not isinstance(end, Return):
         return
     started = [m for m in window.container.startup_order if not m.gone and not m.suspended]
     when = {id(m): received(window, m, "on_shutdown") for m in started}

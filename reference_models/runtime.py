@@ -122,9 +122,15 @@ class Window:
     forgiving: bool = False
     lost: bool = False
     callbacks: list[Enter] = field(default_factory=list)
+    by_body: dict[tuple[str, int | None], list[Enter]] = field(default_factory=dict)
     created: list[tuple[str, int]] = field(default_factory=list)
     subject: Member | None = None
     connection: Connection | None = None
+
+    def hear(self, callback: Enter) -> None:
+        """A body was entered while the operation was in progress."""
+        self.callbacks.append(callback)
+        self.by_body.setdefault((callback.component, callback.instance), []).append(callback)
 
 
 def lane(component: str, instance: int) -> str:

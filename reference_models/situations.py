@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, Row, State
 from ucm_cts.reference_models.runtime import Connection, Container, Member, Runtime, Window, raises
 
 _FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")
+
+_OF_THE_MANAGER = frozenset(("create_container", "remove_container", "destroy"))
 
 
 class MissingRow(Exception):
@@ -18,41 +23,33 @@ class Situations:
 
     def __init__(self, table: LifeCycleTable) -> None:
         self._rows = {(r.state, r.operation, r.condition): r for r in table.rows}
+        self._looks: dict[str, Callable[[Runtime, Window, Any], None]] = {
+            "add_component": self._add,
+            "remove_component": self._remove,
+            "get_port_element": self._get_port_element,
+            "connect": self._connect,
+            "disconnect": self._disconnect,
+            "start": self._start,
+            "stop": self._stop,
+            "get_components": lambda runtime, window, step: self._role(window, None, "absent", ""),
+            "create_container": self._create_container,
+            "remove_container": self._remove_container,
+            "destroy": self._destroy,
+        }
 
     def open(self, runtime: Runtime, number: int, step: s.ContainerCall) -> Window:
         """The window of scenario step ``number``, with the rows that apply."""
         operation = s.operation(step)
-        name = step.container if not isinstance(step, s.CreateContainer | s.RemoveContainer | s.Destroy) else s.MANAGER
+        name = s.MANAGER if operation in _OF_THE_MANAGER else step.container  # type: ignore[union-attr]
         container = runtime.containers.get(name) or Container(name, removed=True)
         window = Window(number, step, operation, container)
-        if runtime.destroyed or (container.removed and not isinstance(step, s.RemoveContainer)):
+        if runtime.destroyed or (container.removed and operation != "remove_container"):
             window.judged = False
             return window
-        match step:
-            case s.AddComponent():
-                self._add(runtime, window, step)
-            case s.RemoveComponent():
-                self._remove(runtime, window, step)
-            case s.GetPortElement():
-                self._get_port_element(runtime, window, step)
-            case s.Connect():
-                self._connect(runtime, window, step)
-            case s.Disconnect():
-                self._disconnect(runtime, window, step)
-            case s.Start():
-                self._start(runtime, window)
-            case s.Stop():
-                self._stop(runtime, window)
-            case s.GetComponents():
-                self._role(window, None, "absent", "")
-            case s.CreateContainer():
-                self._role(window, None, "absent", "first" if len(runtime.containers) == 1 else "another")
-            case s.RemoveContainer():
-                self._remove_container(runtime, window, step)
-            case s.Destroy():
-                self._removal_of_all(window, [m for c in runtime.containers.values() for m in c.live_members()])
-        if any(member is not None and member.suspended for member, _ in window.roles):
-            window.judged = False
+        self._looks[operation](runtime, window, step)
+        for member, _ in window.roles:
+            if member is not None and member.suspended:
+                window.judged = False
         return window
 
     def _role(self, window: Window, member: Member | None, state: State, condition: str, operation: str = "") -> None:
@@ -183,7 +180,7 @@ class Situations:
             condition = ""
         self._member_role(window, member, condition)
 
-    def _start(self, runtime: Runtime, window: Window) -> None:
+    def _start(self, runtime: Runtime, window: Window, step: s.Start) -> None:
         container = window.container
         members = container.live_members()
         started = container.started
@@ -214,7 +211,7 @@ class Situations:
             self._member_role(window, member, condition)
         self._reach_below(runtime, window)
 
-    def _stop(self, runtime: Runtime, window: Window) -> None:
+    def _stop(self, runtime: Runtime, window: Window, step: s.Stop) -> None:
         container = window.container
         members = container.live_members()
         if container.started is None or any(m.suspended for m in members):
@@ -247,6 +244,12 @@ class Situations:
                 self._member_role(window, member, "the manager's")
                 if member.state != "configured" or member.raises("on_startup", "on_shutdown"):
                     window.forgiving = True
+
+    def _create_container(self, runtime: Runtime, window: Window, step: s.CreateContainer) -> None:
+        self._role(window, None, "absent", "first" if len(runtime.containers) == 1 else "another")
+
+    def _destroy(self, runtime: Runtime, window: Window, step: s.Destroy) -> None:
+        self._removal_of_all(window, [m for c in runtime.containers.values() for m in c.live_members()])
 
     def _remove_container(self, runtime: Runtime, window: Window, step: s.RemoveContainer) -> None:
         if step.container == s.NIL:

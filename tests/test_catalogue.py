@@ -50,7 +50,7 @@ def test_table_names_known_requirements_and_readings() -> None:
     table = load_life_cycle()
     assert len({row.id for row in table.rows}) == len(table.rows)
     assert {row.requirement for row in table.rows} == set(RULES["outcomes"].stands_for)
-    duties = {x for d in table.duties for x in (d.missing, d.unexpected)} | {table.order}
+    duties = {x for d in table.duties for x in (d.missing, d.unexpected)} | {table.order, table.fragments}
     assert duties <= set(RULES["callbacks"].stands_for)
     for outcome in (o for row in table.rows for o in row.outcomes):
         if outcome.reading:

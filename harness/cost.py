@@ -1,0 +1,260 @@
+"""What a life-cycle scenario costs through each door, side by side in one run (``tox -e bench``).
+
+All figures are medians of several rounds taken in turn, so that a machine that slows down slows all of them down.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
+from ucm_cts.harness.campaign import Campaign
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.driver import Driver
+from ucm_cts.harness.host_watch import Limits
+from ucm_cts.harness.hosts import Hosts
+from ucm_cts.harness.locate import locate
+from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.results import Incident
+from ucm_cts.reference_models.judgement import Judge
+
+ROUNDS = 7
+BATCH = 400
+
+_SERVER, _CLIENT = "server", "client"
+_PROVIDED, _REQUIRED = "in_api", "out_api"
+
+LIFE_CYCLE = s.Scenario(
+    {
+        _SERVER: s.Declaration(provides=(_PROVIDED,)),
+        _CLIENT: s.Declaration(requires=(_REQUIRED,)),
+    },
+    (
+        s.AddComponent(_SERVER),
+        s.AddComponent(_CLIENT),
+        s.GetPortElement(_SERVER, _PROVIDED, "api"),
+        s.Connect(_CLIENT, _REQUIRED, "api", "link"),
+        s.Start(),
+        s.Invoke("api", 1),
+        s.Stop(),
+        s.Disconnect("link"),
+        s.RemoveComponent(_CLIENT),
+        s.RemoveComponent(_SERVER),
+    ),
+)
+"""The scenario whose cost is counted: ten operations, a whole life of two components."""
+
+_ECHO = "import os\nwhile True:\n    data = os.read(0, 65536)\n    if not data: break\n    os.write(1, data)\n"
+
+
+def main() -> None:
+    """Print the table of costs."""
+    module: Any = importlib.import_module("ucm_cts.adapters._reference_cpp")
+    console = Console()
+    console.print("measuring ...")
+    cases: dict[str, Callable[[], float]] = {}
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        _pinned(),
+        _raw_pipe() as ping,
+        Hosts(locate("reference-cpp")) as hosts,
+    ):
+        hosts.welcome  # noqa: B018 - starts the host outside the measurement
+        cases["direct C++ loop"] = lambda: float(module.life_cycles(BATCH * 10)) / 1000
+        cases["pybind11, in process"] = lambda: _timed(lambda: _direct(module), BATCH)
+        cases["pybind11, in process, with trace"] = lambda: _timed(lambda: _traced(module.answer), BATCH)
+        cases["pybind11, in process, with trace and judge"] = lambda: _timed(lambda: _judged(module.answer), BATCH)
+        cases["wire, one at a time"] = lambda: _timed(lambda: _wire(hosts, 1, False), BATCH)
+        cases["wire, pipelined"] = lambda: _timed(lambda: _wire(hosts, BATCH, False), 1, BATCH)
+        cases["wire, pipelined, with judge"] = lambda: _timed(lambda: _wire(hosts, BATCH, True), 1, BATCH)
+        costs = _medians(cases)
+        calls = _medians(
+            {
+                "raw ping-pong": lambda: _timed(ping, BATCH),
+                "one call a message": lambda: _timed(lambda: _calls(hosts, 1), BATCH),
+                "64 calls a message": lambda: _timed(lambda: _calls(hosts, 64), BATCH // 8, 64),
+                "direct Python call": lambda: _timed_calls(),
+            }
+        )
+        restarts = {name: _restart(Path(folder), name) for name in ("reference-cpp", "reference-py")}
+    whole = {name: _whole_run(name) for name in ("reference-cpp", "reference-py")}
+    console.print(_life_cycle_table(costs))
+    console.print(_call_table(calls))
+    other = Table(title="Hosts and whole runs", title_justify="left")
+    for column in ("", "reference-cpp", "reference-py", "limit"):
+        other.add_column(column)
+    other.add_row("fresh host after a crash, ms", *(f"{restarts[n]:.1f}" for n in restarts), "10")
+    other.add_row("whole container run, s", *(f"{whole[n]:.2f}" for n in whole), "10")
+    console.print(other)
+
+
+def _life_cycle_table(costs: dict[str, float]) -> Table:
+    direct = costs["pybind11, in process"]
+    table = Table(title="One life-cycle scenario (10 operations)", title_justify="left")
+    for column in ("through", "µs", "× direct pybind11", "limit"):
+        table.add_column(column, justify="left" if column == "through" else "right")
+    for name, cost in costs.items():
+        table.add_row(
+            name, f"{cost:.1f}", f"{cost / direct:.1f}", "40" if name == "wire, pipelined, with judge" else ""
+        )
+    return table
+
+
+def _call_table(calls: dict[str, float]) -> Table:
+    table = Table(title="One call of get_components, with its trace", title_justify="left")
+    for column in ("through", "µs", "ratio", "limit"):
+        table.add_column(column, justify="left" if column == "through" else "right")
+    ping, python = calls["raw ping-pong"], calls["direct Python call"]
+    table.add_row("raw ping-pong of the same bytes", f"{ping:.1f}", "1", "")
+    table.add_row(
+        "one call a message", f"{calls['one call a message']:.1f}", f"{calls['one call a message'] / ping:.1f}", "2"
+    )
+    table.add_row("direct Python call", f"{python:.2f}", "1", "")
+    table.add_row(
+        "64 calls a message", f"{calls['64 calls a message']:.2f}", f"{calls['64 calls a message'] / python:.1f}", "6"
+    )
+    return table
+
+
+def _medians(cases: dict[str, Callable[[], float]]) -> dict[str, float]:
+    taken: dict[str, list[float]] = {name: [] for name in cases}
+    for turn in range(ROUNDS + 1):
+        for name, measure in cases.items():
+            cost = measure()
+            if turn:  # the first round warms up
+                taken[name].append(cost)
+    return {name: statistics.median(costs) for name, costs in taken.items()}
+
+
+def _timed(action: Callable[[], object], times: int, each: int = 1) -> float:
+    began = time.perf_counter()
+    for _ in range(times):
+        action()
+    return (time.perf_counter() - began) / times / each * 1e6
+
+
+def _direct(module: Any) -> None:
+    runtime = module.Runtime([(_SERVER, [_PROVIDED], []), (_CLIENT, [], [_REQUIRED])])
+    server = runtime.add_component(_SERVER)
+    client = runtime.add_component(_CLIENT)
+    api = runtime.get_port_element(server, _PROVIDED)
+    link = runtime.connect(client, _REQUIRED, api)
+    runtime.start()
+    runtime.exchange(api, 1)
+    runtime.stop()
+    runtime.disconnect(link)
+    runtime.remove_component(client)
+    runtime.remove_component(server)
+
+
+_JUDGE = Judge(load_life_cycle())
+
+
+def _traced(answer: Callable[[bytes], bytes]) -> Traced:
+    reply = from_host_decoder().decode(answer(encode(Run(0, LIFE_CYCLE))))
+    assert isinstance(reply, Traced)
+    return reply
+
+
+def _judged(answer: Callable[[bytes], bytes]) -> None:
+    assert not _JUDGE.judge(LIFE_CYCLE, _traced(answer).events).findings
+
+
+def _wire(hosts: Hosts, count: int, judged: bool) -> None:
+    for answer in hosts.run(Run(number, LIFE_CYCLE) for number in range(count)):
+        assert isinstance(answer.reply, Traced)
+        if judged:
+            assert not _JUDGE.judge(LIFE_CYCLE, answer.reply.events).findings
+
+
+def _calls(hosts: Hosts, count: int) -> None:
+    (answer,) = hosts.run([Run(0, s.Scenario({}, (s.GetComponents(),) * count))])
+    assert isinstance(answer.reply, Traced)
+
+
+class _Container:
+    """A plain Python object with a call as cheap as Python's calls are."""
+
+    def __init__(self) -> None:
+        self.members: dict[int, object] = {}
+
+    def get_components(self) -> list[int]:
+        return list(self.members)
+
+
+def _timed_calls() -> float:
+    container = _Container()
+    call = container.get_components
+    return _timed(call, BATCH * 50)
+
+
+@contextmanager
+def _pinned() -> Iterator[None]:
+    """Both ends of a pipe on one core: for ping-pong that beats two cores, and it is the same for all figures."""
+    before = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(before)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, before)
+
+
+@contextmanager
+def _raw_pipe() -> Iterator[Callable[[], None]]:
+    """A process that echoes bytes, and a function that sends as many as one call's message has and waits for them."""
+    process = subprocess.Popen([sys.executable, "-c", _ECHO], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
+    assert process.stdin is not None
+    assert process.stdout is not None
+    line = encode(Run(0, s.Scenario({}, (s.GetComponents(),)))) + b"\n"
+    out, back = process.stdin.fileno(), process.stdout.fileno()
+
+    def ping() -> None:
+        os.write(out, line)
+        received = 0
+        while received < len(line):
+            received += len(os.read(back, 65536))
+
+    try:
+        yield ping
+    finally:
+        process.stdin.close()
+        process.wait()
+
+
+def _restart(folder: Path, name: str) -> float:
+    """Milliseconds from the end of a host that crashed to the answer of its successor."""
+    costs = []
+    with Hosts(locate(name), Limits()) as hosts:
+        hosts.welcome  # noqa: B018
+        for _ in range(ROUNDS):
+            hosts.restart()
+            costs.append(_timed(lambda: _calls(hosts, 1), 1) / 1000)
+    return statistics.median(costs)
+
+
+def _whole_run(name: str) -> float:
+    began = time.perf_counter()
+    with Driver(locate(name), 1) as driver:
+        campaign = Campaign(driver, "container")
+        for checked in campaign.check(load_purposes("container")):
+            assert not checked.failures
+        assert not any(isinstance(i.incident, Incident) for i in campaign.report().incidents)
+    return time.perf_counter() - began
+
+
+if __name__ == "__main__":
+    main()
