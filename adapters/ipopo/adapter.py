@@ -30,10 +30,10 @@ class IpopoAdapter(Adapter):
     """Binds iPOPO: a runtime is a Pelix framework, a container a bundle in it with component factories of its own.
 
     A provided port element is a service, there while its component is valid. A required one is a mandatory requirement
-    whose filter follows a property, which ``connect`` and ``disconnect`` reconfigure; the latest connection replaces
-    any other. Attributes are properties. ``on_init`` is called where a constructor is; ``@Validate`` calls ``on_startup``,
+    whose filter follows a property that ``connect`` and ``disconnect`` reconfigure; a connection replaces an older.
+    Attributes are properties. ``on_init`` is called where a constructor is; ``@Validate`` calls ``on_startup``,
     ``@Invalidate`` ``on_shutdown``, (un)binding a field ``on_(dis)connect``, the event KILLED ``on_remove``. iPOPO
-    itself starts what it can: ``stop`` invalidates the members, last first; ``start`` is an empty ``reconfigure`` of each.
+    starts what it can by itself: ``stop`` invalidates members, last first; ``start`` reconfigures each with nothing.
     """
 
     product = "iPOPO"
