@@ -3,8 +3,6 @@
 #include <ucm_cts/main.hpp>
 #include <ucm_cts/shaped.hpp>
 
-namespace {
-
 struct Lwucm {
     typedef lwucm::PortElementObject PortElementObject;
     typedef lwucm::ComponentObject ComponentObject;
@@ -29,7 +27,5 @@ struct Lwucm {
         return ucm_cts::properties<lwucm::Properties>("implementation", implementation, attributes);
     }
 };
-
-}  // namespace
 
 UCM_CTS_ADAPTER(ucm_cts::ShapedAdapter<Lwucm>, "lwucm reference framework (C++)", "0.1.0");

@@ -53,6 +53,8 @@ class Answerer {
             }
         } catch (const ProtocolError& error) {
             refuse(error.what());
+        } catch (const std::exception& error) {  // no memory, no threads
+            refuse(std::string("the host failed: ") + error.what());
         }
         return out_;
     }

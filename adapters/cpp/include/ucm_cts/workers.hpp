@@ -22,19 +22,24 @@ class Workers {
   public:
     explicit Workers(std::chrono::milliseconds patience) : patience_(patience) {}
 
+    ~Workers() {
+        for (auto& entry : workers_) {
+            if (entry.second->thread.joinable()) {  // not finished: something went wrong on the way
+                entry.second->abandon();
+            }
+        }
+    }
+
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+
     /// Tasks must not throw, and must keep alive what they use: a stuck thread is left behind.
     void queue(const std::string& name, std::function<void()> task) {
         std::shared_ptr<Worker> worker;
         {
             std::lock_guard<std::mutex> lock(mutex_);
-            std::shared_ptr<Worker>& slot = workers_[name];
-            if (!slot) {
-                slot = std::make_shared<Worker>();
-                const std::shared_ptr<Worker> own = slot;
-                const std::string label = "worker " + name;
-                slot->thread = std::thread([own, label] { own->work(label); });
-            }
-            worker = slot;
+            const auto found = workers_.find(name);
+            worker = found != workers_.end() ? found->second : make(name);
         }
         std::lock_guard<std::mutex> lock(worker->mutex);
         worker->tasks.push_back(std::move(task));
@@ -78,6 +83,16 @@ class Workers {
     }
 
   private:
+    struct Worker;
+
+    std::shared_ptr<Worker> make(const std::string& name) {
+        const std::shared_ptr<Worker> worker = std::make_shared<Worker>();
+        const std::string label = "worker " + name;
+        worker->thread = std::thread([worker, label] { worker->work(label); });
+        workers_[name] = worker;
+        return worker;
+    }
+
     struct Worker {
         void work(const std::string& label) {
             const KnownThread known(label);
