@@ -10,11 +10,9 @@ import os
 import statistics
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any
 
 from rich.console import Console
@@ -67,12 +65,7 @@ def main() -> None:
     console = Console()
     console.print("measuring ...")
     cases: dict[str, Callable[[], float]] = {}
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        _pinned(),
-        _raw_pipe() as ping,
-        Hosts(locate("reference-cpp")) as hosts,
-    ):
+    with Hosts(locate("reference-cpp")) as hosts:
         hosts.welcome  # noqa: B018 - starts the host outside the measurement
         cases["direct C++ loop"] = lambda: float(module.life_cycles(BATCH * 10)) / 1000
         cases["pybind11, in process"] = lambda: _timed(lambda: _direct(module), BATCH)
@@ -82,6 +75,8 @@ def main() -> None:
         cases["wire, pipelined"] = lambda: _timed(lambda: _wire(hosts, BATCH, False), 1, BATCH)
         cases["wire, pipelined, with judge"] = lambda: _timed(lambda: _wire(hosts, BATCH, True), 1, BATCH)
         costs = _medians(cases)
+    with _pinned(), _raw_pipe() as ping, Hosts(locate("reference-cpp")) as hosts:
+        hosts.welcome  # noqa: B018
         calls = _medians(
             {
                 "raw ping-pong": lambda: _timed(ping, BATCH),
@@ -90,7 +85,7 @@ def main() -> None:
                 "direct Python call": lambda: _timed_calls(),
             }
         )
-        restarts = {name: _restart(Path(folder), name) for name in ("reference-cpp", "reference-py")}
+    restarts = {name: _restart(name) for name in ("reference-cpp", "reference-py")}
     whole = {name: _whole_run(name) for name in ("reference-cpp", "reference-py")}
     console.print(_life_cycle_table(costs))
     console.print(_call_table(calls))
@@ -235,13 +230,13 @@ def _raw_pipe() -> Iterator[Callable[[], None]]:
         process.wait()
 
 
-def _restart(folder: Path, name: str) -> float:
-    """Milliseconds from the end of a host that crashed to the answer of its successor."""
+def _restart(name: str) -> float:
+    """Milliseconds from the moment a host is gone to the first answer of its successor."""
     costs = []
     with Hosts(locate(name), Limits()) as hosts:
         hosts.welcome  # noqa: B018
         for _ in range(ROUNDS):
-            hosts.restart()
+            hosts.discard()
             costs.append(_timed(lambda: _calls(hosts, 1), 1) / 1000)
     return statistics.median(costs)
 

@@ -129,29 +129,29 @@ class Hosts:
                 yield answer
         finally:
             if waiting:  # nobody waits for these answers any more
-                self._discard()
+                self.discard()
 
     def look_again(self, run: Run) -> Answer:
         """Run one scenario alone on a host of its own that sends each event as it happens.
 
         May be called between two answers of a ``run`` in progress, which goes on with a fresh host.
         """
-        self._discard()
+        self.discard()
         try:
             (answer,) = self.run([msgspec.structs.replace(run, stream=True)])
         finally:
-            self._discard()
+            self.discard()
         return answer
 
     def close(self) -> None:
         """End the host and everything that was started for it."""
-        self._discard()
+        self.discard()
         if self._opener:
             self._opener.close()
             self._opener = None
 
     def _open(self) -> None:
-        self._discard()
+        self.discard()
         host = self._new_host()
         try:
             self._welcome = self._greet(host)
@@ -192,10 +192,10 @@ class Hosts:
             self._host = None
             return Answer(run.id, error.incident, tuple(happened))
         except BaseException:
-            self._discard()
+            self.discard()
             raise
         if isinstance(reply, Traced) and reply.stuck:
-            self._discard()
+            self.discard()
         return Answer(run.id, reply, tuple(happened))
 
     def _receive_reply(self, host: Host, run: Run, happened: list[Event]) -> Traced | Refused:
@@ -210,7 +210,8 @@ class Hosts:
                 return message
             happened.append(message.event)
 
-    def _discard(self) -> None:
+    def discard(self) -> None:
+        """End the host, if there is one; the next run gets a fresh one."""
         host, self._host = self._host, None
         if host:
             host.close()

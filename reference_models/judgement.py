@@ -36,11 +36,10 @@ class Judge:
     def judge(self, scenario: s.Scenario, trace: Trace) -> Ledger:
         """Everything the rules say about ``trace``, which may break off anywhere."""
         reading = _Reading(self, scenario)
-        take = reading.take
         for event in trace:
-            handler = take.get(type(event))
-            if handler is not None:
-                handler(event)
+            take = _TAKE.get(type(event))
+            if take is not None:
+                take(reading, event)
         reading.ledger.close()
         return reading.ledger
 
@@ -56,39 +55,28 @@ class _Reading:
         self.heard: dict[tuple[str, int], list[s.Hook]] = {}
         self.calls: dict[int, list[BusinessCall]] = {}
         self.hooks: dict[int, list[s.Hook]] = {}
-        self.take: dict[type[Any], Callable[[Any], None]] = {
-            Call: self.call,
-            Return: self.end,
-            Raise: self.end,
-            Create: self.create,
-            Enter: self.enter,
-            Exit: self.exit,
-            Request: self.request,
-            Reply: self.reply,
-            Siblings: self.siblings,
-        }
 
     def call(self, event: Call) -> None:
         step = self.ledger.scenario.steps[event.step]
         if isinstance(step, s.Invoke):
             self.calls.setdefault(event.thread, []).append(BusinessCall(step.value, event.n, step=step))
-        elif isinstance(step, s.ContainerCall):
-            self.window = self.judge.situations.open(self.runtime, event.step, step)
+        else:
+            self.window = self.judge.situations.open(self.runtime, event.step, step)  # type: ignore[arg-type]
             self.window.call = event.n
 
     def end(self, event: Return | Raise) -> None:
-        window = self.window
-        if isinstance(self.ledger.scenario.steps[event.step], s.Invoke):
-            calls = self.calls.get(event.thread)
-            if calls:
-                call = calls.pop()
-                for check in self.judge.answered:
-                    check(self.ledger, self.runtime, call, event)
-        elif window is not None and window.step_number == event.step:
+        window, ledger, runtime = self.window, self.ledger, self.runtime
+        if window is not None and window.step_number == event.step:
             for check in self.judge.ended[window.operation]:
-                check(self.ledger, self.runtime, window, event)
-            adopt(self.runtime, window, event)
+                check(ledger, runtime, window, event)
+            adopt(runtime, window, event)
             self.window = None
+            return
+        calls = self.calls.get(event.thread)
+        if calls and isinstance(ledger.scenario.steps[event.step], s.Invoke):
+            call = calls.pop()
+            for check in self.judge.answered:
+                check(ledger, runtime, call, event)
 
     def create(self, event: Create) -> None:
         if self.window is not None:
@@ -103,11 +91,12 @@ class _Reading:
         heard = self.heard.get(body)
         if heard is None:
             heard = self.heard[body] = []
+        window, ledger, runtime = self.window, self.ledger, self.runtime
         for check in self.judge.entered[event.hook]:
-            check(self.ledger, self.runtime, self.window, event, heard)
+            check(ledger, runtime, window, event, heard)
         heard.append(event.hook)
-        if self.window is not None:
-            self.window.hear(event)
+        if window is not None:
+            window.hear(event)
 
     def enter_business(self, event: Enter) -> None:
         calls = self.calls.get(event.thread)
@@ -143,3 +132,17 @@ class _Reading:
     def siblings(self, event: Siblings) -> None:
         for check in self.judge.noted:
             check(self.ledger, self.runtime, event)
+
+
+_TAKE: dict[type[Any], Callable[[_Reading, Any], None]] = {
+    Call: _Reading.call,
+    Return: _Reading.end,
+    Raise: _Reading.end,
+    Create: _Reading.create,
+    Enter: _Reading.enter,
+    Exit: _Reading.exit,
+    Request: _Reading.request,
+    Reply: _Reading.reply,
+    Siblings: _Reading.siblings,
+}
+"""What to do with each kind of event; the other kinds say nothing to the rules."""

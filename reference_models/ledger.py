@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
@@ -67,14 +66,14 @@ class Ledger:
 
     scenario: Scenario
     duties: Duties
-    exercises: Counter[str] = field(default_factory=Counter)
+    exercises: dict[str, int] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     tallies: dict[int, tuple[Row, RowTally]] = field(default_factory=dict)
     fits: dict[Fit, int] = field(default_factory=dict)
 
     def exercised(self, requirement: str) -> None:
         """The requirement's condition really arose, and it was kept."""
-        self.exercises[requirement] += 1
+        self.exercises[requirement] = self.exercises.get(requirement, 0) + 1
 
     def violated(
         self,
@@ -110,7 +109,7 @@ class Ledger:
         """The trace is over: add up what the fits exercised."""
         for fit, times in self.fits.items():
             for requirement in fit.exercised:
-                self.exercises[requirement] += times
+                self.exercises[requirement] = self.exercises.get(requirement, 0) + times
         self.fits.clear()
 
     @property

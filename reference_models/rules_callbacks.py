@@ -48,14 +48,14 @@ def callbacks(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Ra
     answer = "return" if isinstance(end, Return) else end.error
     if len(runtime.members) > len(window.roles) or window.callbacks:
         _others(ledger, runtime, window)
-    if not window.judged or _manager_forgot_its_own(ledger, window, answer, end.n):
+    if not window.judged or (window.operation in _OF_ALL and _manager_forgot_its_own(ledger, window, answer, end.n)):
         return
     for member, row in window.roles:
         component, instance, listener = _listener(runtime, window, member)
         events = _observed(window, component, instance) if window.callbacks else []
-        if row.operation == "start":  # a late on_init or on_connect is configuration_first's matter
+        if events and row.operation == "start":  # a late on_init or on_connect is configuration_first's matter
             events = [e for e in events if e.hook not in ("on_init", "on_connect")]
-        heard = tuple([e.hook for e in events])
+        heard = tuple([e.hook for e in events]) if events else ()
         fit = ledger.duties.fit(row, answer, listener, heard)
         if fit is None:
             ledger.row(row).violated += 1
@@ -69,6 +69,7 @@ def callbacks(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Ra
         ledger.fitted(row, fit)
 
 
+_OF_ALL: dict[str, s.Hook] = {"start": "on_startup", "stop": "on_shutdown"}
 _NOBODY = Listener(False, False, 0)
 
 
@@ -152,8 +153,8 @@ def _others(ledger: Ledger, runtime: Runtime, window: Window) -> None:
 
 def _manager_forgot_its_own(ledger: Ledger, window: Window, answer: str, end: int) -> bool:
     """A successful start or stop of the manager that reaches none of its own members (11.2.2.2)."""
-    hook: s.Hook | None = {"start": "on_startup", "stop": "on_shutdown"}.get(window.operation)  # type: ignore[assignment]
-    if hook is None or answer != "return" or window.container.name != s.MANAGER:
+    hook = _OF_ALL[window.operation]
+    if answer != "return" or window.container.name != s.MANAGER:
         return False
     due = [
         m

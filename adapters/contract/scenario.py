@@ -9,7 +9,7 @@ identifier the framework never gave out, ``NIL`` a null reference. ``MANAGER`` i
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 import msgspec
 
@@ -236,6 +236,7 @@ class Scenario(Value, frozen=True):
 
 def operation(step: Step) -> str:
     """The step's operation as it is spelled in 12.10 and on the wire."""
-    name = type(step).__struct_config__.tag
-    assert isinstance(name, str)
-    return name
+    return _OPERATIONS[type(step)]
+
+
+_OPERATIONS: dict[type, str] = {kind: str(kind.__struct_config__.tag) for kind in get_args(Step)}
