@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import selectors
+import select
 import signal
 import time
 from collections import deque
@@ -87,15 +87,15 @@ class WatchedHost:
         self._looked = 0.0
         self._writing = False
         self._ended = False
-        self._selector = selectors.DefaultSelector()
+        self._poll = select.poll()
         os.set_blocking(channel.source, False)
         os.set_blocking(channel.target, False)
-        self._selector.register(channel.source, selectors.EVENT_READ)
+        self._poll.register(channel.source, select.POLLIN)
         if channel.error is not None:
             os.set_blocking(channel.error, False)
-            self._selector.register(channel.error, selectors.EVENT_READ)
+            self._poll.register(channel.error, select.POLLIN)
         if channel.notices is not None:
-            self._selector.register(channel.notices, selectors.EVENT_READ)
+            self._poll.register(channel.notices, select.POLLIN)
 
     def submit(self, line: bytes) -> None:
         self._outgoing += line
@@ -116,12 +116,12 @@ class WatchedHost:
             if now >= self._looked + _LOOK_SECONDS:
                 self._looked = now
                 self._check_memory()
-            for key, _ in self._selector.select(min(deadline.end - now, _LOOK_SECONDS)):
-                if key.fd == self._channel.source:
+            for ready, _ in self._poll.poll(1000 * min(deadline.end - now, _LOOK_SECONDS)):
+                if ready == self._channel.source:
                     self._read()
-                elif key.fd == self._channel.error:
+                elif ready == self._channel.error:
                     self._drain()
-                elif key.fd == self._channel.target:
+                elif ready == self._channel.target:
                     self._flush()
                 elif self._channel.status(0) is not None:
                     self._ended = True
@@ -137,7 +137,6 @@ class WatchedHost:
         self._close(orderly=True)
 
     def _close(self, orderly: bool) -> None:
-        self._selector.close()
         self._channel.close(orderly)
 
     def _flush(self) -> None:
@@ -153,9 +152,9 @@ class WatchedHost:
         if bool(self._outgoing) != self._writing:
             self._writing = not self._writing
             if self._writing:
-                self._selector.register(self._channel.target, selectors.EVENT_WRITE)
+                self._poll.register(self._channel.target, select.POLLOUT)
             else:
-                self._selector.unregister(self._channel.target)
+                self._poll.unregister(self._channel.target)
 
     def _read(self) -> bool:
         """Take in what there is; False when there was nothing."""
@@ -184,7 +183,7 @@ class WatchedHost:
             while self._channel.error is not None and new < 4 * _STDERR_TAIL:
                 data = os.read(self._channel.error, _CHUNK)
                 if not data:
-                    self._selector.unregister(self._channel.error)
+                    self._poll.unregister(self._channel.error)
                     os.close(self._channel.error)
                     self._channel.error = None
                 new += len(data)
@@ -209,11 +208,11 @@ class WatchedHost:
         self._channel.signal(signal.SIGUSR1)
         stop = time.monotonic() + _STACK_SECONDS
         while self._channel.error is not None and time.monotonic() < stop:
-            with selectors.DefaultSelector() as patient:
-                patient.register(self._channel.error, selectors.EVENT_READ)
-                wait = _QUIET_SECONDS if self._stderr else stop - time.monotonic()
-                if not patient.select(max(wait, 0)):
-                    break
+            patient = select.poll()
+            patient.register(self._channel.error, select.POLLIN)
+            wait = _QUIET_SECONDS if self._stderr else stop - time.monotonic()
+            if not patient.poll(1000 * max(wait, 0)):
+                break
             self._drain()
         self.fail("hang", f"no answer within {deadline.seconds:g} s")
 

@@ -70,6 +70,7 @@ def callbacks(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Ra
 
 
 _OF_ALL: dict[str, s.Hook] = {"start": "on_startup", "stop": "on_shutdown"}
+_UNDOING = ("disconnect", "remove_component", "remove_container", "destroy")
 _NOBODY = Listener(False, False, 0)
 
 
@@ -333,8 +334,11 @@ def disconnect_arguments(
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended:
         return
-    ports = {c.port for c in undone_by(window, member)}
-    if isinstance(window.step, s.Connect) or not ports:
+    if window.operation not in _UNDOING:  # that it came at all is then the fault
+        return
+    undone = [window.connection] if window.connection is not None else member.connections
+    ports = {c.port for c in undone if c.live is not False}
+    if not ports:
         return
     if event.port in ports:
         ledger.exercised("R-11.2.1.3-06")
