@@ -88,7 +88,9 @@ def run(
         console.print(
             f"UCM-CTS {ucm_cts.__version__}: {identity.product} {identity.version}, profile {profile}, seed {drawn}",
             markup=False,
+            soft_wrap=True,
         )
+        make_folder(out)
         interrupted = False
         try:
             with _progress(console) as progress:
@@ -109,7 +111,9 @@ def run(
     outdated = stale(known, report.requirements) if not expression and not interrupted else []
     for entry in outdated:
         console.print(
-            f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it", markup=False
+            f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it",
+            markup=False,
+            soft_wrap=True,
         )
     if interrupted:
         console.print("interrupted: the report holds what was measured so far")
@@ -184,6 +188,16 @@ def _known_failures(path: Path | None) -> tuple[KnownFailure, ...]:
     if path is None:
         return ()
     return load_known_failures(path, [r.id for r in load_requirements()], datetime.date.today())
+
+
+def make_folder(out: Path) -> None:
+    """The report's folder, before time is spent on what goes into it."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise WrongUse(
+            f"the report cannot be written to '{out}': {error.strerror}; choose another folder with --out"
+        ) from None
 
 
 def write(report: Report, out: Path) -> None:

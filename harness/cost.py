@@ -11,7 +11,7 @@ import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -20,6 +20,12 @@ from rich.table import Table
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
+from ucm_cts.adapters.contract.programming_model import (
+    ComponentObject,
+    Implementation,
+    PortConnection,
+    PortElementObject,
+)
 from ucm_cts.adapters.reference_py.framework import ContainerManager
 from ucm_cts.harness.campaign import Campaign
 from ucm_cts.harness.catalogue import load_life_cycle
@@ -72,18 +78,18 @@ def main() -> None:
         cases["pybind11, in process"] = lambda: _timed(lambda: _direct(module), BATCH)
         cases["pybind11, in process, with trace"] = lambda: _timed(lambda: _traced(module.answer), BATCH)
         cases["pybind11, in process, with trace and judge"] = lambda: _timed(lambda: _judged(module.answer), BATCH)
-        cases["wire, one at a time"] = lambda: _timed(lambda: _wire(hosts, 1, False), BATCH)
-        cases["wire, pipelined"] = lambda: _timed(lambda: _wire(hosts, BATCH, False), 1, BATCH)
-        cases["wire, pipelined, with judge"] = lambda: _timed(lambda: _wire(hosts, BATCH, True), 1, BATCH)
+        cases["wire, one at a time"] = lambda: _timed(lambda: _wire(hosts, 1, False), 1, BATCH)
+        cases["wire, pipelined"] = lambda: _timed(lambda: _wire(hosts, 32, False), 1, BATCH)
+        cases["wire, pipelined, with judge"] = lambda: _timed(lambda: _wire(hosts, 32, True), 1, BATCH)
         costs = _medians(cases)
     with _pinned(), _raw_pipe() as ping, Hosts(locate("reference-cpp")) as hosts:
         hosts.welcome  # noqa: B018
         calls = _medians(
             {
                 "raw ping-pong": lambda: _timed(ping, BATCH),
-                "one call a message": lambda: _timed(lambda: _calls(hosts, 1), BATCH),
-                "64 calls a message": lambda: _timed(lambda: _calls(hosts, 64), BATCH // 8, 64),
-                "direct Python call": _timed_calls,
+                "one call a message": lambda: _timed(lambda: _calls(hosts, ONE_CALL, BATCH), 1, BATCH),
+                "64 calls a message": lambda: _timed(lambda: _calls(hosts, MANY_CALLS, BATCH // 8), 1, BATCH // 8 * 64),
+                "direct Python call": lambda: _timed(_direct_python_calls, BATCH, 64),
             }
         )
     restarts = {name: _restart(name) for name in ("reference-cpp", "reference-py")}
@@ -111,11 +117,11 @@ def _life_cycle_table(costs: dict[str, float]) -> Table:
 
 
 def _call_table(calls: dict[str, float]) -> Table:
-    table = Table(title="One call of get_components, with its trace", title_justify="left")
+    table = Table(title="One call, with its trace", title_justify="left")
     for column in ("through", "µs", "ratio", "limit"):
         table.add_column(column, justify="left" if column == "through" else "right")
     ping, python = calls["raw ping-pong"], calls["direct Python call"]
-    table.add_row("raw ping-pong of the same bytes", f"{ping:.1f}", "1", "")
+    table.add_row("raw ping-pong of as many bytes", f"{ping:.1f}", "1", "")
     table.add_row(
         "one call a message", f"{calls['one call a message']:.1f}", f"{calls['one call a message'] / ping:.1f}", "2"
     )
@@ -170,20 +176,57 @@ def _judged(answer: Callable[[bytes], bytes]) -> None:
     assert not _JUDGE.judge(LIFE_CYCLE, _traced(answer).events).findings
 
 
-def _wire(hosts: Hosts, count: int, judged: bool) -> None:
-    for answer in hosts.run(Run(number, LIFE_CYCLE) for number in range(count)):
+def _wire(hosts: Hosts, window: int, judged: bool) -> None:
+    for answer in hosts.run((Run(number, LIFE_CYCLE) for number in range(BATCH)), window):
         assert isinstance(answer.reply, Traced)
         if judged:
             assert not _JUDGE.judge(LIFE_CYCLE, answer.reply.events).findings
 
 
-def _calls(hosts: Hosts, count: int) -> None:
-    (answer,) = hosts.run([Run(0, s.Scenario({}, (s.GetComponents(),) * count))])
-    assert isinstance(answer.reply, Traced)
+ONE_CALL = s.Scenario({}, (s.GetComponents(),))
+MANY_CALLS = s.Scenario(
+    {_SERVER: s.Declaration(provides=(_PROVIDED,))},
+    (s.AddComponent(_SERVER), *(s.GetPortElement(_SERVER, _PROVIDED, "api"),) * 63),
+)
 
 
-def _timed_calls() -> float:
-    return _timed(ContainerManager([]).get_components, BATCH * 50)
+def _calls(hosts: Hosts, scenario: s.Scenario, messages: int) -> None:
+    """Send ``messages`` with ``scenario`` one after the other: the next when the answer is there."""
+    for answer in hosts.run((Run(number, scenario) for number in range(messages)), window=1):
+        assert isinstance(answer.reply, Traced)
+
+
+class _Port(PortElementObject):
+    def exchange(self, value: int) -> int:
+        return ~value
+
+
+class _Body(ComponentObject):
+    """A body that records nothing."""
+
+    def __init__(self) -> None:
+        self.port = _Port()
+
+    def on_init(self) -> None: ...
+
+    def on_startup(self, dependencies: Sequence[PortConnection]) -> None: ...
+
+    def on_shutdown(self) -> None: ...
+
+    def on_remove(self) -> None: ...
+
+    def get_portElement(self, provided: str) -> PortElementObject:
+        return self.port
+
+    def set_attribute(self, name: str, value: str) -> None: ...
+
+
+def _direct_python_calls() -> None:
+    """The calls of ``MANY_CALLS``, made directly."""
+    container = ContainerManager([Implementation(_SERVER, (_PROVIDED,), (), (), False, False, _Body)])
+    server = container.add_component(_SERVER, {})
+    for _ in range(63):
+        container.get_port_element(server, _PROVIDED)
 
 
 @contextmanager
@@ -226,7 +269,7 @@ def _restart(name: str) -> float:
         hosts.welcome  # noqa: B018
         for _ in range(ROUNDS):
             hosts.discard()
-            costs.append(_timed(lambda: _calls(hosts, 1), 1) / 1000)
+            costs.append(_timed(lambda: _calls(hosts, ONE_CALL, 1), 1) / 1000)
     return statistics.median(costs)
 
 

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import random
 import re
+import string
 from typing import TypeVar
 
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Scenario, Step
+from ucm_cts.harness.locate import WrongUse
 
 T = TypeVar("T")
 
@@ -24,10 +26,12 @@ _LONGEST_PAYLOAD = 2**31 - 1
 class Disguise:
     """A reversible renaming of all names and payloads, drawn from ``seed``; grows as scenarios are disguised.
 
-    ``port_element_name`` is the framework's own way to make one name of ``{port}`` and ``{element}``.
+    ``port_element_name`` is the framework's own way to make one name of ``{port}`` and ``{element}``; raises
+    ``WrongUse`` if it does not say how.
     """
 
     def __init__(self, seed: int, port_element_name: str) -> None:
+        _check(port_element_name)
         self._random = random.Random(seed)
         self._port_element_name = port_element_name
         self._tokens: dict[str, str] = {}
@@ -54,7 +58,7 @@ class Disguise:
         return msgspec.json.decode(revealed.encode(), type=type(value))
 
     def _remember(self, disguised: str, plain: str) -> None:
-        self._plain[disguised] = plain
+        self._plain[_as_json(disguised)] = _as_json(plain)
         self._pattern = None
 
     def _name(self, plain: str) -> str:
@@ -113,3 +117,20 @@ class Disguise:
                 return replace(step, value=self._value(step.value))
             case _:
                 return step
+
+
+def _as_json(text: str) -> str:
+    """``text`` as it stands between the quotes of JSON."""
+    return msgspec.json.encode(text).decode()[1:-1]
+
+
+def _check(port_element_name: str) -> None:
+    try:
+        fields = [name for _, name, _, _ in string.Formatter().parse(port_element_name) if name is not None]
+        port_element_name.format(port="", element="")
+    except (ValueError, LookupError, AttributeError):
+        fields = []
+    if sorted(fields) != ["element", "port"]:
+        raise WrongUse(
+            f"the adapter spells port elements '{port_element_name}'; that must hold {{port}} and {{element}} once each"
+        )

@@ -11,6 +11,8 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import NoReturn, Protocol
 
+import msgspec
+
 from ucm_cts.adapters.python.loading import Answer
 from ucm_cts.harness.host_channels import Channel
 from ucm_cts.harness.results import Incident, IncidentKind
@@ -37,8 +39,7 @@ class Limits:
     welcome_seconds: float = 20.0
 
 
-@dataclass(frozen=True)
-class Deadline:
+class Deadline(msgspec.Struct, frozen=True):
     """A point of time by ``time.monotonic``, and how many seconds it was away when it was set."""
 
     end: float
@@ -98,16 +99,20 @@ class WatchedHost:
             self._poll.register(channel.notices, select.POLLIN)
 
     def submit(self, line: bytes) -> None:
-        self._outgoing += line
-        self._outgoing += b"\n"
+        whole = line + b"\n"
+        if not self._outgoing and len(whole) <= _CHUNK:  # the common case: it goes out at once
+            with suppress(OSError):
+                whole = whole[os.write(self._channel.target, whole) :]
+            if not whole:
+                return
+        self._outgoing += whole
         if not self._writing:
             self._flush()
 
     def receive(self, deadline: Deadline) -> bytes:
-        now = time.monotonic()
-        if now >= deadline.end:
-            self._fail_hanging(deadline)
-        while not self._lines:
+        if self._lines and time.monotonic() < deadline.end:
+            return self._lines.popleft()
+        while True:
             if self._ended and not self._read():  # even if the pipe is held open by a process that got away
                 self._fail_ended()
             now = time.monotonic()
@@ -125,7 +130,8 @@ class WatchedHost:
                     self._flush()
                 elif self._channel.status(0) is not None:
                     self._ended = True
-        return self._lines.popleft()
+            if self._lines:
+                return self._lines.popleft()
 
     def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
         self._drain()
@@ -166,6 +172,9 @@ class WatchedHost:
             data = b""
         if not data:
             self._fail_ended()
+        if not self._partial and data.find(b"\n") == len(data) - 1:  # the common case: just one answer
+            self._lines.append(data[:-1])
+            return True
         start = len(self._partial)
         self._partial += data
         end = self._partial.rfind(b"\n", start)

@@ -16,7 +16,6 @@ from __future__ import annotations
 import itertools
 from collections import deque
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from types import TracebackType
 from typing import Self
 
@@ -47,8 +46,7 @@ __all__ = ["Answer", "HostUnavailable", "Hosts", "Limits"]
 _SHOWN = 80
 
 
-@dataclass(frozen=True)
-class Answer:
+class Answer(msgspec.Struct, frozen=True):
     """What came of the ``Run`` message with ``id``.
 
     ``happened`` are the events that a streamed run sent ahead: after an incident, the trace as far as it is known.
@@ -219,15 +217,18 @@ class Hosts:
 
 def waits(scenario: s.Scenario) -> float:
     """How many seconds ``scenario`` itself may have a host wait, at most, if each probe is held at a gate once."""
-    steps = sum(isinstance(step, s.ReachGate | s.Join) for step in scenario.steps)
-    holds = sum(
-        isinstance(action, s.HoldAtGate)
-        for declaration in scenario.components.values()
-        for actions in declaration.plan.values()
-        for action in actions
-    )
-    workers = any(step.thread is not None for step in scenario.steps)
-    return (steps + holds + workers) * scenario.patience / 1000
+    waiting = 0
+    threads = False
+    for step in scenario.steps:
+        threads = threads or step.thread is not None
+        waiting += type(step) in _WAITING_STEPS
+    for declaration in scenario.components.values():
+        for actions in declaration.plan.values():
+            waiting += sum(isinstance(action, s.HoldAtGate) for action in actions)
+    return (waiting + threads) * scenario.patience / 1000
+
+
+_WAITING_STEPS = (s.ReachGate, s.Join)
 
 
 def _decode(host: Host, line: bytes) -> FromHost:

@@ -7,7 +7,7 @@ list cannot outlive the defects it excuses. A known failure keeps its verdict in
 from __future__ import annotations
 
 import datetime
-import fnmatch
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -50,9 +50,14 @@ def load_known_failures(path: Path, requirements: Sequence[str], today: datetime
 def waiver_for(finding: Finding, known: Sequence[KnownFailure]) -> str:
     """Why ``finding`` is known, or nothing."""
     for entry in known:
-        if entry.requirement == finding.requirement and fnmatch.fnmatchcase(finding.observed, entry.observed):
+        if entry.requirement == finding.requirement and _matches(entry.observed, finding.observed):
             return entry.reason
     return ""
+
+
+def _matches(pattern: str, text: str) -> bool:
+    """Nothing but ``*`` is special: observations are full of brackets and question marks."""
+    return re.fullmatch(".*".join(map(re.escape, pattern.split("*"))), text, re.DOTALL) is not None
 
 
 def stale(known: Sequence[KnownFailure], results: Sequence[RequirementResult]) -> list[KnownFailure]:

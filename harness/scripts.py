@@ -70,6 +70,8 @@ def read_scripts(path: Path) -> list[Script]:
     raw, lines = read_lines(path)
     many = isinstance(raw, list)
     scripts = read(path, list[Script]) if many else [read(path, Script)]
+    if not scripts:
+        raise DocumentError(path, 1, "holds no scenario")
     for index, script in enumerate(scripts):
         place = f"$[{index}]" if many else "$"
         for where, problem in problems(script):
