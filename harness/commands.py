@@ -5,6 +5,7 @@ from __future__ import annotations
 import datetime
 import random
 import sys
+import tempfile
 from pathlib import Path
 
 import click
@@ -21,6 +22,7 @@ from ucm_cts.harness.hosts import HostUnavailable
 from ucm_cts.harness.known_failures import KnownFailure, load_known_failures, stale
 from ucm_cts.harness.locate import WrongUse, locate
 from ucm_cts.harness.purposes import PROFILES, load_purposes, select
+from ucm_cts.harness.report.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import write_report
@@ -85,8 +87,9 @@ def run(
     with Driver(locate(adapter, in_process), drawn, Limits(timeout, memory)) as driver:
         campaign = Campaign(driver, profile, known)
         identity = driver.identity
+        name = one_line(f"{identity.product} {identity.version}", 80)
         console.print(
-            f"UCM-CTS {ucm_cts.__version__}: {identity.product} {identity.version}, profile {profile}, seed {drawn}",
+            f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}, seed {drawn}",
             markup=False,
             soft_wrap=True,
         )
@@ -148,11 +151,13 @@ def replay(file: Path, adapter: str, in_process: bool, seed: int | None, timeout
     with Driver(locate(adapter, in_process), seed or 0, Limits(timeout)) as driver:
         for answer in driver.run((script.scenario, to_scenario(script)) for script in scripts):
             execution = driver.revealed(answer)
-            click.echo(f"{execution.name} on {driver.identity.product} {driver.identity.version}\n")
+            product = one_line(f"{driver.identity.product} {driver.identity.version}", 80)
+            click.echo(f"{execution.name} on {product}\n")
             click.echo(replay_text(execution))
             if execution.incident is not None:
                 failed = True
-                click.echo(f"\n{execution.incident.kind}: {execution.incident.detail}\n{execution.incident.stacks}")
+                told = f"{clean(execution.incident.detail)}\n{clean(execution.incident.stacks, LONGEST_STACKS)}"
+                click.echo(f"\n{execution.incident.kind}: {told}")
                 continue
             findings = [driver.reveal(f) for f in judge.judge(answer.disguised, answer.trace).findings]
             for finding in findings:
@@ -194,6 +199,7 @@ def make_folder(out: Path) -> None:
     """The report's folder, before time is spent on what goes into it."""
     try:
         out.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=out).close()
     except OSError as error:
         raise WrongUse(
             f"the report cannot be written to '{out}': {error.strerror}; choose another folder with --out"

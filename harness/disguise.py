@@ -52,7 +52,7 @@ class Disguise:
         """``value``, any message value or finding, with each known disguise replaced by what it stands for."""
         if self._pattern is None:
             alternatives = sorted(self._plain, key=len, reverse=True)
-            self._pattern = re.compile("|".join(map(re.escape, alternatives)) or r"(?!)")
+            self._pattern = re.compile("|".join(map(_found, alternatives)) or r"(?!)")
         text = msgspec.json.encode(value).decode()
         revealed = self._pattern.sub(lambda match: self._plain[match.group()], text)
         return msgspec.json.decode(revealed.encode(), type=type(value))
@@ -117,6 +117,11 @@ class Disguise:
                 return replace(step, value=self._value(step.value))
             case _:
                 return step
+
+
+def _found(disguised: str) -> str:
+    """A pattern for ``disguised``; a payload is never a part of a longer number, such as a time."""
+    return rf"(?<!\d){disguised}(?!\d)" if disguised.lstrip("-").isdigit() else re.escape(disguised)
 
 
 def _as_json(text: str) -> str:

@@ -31,9 +31,11 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Each suite module asks for the purposes of its clauses: ``CLAUSES`` is a tuple of prefixes."""
     if "purpose" not in metafunc.fixturenames or not hasattr(metafunc.module, "CLAUSES"):
         return
-    from ucm_cts.harness.purposes import load_purposes
+    from ucm_cts.harness.purposes import PROFILES, load_purposes
 
     profile = metafunc.config.getoption("--iut-profile")
+    if profile not in PROFILES:
+        raise pytest.UsageError(f"there is no profile '{profile}'; there is {', '.join(PROFILES)}")
     chosen = [p for p in load_purposes(profile) if _belongs(p, metafunc.module.CLAUSES)]
     metafunc.parametrize("purpose", chosen, ids=[p.id.replace(" ", "-") for p in chosen])
 
@@ -45,9 +47,11 @@ def _belongs(purpose: TestPurpose, clauses: tuple[str, ...]) -> bool:
 @pytest.fixture(scope="session")
 def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
     """The run against ``--iut``; its report is written when the session ends."""
+    from contextlib import ExitStack
     from pathlib import Path
 
     from ucm_cts.harness.campaign import Campaign
+    from ucm_cts.harness.commands import make_folder, write
     from ucm_cts.harness.driver import Driver, Limits
     from ucm_cts.harness.hosts import HostUnavailable
     from ucm_cts.harness.locate import WrongUse, locate
@@ -55,20 +59,24 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
     config = request.config
     adapter = config.getoption("--iut")
     if not adapter:
-        pytest.fail("say which implementation to test: --iut ADAPTER, for instance --iut reference-py", pytrace=False)
+        message = "say which implementation to test: --iut ADAPTER, for instance --iut reference-py"
+        pytest.exit(f"ucm-cts: {message}", returncode=2)
     seed = config.getoption("--iut-seed")
+    out = config.getoption("--iut-out")
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
-    try:
-        driver = Driver(locate(adapter, config.getoption("--iut-in-process")), drawn, Limits())
-    except (WrongUse, HostUnavailable) as error:
-        pytest.exit(f"ucm-cts: {error}", returncode=2)
-    with driver:
+    with ExitStack() as cleanup:
+        try:
+            driver = cleanup.enter_context(
+                Driver(locate(adapter, config.getoption("--iut-in-process")), drawn, Limits())
+            )
+            _ = driver.disguise  # asks who is there
+            if out:
+                make_folder(Path(out))
+        except (WrongUse, HostUnavailable) as error:
+            pytest.exit(f"ucm-cts: {error}", returncode=2)
         running = Campaign(driver, config.getoption("--iut-profile"))
         yield running
-        out = config.getoption("--iut-out")
         if out:
-            from ucm_cts.harness.commands import write
-
             for _ in running.shorten():
                 pass
             write(running.report(), Path(out))
