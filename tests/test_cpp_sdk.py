@@ -49,7 +49,7 @@ class Rude : public ucm_cts::Adapter {
         if (!all.empty() && all[0].name == "refuse") throw std::runtime_error("no licence");
         return std::make_shared<int>(0);
     }
-    std::int32_t add_component(const Handle&, const std::string& what, const ucm_cts::Attributes&) override {
+    ucm_cts::Id add_component(const Handle&, const std::string& what, const ucm_cts::Attributes&) override {
         if (what == "print") { std::printf("{\\"type\\":\\"welcome\\"}\\n"); std::fflush(stdout); }
         if (what == "crash") crash_here();
         if (what == "abort") std::abort();
@@ -59,13 +59,13 @@ class Rude : public ucm_cts::Adapter {
         if (what == "throw text") throw ucm_cts::NotFound("\\"quoted\\" \\xc3\\xa4 \\xff");
         return 2147483647;
     }
-    void remove_component(const Handle&, std::int32_t id) override { throw ucm_cts::BadParameter(std::to_string(id)); }
-    ucm_cts::Reference get_port_element(const Handle&, std::int32_t, const std::string&) override { return nullptr; }
-    std::int32_t connect(const Handle&, std::int32_t, const std::string&, const ucm_cts::Reference&) override { return 0; }
-    void disconnect(const Handle&, std::int32_t) override {}
+    void remove_component(const Handle&, ucm_cts::Id id) override { throw ucm_cts::BadParameter(std::to_string(id)); }
+    ucm_cts::Reference get_port_element(const Handle&, ucm_cts::Id, const std::string&) override { return nullptr; }
+    ucm_cts::Id connect(const Handle&, ucm_cts::Id, const std::string&, const ucm_cts::Reference&) override { return 0; }
+    void disconnect(const Handle&, ucm_cts::Id) override {}
     void start(const Handle&) override {}
     void stop(const Handle&) override {}
-    std::vector<std::int32_t> get_components(const Handle&) override { return {2147483646}; }
+    std::vector<ucm_cts::Id> get_components(const Handle&) override { return {2147483646}; }
     Handle create_container(const Handle&) override { return nullptr; }
     void remove_container(const Handle&, const Handle&) override {}
     void destroy(const Handle&) override { throw ucm_cts::UcmError("never"); }
@@ -105,6 +105,7 @@ class Builds:
             "rude": self._compile("rude", [folder / "rude.cpp"], STRICT),
             "tsan": self._compile("tsan", REFERENCE, ["-std=c++11", "-fsanitize=thread", "-g1"]),
             "asan": self._compile("asan", REFERENCE, ["-std=c++11", *asan]),
+            "spellings": self._compile("spellings", [SDK / "example" / "other_spellings.cpp"], STRICT),
             "beans": self._compile("beans", [folder / "beans.cpp"], [*STRICT, "-I", str(SDK / "example")]),
         }
         self._vendor = self._pool.submit(self._build_like_a_vendor)
@@ -183,7 +184,11 @@ class Builds:
     def _cmake_options() -> list[str]:
         import pybind11
 
-        return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", f"-DPython_EXECUTABLE={sys.executable}"]
+        return [
+            "-DCMAKE_BUILD_TYPE=Debug",
+            f"-Dpybind11_DIR={pybind11.get_cmake_dir()}",
+            f"-DPython_EXECUTABLE={sys.executable}",
+        ]
 
 
 @pytest.fixture(scope="session")
@@ -673,6 +678,23 @@ def test_guide_for_a_framework_in_the_shape_of_12_10(builds: Builds) -> None:
     answers, _, status = talk(builds.vendor / "acme_adapter", *runs)
     assert status == 0
     assert without_times(answers) == without_times(expected)
+
+
+def test_other_spellings_of_12_10(builds: Builds) -> None:
+    plan: dict[s.Hook, tuple[s.Action, ...]] = {"on_startup": (s.CallPort("r_e", 4), s.QuerySiblings())}
+    fragment = s.Declaration(requires=("r_e",), attributes={"a": "1"}, connectable=True, fragment=True, plan=plan)
+    scenario = s.Scenario({"P": PROVIDER, "C": fragment}, (*LIFE, s.AddComponent("nobody"), s.RemoveContainer("nil")))
+    trace = events(builds.program("spellings"), scenario)
+    returned = {e.step: e.value for e in trace if isinstance(e, t.Return)}
+    ids = (returned[0], returned[1])
+    assert ids == (2**40 + 1, 2**40 + 2), "ids come through as they are: that they are too wide is the judge's matter"
+    assert [e.ids for e in trace if isinstance(e, t.Siblings)] == [ids]
+    assert [e.value for e in trace if isinstance(e, t.Reply)] == [~4]
+    assert [e.attributes for e in trace if isinstance(e, t.Enter) and e.hook == "on_init"] == [{}, {"a": "1"}]
+    assert [e.reference for e in trace if isinstance(e, t.Enter) and e.hook == "on_connect"] == [
+        t.Reference("P", 1, "p_e")
+    ]
+    assert [e.error for e in trace if isinstance(e, t.Raise)] == ["UCM_ERROR", "NOT_FOUND"]
 
 
 def test_guide_module(builds: Builds) -> None:

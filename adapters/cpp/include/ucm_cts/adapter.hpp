@@ -34,6 +34,9 @@ class UcmError : public std::runtime_error {
     explicit UcmError(const std::string& why) : std::runtime_error(why) {}
 };
 
+/// Component and connection ids. 12.10 has 32 bits; that they fit is judged, so wider ones must come through.
+typedef std::int64_t Id;
+
 /// Whose port element a reference is, where the SDK can tell.
 struct Identity {
     std::string component;
@@ -62,7 +65,7 @@ struct PortConnection {
 class ContainerInterface {
   public:
     virtual ~ContainerInterface() = default;
-    virtual std::vector<std::int32_t> get_components() = 0;
+    virtual std::vector<Id> get_components() = 0;
 };
 
 /// A component body (11.2.1), independent of any framework: the adapter passes on what the framework does to it.
@@ -108,17 +111,17 @@ class Adapter {
     virtual ContainerHandle create_runtime(const std::vector<Implementation>& implementations) = 0;
 
     /// `add_component` with the configuration values that select `implementation` and set `attributes`.
-    virtual std::int32_t add_component(const ContainerHandle& container, const std::string& implementation,
-                                       const Attributes& attributes) = 0;
-    virtual void remove_component(const ContainerHandle& container, std::int32_t comp_instance) = 0;
-    virtual Reference get_port_element(const ContainerHandle& container, std::int32_t comp_instance,
+    virtual Id add_component(const ContainerHandle& container, const std::string& implementation,
+                             const Attributes& attributes) = 0;
+    virtual void remove_component(const ContainerHandle& container, Id comp_instance) = 0;
+    virtual Reference get_port_element(const ContainerHandle& container, Id comp_instance,
                                        const std::string& port_name) = 0;
-    virtual std::int32_t connect(const ContainerHandle& container, std::int32_t instance, const std::string& port_name,
-                                 const Reference& to_port) = 0;
-    virtual void disconnect(const ContainerHandle& container, std::int32_t connection) = 0;
+    virtual Id connect(const ContainerHandle& container, Id instance, const std::string& port_name,
+                       const Reference& to_port) = 0;
+    virtual void disconnect(const ContainerHandle& container, Id connection) = 0;
     virtual void start(const ContainerHandle& container) = 0;
     virtual void stop(const ContainerHandle& container) = 0;
-    virtual std::vector<std::int32_t> get_components(const ContainerHandle& container) = 0;
+    virtual std::vector<Id> get_components(const ContainerHandle& container) = 0;
     virtual ContainerHandle create_container(const ContainerHandle& manager) = 0;
     virtual void remove_container(const ContainerHandle& manager, const ContainerHandle& sub_container) = 0;
 

@@ -9,10 +9,8 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <typeinfo>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -23,86 +21,10 @@
 #include "ucm_cts/adapter.hpp"
 #include "ucm_cts/probe.hpp"
 #include "ucm_cts/scenario.hpp"
+#include "ucm_cts/variables.hpp"
 #include "ucm_cts/workers.hpp"
 
 namespace ucm_cts {
-
-/// What steps bind and later steps use. A name has one value at a time, of one kind.
-class Variables {
-  public:
-    explicit Variables(const ContainerHandle& manager) { containers_["manager"] = manager; }
-
-    void bind_id(const std::string& name, std::int32_t id) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        clear(name);
-        ids_[name] = id;
-        given_.insert(id);
-    }
-
-    void bind_reference(const std::string& name, const Reference& reference) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        clear(name);
-        references_[name] = reference;
-    }
-
-    void bind_container(const std::string& name, const ContainerHandle& container) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        clear(name);
-        containers_[name] = container;
-    }
-
-    /// An id of a component or connection; `unknown` gives one that the framework has not given out.
-    bool id(const std::string& name, std::int32_t& value) const {
-        std::lock_guard<std::mutex> lock(mutex_);
-        if (name == "unknown") {
-            for (value = INT32_MAX; given_.count(value) != 0;) {
-                --value;
-            }
-            return true;
-        }
-        return look_up(ids_, name, value);
-    }
-
-    /// A reference; `nil` gives the null reference.
-    bool reference(const std::string& name, Reference& value) const {
-        std::lock_guard<std::mutex> lock(mutex_);
-        return name == "nil" || look_up(references_, name, value);
-    }
-
-    /// A container; `nil` gives the null container.
-    bool container(const std::string& name, ContainerHandle& value) const {
-        std::lock_guard<std::mutex> lock(mutex_);
-        return name == "nil" || look_up(containers_, name, value);
-    }
-
-    void saw(const std::vector<std::int32_t>& ids) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        given_.insert(ids.begin(), ids.end());
-    }
-
-  private:
-    template <class Values, class Value>
-    static bool look_up(const Values& values, const std::string& name, Value& value) {
-        const auto found = values.find(name);
-        if (found == values.end()) {
-            return false;
-        }
-        value = found->second;
-        return true;
-    }
-
-    void clear(const std::string& name) {
-        ids_.erase(name);
-        references_.erase(name);
-        containers_.erase(name);
-    }
-
-    mutable std::mutex mutex_;
-    std::unordered_map<std::string, std::int32_t> ids_;
-    std::unordered_map<std::string, Reference> references_;
-    std::unordered_map<std::string, ContainerHandle> containers_;
-    std::set<std::int32_t> given_;
-};
 
 /// One run of one scenario. Threads that get stuck keep it alive.
 class Engine : public std::enable_shared_from_this<Engine> {
@@ -206,7 +128,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
     struct Arguments {
         ContainerHandle container;
         ContainerHandle sub_container;
-        std::int32_t id = 0;
+        Id id = 0;
         Reference reference;
     };
 
@@ -276,7 +198,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
         switch (step.operation) {
             case Operation::add_component: {
                 const Declaration* const declaration = scenario_->find(step.component);
-                const std::int32_t id = adapter_->add_component(
+                const Id id = adapter_->add_component(
                     with.container, step.component, declaration != nullptr ? declaration->attributes : Attributes());
                 variables_.bind_id(step.bind, id);
                 returned(number, [id](std::string& out) { json::append_integer(out, id); });
@@ -293,7 +215,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
                 break;
             }
             case Operation::connect: {
-                const std::int32_t id = adapter_->connect(with.container, with.id, step.port, with.reference);
+                const Id id = adapter_->connect(with.container, with.id, step.port, with.reference);
                 variables_.bind_id(step.bind, id);
                 returned(number, [id](std::string& out) { json::append_integer(out, id); });
                 break;
@@ -311,7 +233,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
                 returned(number);
                 break;
             case Operation::get_components: {
-                const std::vector<std::int32_t> ids = adapter_->get_components(with.container);
+                const std::vector<Id> ids = adapter_->get_components(with.container);
                 variables_.saw(ids);
                 returned(number, [&ids](std::string& out) { json::append_array(out, ids, json::append_integer); });
                 break;

@@ -56,20 +56,20 @@ class Runtime {
     Runtime(std::shared_ptr<Adapter> adapter, const std::vector<Implementation>& implementations)
         : adapter_(std::move(adapter)), manager_(adapter_->create_runtime(implementations)) {}
 
-    std::int32_t add_component(const std::string& implementation) {
+    Id add_component(const std::string& implementation) {
         return adapter_->add_component(manager_, implementation, Attributes());
     }
-    void remove_component(std::int32_t id) { adapter_->remove_component(manager_, id); }
-    Reference get_port_element(std::int32_t id, const std::string& port) {
+    void remove_component(Id id) { adapter_->remove_component(manager_, id); }
+    Reference get_port_element(Id id, const std::string& port) {
         return adapter_->get_port_element(manager_, id, port);
     }
-    std::int32_t connect(std::int32_t id, const std::string& port, const Reference& to) {
+    Id connect(Id id, const std::string& port, const Reference& to) {
         return adapter_->connect(manager_, id, port, to);
     }
-    void disconnect(std::int32_t connection) { adapter_->disconnect(manager_, connection); }
+    void disconnect(Id connection) { adapter_->disconnect(manager_, connection); }
     void start() { adapter_->start(manager_); }
     void stop() { adapter_->stop(manager_); }
-    std::vector<std::int32_t> get_components() { return adapter_->get_components(manager_); }
+    std::vector<Id> get_components() { return adapter_->get_components(manager_); }
     void destroy() { adapter_->destroy(manager_); }
 
   private:
@@ -83,10 +83,10 @@ inline double life_cycles(const std::shared_ptr<Adapter>& adapter, std::int64_t 
                               native_implementation("client", {}, {"port_element"})});
     const auto begin = std::chrono::steady_clock::now();
     for (std::int64_t n = 0; n < count; ++n) {
-        const std::int32_t provider = runtime.add_component("provider");
-        const std::int32_t client = runtime.add_component("client");
+        const Id provider = runtime.add_component("provider");
+        const Id client = runtime.add_component("client");
         const Reference reference = runtime.get_port_element(provider, "port_element");
-        const std::int32_t connection = runtime.connect(client, "port_element", reference);
+        const Id connection = runtime.connect(client, "port_element", reference);
         runtime.start();
         if (reference->exchange(1) != ~1) {
             throw std::logic_error("exchange came back with a wrong value");

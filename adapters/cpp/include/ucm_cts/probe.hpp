@@ -219,7 +219,7 @@ class Probe {
             if (!container) {
                 throw std::logic_error("no container interface was given");
             }
-            const std::vector<std::int32_t> ids = container->get_components();
+            const std::vector<Id> ids = container->get_components();
             event("siblings", [&ids](std::string& out) {
                 json::append_name(out, "ids");
                 json::append_array(out, ids, json::append_integer);

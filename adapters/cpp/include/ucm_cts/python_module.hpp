@@ -78,13 +78,13 @@ inline void define_module(pybind11::module_& module, const Product& product, con
         .def("remove_component", &Runtime::remove_component, py::arg("comp_instance"))
         .def(
             "get_port_element",
-            [](Runtime& runtime, std::int32_t id, const std::string& port) {
+            [](Runtime& runtime, Id id, const std::string& port) {
                 return Opaque{runtime.get_port_element(id, port)};
             },
             py::arg("comp_instance"), py::arg("port_name"))
         .def(
             "connect",
-            [](Runtime& runtime, std::int32_t id, const std::string& port, const Opaque* to) {
+            [](Runtime& runtime, Id id, const std::string& port, const Opaque* to) {
                 return runtime.connect(id, port, to != nullptr ? to->reference : Reference());
             },
             py::arg("instance"), py::arg("port_name"), py::arg("to_port").none(true))

@@ -50,34 +50,39 @@ class ShapedAdapter : public Adapter {
         return std::shared_ptr<Container>(manager_);
     }
 
-    std::int32_t add_component(const ContainerHandle& container, const std::string& implementation,
+    Id add_component(const ContainerHandle& container, const std::string& implementation,
                                const Attributes& attributes) override {
-        return translate([&] {
-            return static_cast<std::int32_t>(
-                of(container).add_component(Traits::configuration(implementation, attributes)));
+        return translate([&]() -> Id {
+            return of(container).add_component(Traits::configuration(implementation, attributes));
         });
     }
 
-    void remove_component(const ContainerHandle& container, std::int32_t comp_instance) override {
-        translate([&] { of(container).remove_component(comp_instance); });
+    void remove_component(const ContainerHandle& container, Id comp_instance) override {
+        typedef detail::Argument<decltype(&Container::remove_component), 0> Given;
+        translate([&] { of(container).remove_component(static_cast<Given>(comp_instance)); });
     }
 
-    Reference get_port_element(const ContainerHandle& container, std::int32_t comp_instance,
+    Reference get_port_element(const ContainerHandle& container, Id comp_instance,
                                const std::string& port_name) override {
-        return translate(
-            [&] { return ShapedReference<Traits>::wrap(of(container).get_port_element(comp_instance, port_name)); });
-    }
-
-    std::int32_t connect(const ContainerHandle& container, std::int32_t instance, const std::string& port_name,
-                         const Reference& to_port) override {
+        typedef detail::Argument<decltype(&Container::get_port_element), 0> Given;
         return translate([&] {
-            return static_cast<std::int32_t>(
-                of(container).connect(instance, port_name, ShapedReference<Traits>::unwrap(to_port)));
+            return ShapedReference<Traits>::wrap(
+                of(container).get_port_element(static_cast<Given>(comp_instance), port_name));
         });
     }
 
-    void disconnect(const ContainerHandle& container, std::int32_t connection) override {
-        translate([&] { of(container).disconnect(connection); });
+    Id connect(const ContainerHandle& container, Id instance, const std::string& port_name,
+               const Reference& to_port) override {
+        typedef detail::Argument<decltype(&Container::connect), 0> Given;
+        return translate([&]() -> Id {
+            return of(container).connect(static_cast<Given>(instance), port_name,
+                                         ShapedReference<Traits>::unwrap(to_port));
+        });
+    }
+
+    void disconnect(const ContainerHandle& container, Id connection) override {
+        typedef detail::Argument<decltype(&Container::disconnect), 0> Given;
+        translate([&] { of(container).disconnect(static_cast<Given>(connection)); });
     }
 
     void start(const ContainerHandle& container) override {
@@ -88,10 +93,10 @@ class ShapedAdapter : public Adapter {
         translate([&] { of(container).stop(); });
     }
 
-    std::vector<std::int32_t> get_components(const ContainerHandle& container) override {
+    std::vector<Id> get_components(const ContainerHandle& container) override {
         return translate([&] {
             const auto ids = of(container).get_components();
-            return std::vector<std::int32_t>(ids.begin(), ids.end());
+            return std::vector<Id>(ids.begin(), ids.end());
         });
     }
 

@@ -218,9 +218,9 @@ class ShapedFragment : public ShapedBody<Traits, FragmentBase<Traits>> {
     class Access final : public ContainerInterface {
       public:
         explicit Access(ContainerArgument container) : container_(container) {}
-        std::vector<std::int32_t> get_components() override {
+        std::vector<Id> get_components() override {
             const auto ids = container_->get_components();
-            return std::vector<std::int32_t>(ids.begin(), ids.end());
+            return std::vector<Id>(ids.begin(), ids.end());
         }
 
       private:

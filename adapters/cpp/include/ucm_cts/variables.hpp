@@ -1,0 +1,95 @@
+// Variables: what the steps of a scenario bind and later steps use.
+#ifndef UCM_CTS_VARIABLES_HPP
+#define UCM_CTS_VARIABLES_HPP
+
+#include <cstdint>
+#include <mutex>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "ucm_cts/adapter.hpp"
+
+namespace ucm_cts {
+
+/// A name has one value at a time, of one kind.
+class Variables {
+  public:
+    explicit Variables(const ContainerHandle& manager) { containers_["manager"] = manager; }
+
+    void bind_id(const std::string& name, Id id) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        clear(name);
+        ids_[name] = id;
+        given_.insert(id);
+    }
+
+    void bind_reference(const std::string& name, const Reference& reference) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        clear(name);
+        references_[name] = reference;
+    }
+
+    void bind_container(const std::string& name, const ContainerHandle& container) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        clear(name);
+        containers_[name] = container;
+    }
+
+    /// An id of a component or connection; `unknown` gives one that the framework has not given out.
+    bool id(const std::string& name, Id& value) const {
+        std::lock_guard<std::mutex> lock(mutex_);
+        if (name == "unknown") {
+            for (value = INT32_MAX; given_.count(value) != 0;) {
+                --value;
+            }
+            return true;
+        }
+        return look_up(ids_, name, value);
+    }
+
+    /// A reference; `nil` gives the null reference.
+    bool reference(const std::string& name, Reference& value) const {
+        std::lock_guard<std::mutex> lock(mutex_);
+        return name == "nil" || look_up(references_, name, value);
+    }
+
+    /// A container; `nil` gives the null container.
+    bool container(const std::string& name, ContainerHandle& value) const {
+        std::lock_guard<std::mutex> lock(mutex_);
+        return name == "nil" || look_up(containers_, name, value);
+    }
+
+    void saw(const std::vector<Id>& ids) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        given_.insert(ids.begin(), ids.end());
+    }
+
+  private:
+    template <class Values, class Value>
+    static bool look_up(const Values& values, const std::string& name, Value& value) {
+        const auto found = values.find(name);
+        if (found == values.end()) {
+            return false;
+        }
+        value = found->second;
+        return true;
+    }
+
+    void clear(const std::string& name) {
+        ids_.erase(name);
+        references_.erase(name);
+        containers_.erase(name);
+    }
+
+    mutable std::mutex mutex_;
+    std::unordered_map<std::string, Id> ids_;
+    std::unordered_map<std::string, Reference> references_;
+    std::unordered_map<std::string, ContainerHandle> containers_;
+    std::set<Id> given_;
+};
+
+}  // namespace ucm_cts
+
+#endif
