@@ -97,6 +97,12 @@ class Ledger:
             known = self.tallies[id(row)] = (row, RowTally())
         return known[1]
 
+    def broken(self, row: Row) -> None:
+        """An instance went a way that ``row`` forbids."""
+        tally = self.row(row)
+        tally.exercised += 1
+        tally.violated += 1
+
     def fitted(self, row: Row, fit: Fit) -> None:
         """An instance went a way that ``row`` permits."""
         tally = self.row(row)

@@ -58,7 +58,7 @@ def callbacks(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Ra
         heard = tuple([e.hook for e in events]) if events else ()
         fit = ledger.duties.fit(row, answer, listener, heard)
         if fit is None:
-            ledger.row(row).violated += 1
+            ledger.broken(row)
             who = lane(component, instance or 1)
             _deviates(ledger, window, row, who, ledger.duties.deviation(row, answer, listener, heard), events, end)
             if member is not None:

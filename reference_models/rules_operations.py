@@ -99,7 +99,7 @@ def outcomes(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Rai
             continue
         window.judged = False
         window.lost = True
-        ledger.row(row).violated += 1
+        ledger.broken(row)
         instance = f"{member.lane} is {row.state}" if member else ""
         situation = ", ".join(filter(None, (instance, row.condition)))
         expected = " or ".join(a if a != "return" else "a normal return" for a in sorted(permitted))

@@ -147,8 +147,8 @@ class Situations:
         _, provider = runtime.reference(step.to)
         if member.live_connections(step.port):
             return "already connected"
-        if provider is not None and (provider.gone or provider.suspended):
-            return "provider already removed" if provider.gone else "one of several ports"
+        if provider is not None and provider.gone:
+            return "provider already removed"
         missing = [p for p in member.declaration.requires if not member.live_connections(p)]
         if len(missing) > 1:
             return "one of several ports"

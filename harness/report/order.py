@@ -22,10 +22,10 @@ def clause_key(clause: str) -> tuple[int, ...]:
 
 
 def to_fix(results: Iterable[RequirementResult]) -> list[RequirementResult]:
-    """Failed requirements in the order to work on them: by clause, then what was met most often first."""
+    """Failed requirements in the order to work on them: what was met most often first, then by clause."""
 
-    def key(result: RequirementResult) -> tuple[tuple[int, ...], int, str]:
-        return clause_key(result.clause), -sum(failed.occurrences for failed in result.findings), result.id
+    def key(result: RequirementResult) -> tuple[int, tuple[int, ...], str]:
+        return -sum(failed.occurrences for failed in result.findings), clause_key(result.clause), result.id
 
     return sorted((result for result in results if result.verdict == "fail"), key=key)
 
