@@ -245,7 +245,6 @@ TABLE = LifeCycleTable(
     duties=(),
     order="R-11.2.3-12",
     fragments="R-11.2.1.4-01",
-    fragments="R-11.2.1.4-01",
 )
 TRANSITIONS = (
     TransitionResult("absent/add_component/requires nothing", 800, 0),
