@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import os
 import random
 import sys
 import tempfile
@@ -41,6 +42,14 @@ timeout_option = click.option(
 )
 
 
+class _Output(Console):
+    """The terminal; if nobody reads any more, the work goes on all the same."""
+
+    def on_broken_pipe(self) -> None:
+        self.quiet = True
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(ucm_cts.__version__, prog_name="ucm-cts")
 def cli() -> None:
@@ -76,7 +85,7 @@ def run(
     executable, tcp://host:port or unix:/path. Exit status: 0 conformant, 1 not conformant or inconclusive, 2 wrong
     use, 3 the harness failed.
     """
-    console = Console()
+    console = _Output()
     known = _known_failures(known_failures)
     purposes = load_purposes(profile)
     if expression:
@@ -127,7 +136,7 @@ def run(
 @click.argument("requirement", default="", required=False)
 def explain(requirement: str) -> None:
     """Show REQUIREMENT: clause, meaning, interpretation, scenarios. Without it, list the catalogue."""
-    console = Console()
+    console = _Output()
     if not requirement:
         console.print(overview())
         return

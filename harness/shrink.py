@@ -37,7 +37,7 @@ def _shorter(scenario: Scenario) -> Iterator[Scenario]:
         for hook in declaration.plan:
             plan = {h: a for h, a in declaration.plan.items() if h != hook}
             simpler = msgspec.structs.replace(declaration, plan=plan)
-            yield msgspec.structs.replace(scenario, components={**scenario.components, name: simpler})
+            yield _tidy(msgspec.structs.replace(scenario, components={**scenario.components, name: simpler}), steps)
         if declaration.connectable:
             simpler = msgspec.structs.replace(declaration, connectable=False)
             yield msgspec.structs.replace(scenario, components={**scenario.components, name: simpler})
@@ -57,9 +57,12 @@ def _without(steps: tuple[Step, ...], index: int) -> tuple[Step, ...]:
 
 
 def _tidy(scenario: Scenario, steps: tuple[Step, ...]) -> Scenario:
-    """The scenario with these steps, less waits that wait for nothing and components that nobody adds."""
+    """The scenario with these steps, less waits for nothing, gates that hold nobody and components that nobody adds."""
     workers = {step.thread for step in steps if step.thread}
     steps = tuple(x for x in steps if not isinstance(x, s.Join) or x.worker in workers)
     added = {step.component for step in steps if isinstance(step, s.AddComponent)}
     components = {name: d for name, d in scenario.components.items() if name in added}
+    plans = (actions for d in components.values() for actions in d.plan.values())
+    gates = {action.gate for actions in plans for action in actions if isinstance(action, s.HoldAtGate)}
+    steps = tuple(x for x in steps if not isinstance(x, s.OpenGate | s.ReachGate) or x.gate in gates)
     return msgspec.structs.replace(scenario, components=components, steps=steps)
