@@ -264,7 +264,9 @@ _WITH_RESULT = (s.AddComponent, s.GetPortElement, s.Connect, s.GetComponents, s.
 
 
 def _integer(value: Any) -> int:
-    if not isinstance(value, int) or not -(2**63) <= value < 2**63:  # what the wire carries; 32 bits are the judge's matter
+    if (
+        not isinstance(value, int) or not -(2**63) <= value < 2**63
+    ):  # what the wire carries; 32 bits are the judge's matter
         raise ContractBroken(f"returned {value!r}; it returns an integer")
     return int(value)
 
