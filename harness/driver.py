@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections import deque
+import itertools
+import time
+from collections import Counter, deque
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import TracebackType
 from typing import Self, TypeVar
 
@@ -23,6 +25,15 @@ from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Execution, Incident
 __all__ = ["Answer", "Driver", "Limits"]
 
 T = TypeVar("T")
+
+SECONDS_FOR_INCIDENTS = 30
+"""How long a run may deal with crashes and hangs before it gives up on the scenarios that remain."""
+
+FULL_WAITS, SHORT_WAIT = 2, 0.5
+"""After so many hangs were waited out in full, the next ones are given that many seconds: the defect is known by then."""
+
+SECOND_LOOKS = {"hang": 3, "memory": 3, "crash": 50, "exit": 50}
+"""How many incidents of a kind are looked at again, each on a fresh host; those of a run that hangs take long."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +55,8 @@ class Driver:
         self.adapter = door.text
         self.seed = seed
         self._disguise: Disguise | None = None
+        self._met: Counter[str] = Counter()
+        self._spent = 0.0
 
     def __enter__(self) -> Self:
         return self
@@ -66,19 +79,35 @@ class Driver:
         return self._disguise
 
     def run(self, cases: Iterable[tuple[str, Scenario]]) -> Iterator[Answer]:
-        """The answers to ``cases`` (name, scenario), in order; many are on their way at a time."""
+        """The answers to ``cases`` (name, scenario), in order; many are on their way at a time.
+
+        Once incidents have taken ``SECONDS_FOR_INCIDENTS``, what remains is answered as ``unreachable`` without a try.
+        """
         waiting: deque[tuple[str, Scenario, Run]] = deque()
+        source = iter(cases)
+        numbers = itertools.count()
 
         def runs() -> Iterator[Run]:
-            for number, (name, scenario) in enumerate(cases):
-                run = Run(number, self.disguise.scenario(scenario))
+            while self._spent < SECONDS_FOR_INCIDENTS:
+                case = next(source, None)
+                if case is None:
+                    return
+                name, scenario = case
+                run = Run(next(numbers), self.disguise.scenario(scenario))
                 waiting.append((name, scenario, run))
                 yield run
 
+        began = time.monotonic()
         for reply in self._hosts.run(runs()):
             name, scenario, run = waiting.popleft()
             trace, incident = self._examine(run, reply)
+            if incident is not None:
+                self._spent += time.monotonic() - began
             yield Answer(name, scenario, run.scenario, trace, incident)
+            began = time.monotonic()
+        for name, scenario in source:
+            reason = f"not run: incidents before it had taken {SECONDS_FOR_INCIDENTS} s"
+            yield Answer(name, scenario, scenario, (), Incident("unreachable", reason))
 
     def reveal(self, value: T) -> T:
         """``value`` in the script's own names."""
@@ -108,6 +137,12 @@ class Driver:
         if isinstance(reply, Refused):
             return (), Incident("refused", reply.reason)
         if reply.kind not in FRAMEWORK_INCIDENTS:
+            return (), reply
+        self._met[reply.kind] += 1
+        if reply.kind == "hang" and self._met["hang"] == FULL_WAITS:
+            limits = self._hosts.limits
+            self._hosts.limits = replace(limits, seconds=min(limits.seconds, SHORT_WAIT))
+        if self._met[reply.kind] > SECOND_LOOKS[reply.kind]:
             return (), reply
         return self._second_look(run, reply)
 

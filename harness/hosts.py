@@ -66,7 +66,7 @@ class Hosts:
 
     def __init__(self, door: Door, limits: Limits | None = None) -> None:
         self._door = door
-        self._limits = limits or Limits()
+        self.limits = limits or Limits()
         self._opener: Opener | None = None
         self._host: Host | None = None
         self._welcome: Welcome | None = None
@@ -168,11 +168,11 @@ class Hosts:
                 raise WrongUse(f"'{self._door.text}': {error}") from error
         if self._opener is None:
             self._opener = opener(self._door)
-        return WatchedHost(self._opener.open(), self._limits)
+        return WatchedHost(self._opener.open(), self.limits)
 
     def _greet(self, host: Host) -> Welcome:
         host.submit(encode(Hello(PROTOCOL)))
-        message = _decode(host, host.receive(Deadline.after(self._limits.welcome_seconds)))
+        message = _decode(host, host.receive(Deadline.after(self.limits.welcome_seconds)))
         if isinstance(message, Refused):
             host.fail("refused", message.reason)
         if not isinstance(message, Welcome):
@@ -197,7 +197,7 @@ class Hosts:
         return Answer(run.id, reply, tuple(happened))
 
     def _receive_reply(self, host: Host, run: Run, happened: list[Event]) -> Traced | Refused:
-        deadline = Deadline.after(self._limits.seconds + waits(run.scenario))
+        deadline = Deadline.after(self.limits.seconds + waits(run.scenario))
         while True:
             message = _decode(host, host.receive(deadline))
             if isinstance(message, Welcome) or (isinstance(message, Happened) and not run.stream):

@@ -78,7 +78,9 @@ class Tally:
         assert execution.incident is not None
         self.scenarios += 1
         self.events += len(execution.trace)
-        self.incidents.append(IncidentReport(execution.incident, execution))
+        not_run = execution.incident.kind == "unreachable"
+        if not (not_run and any(i.incident == execution.incident for i in self.incidents)):
+            self.incidents.append(IncidentReport(execution.incident, execution))
         if execution.incident.kind not in FRAMEWORK_INCIDENTS:
             for requirement in requirements:
                 self.lost.setdefault(requirement, f"{execution.incident.kind}: {execution.incident.detail}")
