@@ -46,7 +46,7 @@ def _observed(window: Window, component: str, instance: int | None) -> list[Ente
 def callbacks(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Each instance receives exactly the callbacks that the life-cycle table asks for, in its order."""
     answer = "return" if isinstance(end, Return) else end.error
-    if len(runtime.members) > len(window.roles) or window.callbacks:
+    if window.callbacks or len(runtime.containers) > 1:
         _others(ledger, runtime, window)
     if not window.judged or (window.operation in _OF_ALL and _manager_forgot_its_own(ledger, window, answer, end.n)):
         return
