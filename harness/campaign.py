@@ -13,11 +13,14 @@ from ucm_cts.harness import shrink
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.driver import Answer, Driver
 from ucm_cts.harness.known_failures import KnownFailure
-from ucm_cts.harness.results import Execution, Report
+from ucm_cts.harness.results import Execution, IncidentKind, Report
 from ucm_cts.harness.scripts import TestPurpose
 from ucm_cts.harness.tally import Cause, Tally, cause_of, finding_of_incident, overall
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
+
+_QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
+"""Incidents whose scenarios are shortened; each try of another one would cost its whole deadline."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +83,10 @@ class Campaign:
     def shorten(self) -> Iterator[Cause]:
         """Look for the shortest scenario of each failure; yields each cause when it is done."""
         for cause, failure in list(self._tally.failures.items()):
-            if failure.execution.incident is None:
+            incident = failure.execution.incident
+            if incident is not None:
+                self._driver.allow_second_looks()
+            if incident is None or incident.kind in _QUICK:
 
                 def first_failing(candidates: Sequence[Scenario], cause: Cause = cause) -> int | None:
                     shown = self._show(cause, candidates)
@@ -93,16 +99,32 @@ class Campaign:
             yield cause
 
     def _show(self, cause: Cause, candidates: Sequence[Scenario]) -> tuple[int, Finding, Execution] | None:
-        """The first of ``candidates`` that shows ``cause``; all are run, so that the host stays in step."""
+        """The first of ``candidates`` that shows ``cause``; all are run, so that the host stays in step.
+
+        Those that may end the host are run one by one, and no more than needed.
+        """
         first: tuple[int, Finding, Execution] | None = None
-        for index, answer in enumerate(self._driver.run([(f"{cause[0]}-shortest", c) for c in candidates])):
-            if first is not None or answer.incident is not None:
-                continue
-            for finding in self._judge.judge(answer.disguised, answer.trace).findings:
-                shown = self._driver.reveal(finding)
-                if first is None and cause_of(shown) == cause:
-                    first = index, shown, self._driver.revealed(answer)
+        cases = [(f"{cause[0]}-shortest", c) for c in candidates]
+        alone = self._tally.failures[cause].execution.incident is not None
+        answers = (
+            (answer for case in cases for answer in self._driver.run([case])) if alone else self._driver.run(cases)
+        )
+        for index, answer in enumerate(answers):
+            if first is None:
+                execution = self._driver.revealed(answer)
+                shown = [finding for finding in self._findings(answer, execution) if cause_of(finding) == cause]
+                if shown:
+                    first = index, shown[0], execution
+            if first is not None and alone:
+                break
         return first
+
+    def _findings(self, answer: Answer, execution: Execution) -> list[Finding]:
+        """What is wrong with one answer, as people read it."""
+        if answer.incident is not None:
+            finding = finding_of_incident(execution)
+            return [finding] if finding is not None else []
+        return [self._driver.reveal(finding) for finding in self._judge.judge(answer.disguised, answer.trace).findings]
 
     def report(self) -> Report:
         """All verdicts of the run so far."""

@@ -109,6 +109,10 @@ class Driver:
             reason = f"not run: incidents before it had taken {SECONDS_FOR_INCIDENTS} s"
             yield Answer(name, scenario, scenario, (), Incident("unreachable", reason))
 
+    def allow_second_looks(self) -> None:
+        """Incidents are looked at again from now on, however many there have been."""
+        self._met.clear()
+
     def reveal(self, value: T) -> T:
         """``value`` in the script's own names."""
         return self.disguise.reveal(value)
