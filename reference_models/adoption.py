@@ -34,7 +34,7 @@ def _added(runtime: Runtime, window: Window, step: s.AddComponent, end: Return |
     own = [b for b in bodies if b[0] == step.component]
     if not isinstance(value, int) or isinstance(value, bool):
         window.container.failed_adds += 1
-        runtime.discarded.update(bodies)
+        runtime.discarded.update(body for body in bodies if body in window.by_body)
         return
     member = Member(
         name=step.bind or step.component,
@@ -48,6 +48,9 @@ def _added(runtime: Runtime, window: Window, step: s.AddComponent, end: Return |
         not own or declaration is None or not window.judged or raises(declaration, "on_init", "set_container_interface")
     )
     twins = [m for m in window.container.live_members() if m.id == value]
+    for twin in twins:
+        twin.gone = twin.leaving  # its id is free, so the removal that failed did remove it
+    twins = [m for m in twins if not m.gone]
     for unsure in (member, *twins) if twins or declaration is None else ():
         unsure.suspended = unsure.doubtful = True
     window.container.members.append(member)
@@ -69,6 +72,7 @@ def _found(runtime: Runtime, window: Window, step: s.GetPortElement, end: Return
         recognised = isinstance(end.value, Reference) or end.value == "opaque"
         reference: MaybeReference = end.value if recognised else None  # type: ignore[assignment]
         runtime.references[step.bind] = (reference, window.subject)
+        runtime.ports[step.bind] = step.port
 
 
 def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | Raise) -> None:
@@ -80,9 +84,10 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
     if not isinstance(value, int) or step.port not in member.declaration.requires or step.to == s.NIL:
         member.suspended = True
         return
-    connection = Connection(step.bind, value, member, step.port, reference, provider)
+    connection = Connection(step.bind, value, member, step.port, reference, provider, runtime.ports.get(step.to, ""))
+    replaced = bool(received(window, member, "on_disconnect"))
     for earlier in member.live_connections(step.port):
-        earlier.live = None
+        earlier.live = False if replaced or earlier.id == value else None
     twins = [
         c for c in runtime.connections.values() if c.live and c.id == value and c.client.container is member.container
     ]
@@ -90,7 +95,7 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
         twin.ambiguous = connection.ambiguous = True
         twin.client.suspended = member.suspended = True
     connection.stale = provider is not None and provider.gone
-    if member.operational or connection.stale:
+    if connection.stale:
         connection.live = None
     if connection.stale:
         member.suspended = True
@@ -103,7 +108,14 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
 
 def _disconnected(runtime: Runtime, window: Window, step: s.Disconnect, end: Return | Raise) -> None:
     connection = window.connection
-    if connection is None or isinstance(end, Raise):
+    if connection is None:
+        return
+    if isinstance(end, Raise):
+        if connection.live is None and end.error == "NOT_FOUND":
+            connection.live = False
+        elif received(window, connection.client, "on_disconnect"):
+            connection.live = None
+            connection.client.suspended = True
         return
     connection.live = False
     client = connection.client
@@ -118,7 +130,7 @@ def _component_removed(runtime: Runtime, window: Window, step: s.RemoveComponent
     if isinstance(end, Return):
         _removed(runtime, window, [member])
     elif received(window, member, "on_remove"):
-        member.suspended = member.doubtful = True
+        _perhaps_removed(runtime, [member])
 
 
 def _container_created(runtime: Runtime, window: Window, step: s.CreateContainer, end: Return | Raise) -> None:
@@ -132,9 +144,15 @@ def _container_created(runtime: Runtime, window: Window, step: s.CreateContainer
 def _container_removed(runtime: Runtime, window: Window, step: s.RemoveContainer, end: Return | Raise) -> None:
     container = runtime.containers.get(step.container)
     known = container is not None and not container.removed and container.name != s.MANAGER
-    if isinstance(end, Return) and known and container is not None:
+    if not known or container is None:
+        return
+    if isinstance(end, Return):
         _removed(runtime, window, container.live_members())
         container.removed = True
+    elif window.callbacks:
+        _perhaps_removed(runtime, container.live_members())
+        container.suspend()
+        container.doubtful = True
 
 
 def _destroyed(runtime: Runtime, window: Window, step: s.Destroy, end: Return | Raise) -> None:
@@ -142,6 +160,16 @@ def _destroyed(runtime: Runtime, window: Window, step: s.Destroy, end: Return | 
     for container in runtime.containers.values():
         for member in container.members:
             member.gone = member.gone or isinstance(end, Return)
+
+
+def _perhaps_removed(runtime: Runtime, members: list[Member]) -> None:
+    """The removal failed, but part of it happened: nobody knows what is left."""
+    for client, used in runtime.clients_of(members):
+        client.suspended = True
+        for connection in used:
+            connection.live = None
+    for member in members:
+        member.suspended = member.doubtful = member.leaving = True
 
 
 def _removed(runtime: Runtime, window: Window, removed: list[Member]) -> None:
@@ -226,10 +254,22 @@ def _unsure(member: Member) -> bool:
 
 def _resolve(member: Member, startup: Enter) -> None:
     """What on_startup handed over tells which of the doubtful connections stand."""
-    handed_over = {(d.port, r) for d in startup.dependencies or () for r in d.references}
+    given: dict[str, list[MaybeReference]] = {}
+    for dependency in startup.dependencies or ():
+        given.setdefault(dependency.port, []).extend(r for r in dependency.references if r is not None)
     for connection in member.connections:
-        if connection.live is None:
-            connection.live = (connection.port, connection.reference) in handed_over
+        of_port = [c for c in member.connections if c.port == connection.port and c.live is not False]
+        references = given.get(connection.port, [])
+        if connection.live is not None:
+            continue
+        if len(references) == len(of_port):
+            connection.live = True
+        elif not references:
+            connection.live = False
+        elif all(isinstance(r, Reference) for r in (*references, *(c.reference for c in of_port))):
+            twins = [c for c in of_port if c.reference == connection.reference]
+            if len(twins) == 1 or connection.reference not in references:
+                connection.live = connection.reference in references
 
 
 def _reached_unseen(runtime: Runtime, container: Container) -> None:

@@ -55,6 +55,7 @@ class _Reading:
         self.heard: dict[tuple[str, int], list[s.Hook]] = {}
         self.calls: dict[int, list[BusinessCall]] = {}
         self.hooks: dict[int, list[s.Hook]] = {}
+        self.served: dict[int, list[BusinessCall | None]] = {}
 
     def call(self, event: Call) -> None:
         step = self.ledger.scenario.steps[event.step]
@@ -99,8 +100,8 @@ class _Reading:
             window.hear(event)
 
     def enter_business(self, event: Enter) -> None:
-        calls = self.calls.get(event.thread)
-        call = calls[-1] if calls else None
+        call = self.call_behind(event)
+        self.served.setdefault(event.thread, []).append(call)
         if call is not None:
             call.entries.append((event, None))
         for check in self.judge.called:
@@ -113,9 +114,18 @@ class _Reading:
         hooks = self.hooks.get(event.thread)
         if hooks:
             hooks.pop()
+        served = self.served.get(event.thread)
+        if event.hook == "exchange" and served:
+            call = served.pop()
+            if call is not None:
+                call.close(event)
+
+    def call_behind(self, event: Enter) -> BusinessCall | None:
         calls = self.calls.get(event.thread)
-        if event.hook == "exchange" and calls:
-            calls[-1].close(event)
+        if calls:
+            return calls[-1]
+        waiting = [c[-1] for c in self.calls.values() if c and c[-1].value == event.value]
+        return waiting[-1] if waiting else None
 
     def request(self, event: Request) -> None:
         inside = self.hooks.get(event.thread)

@@ -12,7 +12,7 @@ from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.life_cycle import Row
 from ucm_cts.reference_models.rules_operations import listing_problem
-from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
+from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane, raises
 from ucm_cts.reference_models.situations import undone_by
 
 _FROM_DUTIES = [
@@ -127,6 +127,11 @@ def _others(ledger: Ledger, runtime: Runtime, window: Window) -> None:
     undisturbed_elsewhere = False
     for member in runtime.members.values():
         if id(member) in concerned or member.gone or member.suspended:
+            continue
+        if any(c.live is None for c in member.connections) and window.operation in (
+            "remove_component",
+            "remove_container",
+        ):
             continue
         elsewhere = member.container is not window.container
         if (member.component, member.instance) not in told:
@@ -245,6 +250,44 @@ def nothing_outside_life(
     )
     if member is not None:
         member.suspended = True
+
+
+@rule("entered", "R-11.2.3-09", "R-11.2.1.2-10", at=("on_startup", "on_shutdown"))
+def alternation(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]) -> None:
+    """No second on_startup without on_shutdown between, no on_shutdown without on_startup before: whatever else is unclear."""
+    declaration = runtime.scenario.components.get(event.component)
+    if declaration is None or raises(declaration, "on_startup", "on_shutdown", "on_init"):
+        return
+    member = runtime.member_of(event.component, event.instance)
+    if ledger.findings or window is None or member is None or not member.suspended:
+        return  # the table's matter, or whole_life's
+    before = [h for h in heard if h in ("on_startup", "on_shutdown")]
+    if (before[-1:] == ["on_startup"]) == (event.hook == "on_shutdown"):
+        return
+    ledger.violated(
+        "R-11.2.3-09" if event.hook == "on_startup" else "R-11.2.1.2-10",
+        "alternation",
+        event.hook,
+        "on_startup and on_shutdown alternate",
+        f"{event.hook} after {', '.join(before) or 'neither'}",
+        (event.n,),
+        window.step_number if window else None,
+    )
+
+
+@rule("entered", "R-12.10-22", at=LIFE_CYCLE_HOOKS)
+def discarded(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]) -> None:
+    """What a failed add_component made hears nothing more but its on_remove."""
+    if (event.component, event.instance) in runtime.discarded and event.hook != "on_remove":
+        ledger.violated(
+            "R-12.10-22",
+            "discarded",
+            event.hook,
+            "a failed add_component leaves nothing behind",
+            f"its body received {event.hook} later",
+            (event.n,),
+            window.step_number if window else None,
+        )
 
 
 @rule("entered", "R-11.2.1.2-05", at=("on_init",))

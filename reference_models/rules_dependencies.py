@@ -71,6 +71,10 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
         ]
         if strangers and certain:
             return "R-11.2.1.2-03", "reference", f"{port} = {_expected(member)}", f"{port} = {_show(strangers[0])}"
+        lost = [c for c in certain if isinstance(c.reference, Reference) and c.reference not in references]
+        if lost and all(isinstance(r, Reference) for r in references) and not lost[0].stale:
+            shown = ", ".join(map(_show, references))
+            return "R-11.2.1.2-09", "missing", f"{_show(lost[0].reference)} for {port}, connected last", shown
         if certain and len(references) > len(connections):
             expected = f"{len(connections)} reference(s) for {port}, one a connection"
             return "R-12.10-25", "count", expected, f"{len(references)} references"

@@ -15,8 +15,7 @@ from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
 class BusinessCall:
     """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
 
-    ``entries`` are the bodies it entered, with what they returned; ``began_stopped`` tells that the caller itself
-    had begun before its container was last stopped.
+    ``entries`` are the bodies it entered, with how they were left.
     """
 
     value: int
@@ -35,13 +34,14 @@ class BusinessCall:
                 return
 
 
-@rule("answered", "R-11.2.1.1-02", "R-11.2.1.2-07")
+@rule("answered", "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06")
 def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
     """A call through a reference enters an operational body once, with the value sent, and returns its result."""
     assert call.step is not None
     _, member = runtime.reference(call.step.ref)
     if member is None or member.suspended or not member.operational or member.raises("exchange"):
         return
+    port = runtime.ports.get(call.step.ref)
     own = [(e, x) for e, x in call.entries if (e.component, e.instance) == (member.component, member.instance)]
     expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
     if not own or isinstance(end, Raise):
@@ -51,6 +51,11 @@ def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return |
     ledger.exercised("R-11.2.1.2-07")
     enter, exit_ = own[0]
     result = exit_.value if exit_ is not None else None
+    if enter.port != port:
+        observed = f"it ran {member.lane}'s {enter.port}"
+        expected = f"the reference that get_port_element gave for {port} runs {member.lane}'s {port}"
+        _violate(ledger, "R-11.2.2.1-06", "stimulus", "another port", expected, observed, call.n, end.n, member)
+        return
     if enter.value != call.value or end.value != result or len(own) > 1:
         observed = f"the body received {enter.value}, returned {result}, the caller got {end.value}"
         if len(own) > 1:
@@ -68,8 +73,8 @@ def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Repl
         return
     fragment = all(p.declaration.fragment for p in providers)
     requirement = "R-11.1.2-02" if fragment else "R-11.1.3-01"
-    wanted = {(p.component, p.instance) for p in providers}
-    reached = [(e, x) for e, x in call.entries if (e.component, e.instance) in wanted and e.value == call.value]
+    wanted = _targets(runtime, call)
+    reached = [(e, x) for e, x in call.entries if (e.component, e.instance, e.port) in wanted and e.value == call.value]
     names = " or ".join(sorted(p.lane for p in providers))
     expected = f"{reply.component}'s call of {reply.port} with {call.value} reaches {names} and brings back its result"
     if not reached:
@@ -77,6 +82,8 @@ def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Repl
         observed = f"it reached {where}"
     elif all(x is not None and x.value != reply.value for _, x in reached):
         observed = f"the body returned {reached[0][1].value if reached[0][1] else None}, the caller got {reply.value}"
+    elif len(reached) > 1:
+        observed = f"it was carried out {len(reached)} times"
     else:
         ledger.exercised(requirement)
         return
@@ -119,6 +126,10 @@ def disabled_ports(
     if member.suspended and not (call is not None and call.request is not None):
         return
     caller = call.request.component if call is not None and call.request is not None else "the framework"
+    if call is not None and call.request is not None:
+        other = runtime.member_of(call.request.component, call.request.instance)
+        if other is not None and other.container is not container and other.container.started is not False:
+            return
     ledger.violated(
         "R-11.2.3-02",
         "disabled_ports",
@@ -172,6 +183,16 @@ def _providers(runtime: Runtime, call: BusinessCall) -> list[Member]:
     connections = [c for c in caller.connections if c.port == request.port and c.live is not False]
     providers = [c.provider for c in connections if c.provider is not None]
     return providers if len(providers) == len(connections) else []
+
+
+def _targets(runtime: Runtime, call: BusinessCall) -> set[tuple[str, int | None, str]]:
+    request = call.request
+    caller = runtime.member_of(request.component, request.instance) if request else None
+    return {
+        (c.provider.component, c.provider.instance, c.provided)
+        for c in (caller.connections if caller else ())
+        if request and c.port == request.port and c.live is not False and c.provider is not None
+    }
 
 
 def _violate(

@@ -120,7 +120,7 @@ def outcomes(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Rai
 def component_ids(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Component ids are 32-bit, and distinct among the live members of a container."""
     if isinstance(end, Return):
-        live = [m.id for m in window.container.live_members()]
+        live = [m.id for m in window.container.live_members() if not m.doubtful]
         _identifier(ledger, window, end, live, "component", "R-11.2.2.1-03", "R-12.10-02")
 
 
@@ -128,7 +128,10 @@ def component_ids(ledger: Ledger, runtime: Runtime, window: Window, end: Return 
 def connection_ids(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Connection ids are 32-bit, and distinct among the live connections of a container."""
     if isinstance(end, Return) and window.judged:
-        live = [c.id for c in runtime.connections.values() if c.live and c.client.container is window.container]
+        assert isinstance(window.step, s.Connect)
+        replaced = (window.subject, window.step.port)  # what it takes the place of may lend it its id
+        others = [c for c in runtime.connections.values() if c.live and (c.client, c.port) != replaced]
+        live = [c.id for c in others if c.client.container is window.container]
         _identifier(ledger, window, end, live, "connection", "R-11.2.2.1-09", "R-12.10-03")
 
 

@@ -17,7 +17,9 @@ from ucm_cts.reference_models.life_cycle import Row, State
 
 @dataclass(slots=True, eq=False)
 class Connection:
-    """A connection: ``live`` is None where the text leaves open whether it still stands.
+    """A connection of ``port`` to ``provider``'s port element ``provided``.
+
+    ``live`` is None where the text leaves open whether it still stands.
 
     ``stale`` connections were made to a reference whose instance had been removed before; ``ambiguous`` ones share their
     id with another live one.
@@ -29,6 +31,7 @@ class Connection:
     port: str
     reference: MaybeReference
     provider: Member | None
+    provided: str = ""
     live: bool | None = True
     stale: bool = False
     ambiguous: bool = False
@@ -39,6 +42,7 @@ class Member:
     """A component instance as far as the trace has shown it.
 
     ``suspended``: its state is not known, so nothing about it is judged. ``doubtful``: not even whether it is a member.
+    ``leaving``: a removal of it failed half-way.
     """
 
     name: str
@@ -50,6 +54,7 @@ class Member:
     operational: bool = False
     suspended: bool = False
     doubtful: bool = False
+    leaving: bool = False
     gone: bool = False
     startups: int = 0
     served: bool = False
@@ -82,11 +87,14 @@ class Member:
 
 @dataclass(slots=True, eq=False)
 class Container:
-    """A container: ``started`` is None where the text leaves the outcome of a failed start or stop open."""
+    """A container: ``started`` is None where the text leaves the outcome of a failed start or stop open, ``doubtful``
+    says the same of its removal.
+    """
 
     name: str
     started: bool | None = False
     removed: bool = False
+    doubtful: bool = False
     members: list[Member] = field(default_factory=list)
     startup_order: list[Member] = field(default_factory=list)
     failed_adds: int = 0
@@ -156,6 +164,7 @@ class Runtime:
         self.discarded: set[tuple[str, int]] = set()
         self.connections: dict[str, Connection] = {}
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
+        self.ports: dict[str, str] = {}
         self.destroyed = False
 
     def member_of(self, component: str, instance: int) -> Member | None:

@@ -43,7 +43,7 @@ class Situations:
         name = s.MANAGER if operation in _OF_THE_MANAGER else step.container  # type: ignore[union-attr]
         container = runtime.containers.get(name) or Container(name, removed=True)
         window = Window(number, step, operation, container)
-        if runtime.destroyed or (container.removed and operation != "remove_container"):
+        if runtime.destroyed or container.doubtful or (container.removed and operation != "remove_container"):
             window.judged = False
             return window
         self._looks[operation](runtime, window, step)
@@ -84,7 +84,7 @@ class Situations:
         member, why = runtime.find_member(window.container, step.id)
         window.subject = member
         if member is None:
-            self._role(window, None, "absent", why)
+            self._role(window, None, "absent", why + _late(window))
             return
         clients = list(runtime.clients_of([member]))
         failing = member.raises(*_FAILING_END)
@@ -121,8 +121,11 @@ class Situations:
     def _connect(self, runtime: Runtime, window: Window, step: s.Connect) -> None:
         member, why = runtime.find_member(window.container, step.id)
         window.subject = member
+        _, provider = runtime.reference(step.to)
+        unusable = step.to == s.NIL or (provider is not None and provider.gone)
         if member is None:
-            self._role(window, None, "absent", why)
+            self._role(window, None, "absent", why + _late(window))
+            window.judged = not unusable  # two things are wrong, and nobody says which is told
             return
         wrong = ""
         if step.port not in member.declaration.requires:
@@ -139,12 +142,13 @@ class Situations:
             window.judged = window.container.started is not None
             self._member_role(window, member, "container started")
         else:
-            self._member_role(window, member, self._kind_of_connection(runtime, member, step))
-        if member.raises("on_connect", "on_disconnect"):
+            self._member_role(window, member, self._kind_of_connection(member, step, provider))
+        if member.raises("on_connect", "on_disconnect") or (late and member.raises("on_startup")):
+            window.judged = False
+        if provider is not None and provider.gone and window.roles[-1][1].condition != "provider already removed":
             window.judged = False
 
-    def _kind_of_connection(self, runtime: Runtime, member: Member, step: s.Connect) -> str:
-        _, provider = runtime.reference(step.to)
+    def _kind_of_connection(self, member: Member, step: s.Connect, provider: Member | None) -> str:
         if member.live_connections(step.port):
             return "already connected"
         if provider is not None and provider.gone:
@@ -163,7 +167,7 @@ class Situations:
     def _disconnect(self, runtime: Runtime, window: Window, step: s.Disconnect) -> None:
         connection, why = runtime.find_connection(step.connection)
         if connection is None or connection.client.container is not window.container:
-            self._role(window, None, "absent", why or "never existed")
+            self._role(window, None, "absent", (why or "never existed") + _late(window))
             return
         window.connection = connection
         member = window.subject = connection.client
@@ -190,7 +194,7 @@ class Situations:
             self._role(window, None, "absent", "no members, already started" if started else "no members")
         unready = [m for m in members if m.state == "initialized"]
         failing = [m for m in members if m.raises("on_startup")]
-        if unready and failing and not started:
+        if (unready and failing and not started) or (started and any(not m.operational for m in failing)):
             window.judged = False
         for member in members:
             if started is not False:
@@ -259,6 +263,9 @@ class Situations:
         if container is None or container.name == s.MANAGER:
             window.judged = False
             return
+        if container.doubtful:
+            window.judged = False
+            return
         if container.removed:
             self._role(window, None, "absent", "already removed")
             return
@@ -276,6 +283,10 @@ class Situations:
             self._member_role(window, member, "")
             if member.raises(*_FAILING_END) or any(c.live is None for c in member.connections):
                 window.judged = False
+
+
+def _late(window: Window) -> str:
+    return ", container started" if window.container.started is not False else ""
 
 
 def undone_by(window: Window, member: Member) -> list[Connection]:

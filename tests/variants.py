@@ -288,14 +288,15 @@ class hands_out_proxies(GivesOutProxies):
 class removes_members_one_by_one(Base):
     """remove_container and destroy finish with each member before the next, last added first."""
 
-    def _take_down(self, failures: Failures) -> None:
-        self._shut_down_started(failures)
+    def _disconnect_members(self, failures: Failures) -> None:
+        pass
+
+    def _remove_members(self, failures: Failures) -> None:
         for member in reversed(list(self.members.values())):
             for connection in self._connections_to(member) + self._connections_from(member):
                 if connection.id in self.manager.connections:
                     self._disconnect(connection, failures)
             self._remove(member, failures)
-        self.is_removed = True
 
 
 _ = ContainerManager

@@ -219,7 +219,7 @@ class starts_what_was_removed(Base):
             Failures().attempt(ghost.body.on_startup, [])
 
 
-@breaks("R-11.2.1.2-03")
+@breaks("R-11.2.1.2-03", also=("R-11.1.3-01",))
 class mixes_references_up(Base):
     """Hands over the references of two port elements in reverse."""
 
@@ -524,19 +524,15 @@ class forgets_the_last(Base):
         return order[:-1] if len(order) > 1 else order
 
 
-@breaks("R-11.2.2.1-12")
+@breaks("R-11.2.2.1-12", also=("R-11.2.3-09",))
 class forgets_to_stop_the_first(Base):
     """stop leaves out the member that was started first, if there are several."""
 
-    def _shut_down_started(self, failures: Failures) -> None:
-        if len(self.started) > 1 and not self.__dict__.get("ending"):
+    def stop(self) -> None:
+        if len(self.started) > 1:
             self.started[0].state = State.CONFIGURING
             del self.started[0]
-        super()._shut_down_started(failures)
-
-    def _take_down(self, failures: Failures) -> None:
-        self.__dict__["ending"] = True
-        super()._take_down(failures)
+        super().stop()
 
 
 @breaks("R-11.2.2.1-13")
@@ -581,13 +577,9 @@ class keeps_full_containers(Base):
     """remove_container is refused while there are members."""
 
     def _remove_container(self, container: Container, failures: Failures) -> None:
-        if container.members and not self.__dict__.get("ending"):
+        if container.members:
             raise UcmError("not empty")
         ContainerManager._remove_container(self.manager, container, failures)
-
-    def destroy(self) -> None:
-        self.__dict__["ending"] = True
-        ContainerManager.destroy(self.manager)
 
 
 @breaks("R-11.2.2.2-04")

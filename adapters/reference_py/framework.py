@@ -271,14 +271,23 @@ class Container:
         failures.attempt(member.body.on_remove)
         del self.members[member.id]
 
-    def _take_down(self, failures: Failures) -> None:
+    def _take_down(self, containers: Sequence[Container], failures: Failures) -> None:
         """Shut down, disconnect and remove all members, each step for all before the next (11.2.3)."""
-        self._shut_down_started(failures)
+        for container in containers:
+            container._shut_down_started(failures)
+        for container in containers:
+            container._disconnect_members(failures)
+        for container in containers:
+            container._remove_members(failures)
+            container.is_removed = True
+
+    def _disconnect_members(self, failures: Failures) -> None:
         for connection in reversed(self._connections_of_members()):
             self._disconnect(connection, failures)
+
+    def _remove_members(self, failures: Failures) -> None:
         for member in reversed(list(self.members.values())):
             self._remove(member, failures)
-        self.is_removed = True
 
     # looking up connections
 
@@ -341,11 +350,9 @@ class ContainerManager(Container):
     def destroy(self) -> None:
         with self._operation():
             failures = Failures()
-            for container in list(self.sub_containers):
-                self._remove_container(container, failures)
-            self._take_down(failures)
+            self._take_down([*self.sub_containers, self], failures)
             failures.report()
 
     def _remove_container(self, container: Container, failures: Failures) -> None:
-        container._take_down(failures)
+        self._take_down([container], failures)
         self.sub_containers.remove(container)
