@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,6 +21,7 @@ class ProbeType:
     attributes: tuple[str, ...]
 
 
+@functools.cache
 def load_probe_types(path: Path = PROBE_MODEL) -> dict[str, ProbeType]:
     """All component types of the model at ``path``, by name. The model ships with the suite and is trusted."""
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)

@@ -110,22 +110,33 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             unknown = [a for a in part.attributes if a not in probes[part.probe].attributes]
             if unknown:
                 found.append((f"{where}.attributes", f"probe '{part.probe}' has no attribute '{unknown[0]}'"))
-    bound = {s.MANAGER, s.UNKNOWN, s.NIL}
+    bound = {s.MANAGER: "container"}
     workers: set[str] = set()
-    gates = {
-        a.gate
-        for p in script.components.values()
-        for acts in p.plan.values()
-        for a in acts
-        if isinstance(a, s.HoldAtGate)
-    }
+    busy: set[str] = set()
+    actions = [a for p in script.components.values() for plan in p.plan.values() for a in plan]
+    gates = {a.gate for a in actions if isinstance(a, s.HoldAtGate)}
     for index, step in enumerate(script.steps):
         where = f".steps[{index}]"
-        for variable in used_by(step):
+        for variable, kind in uses(step):
+            if variable in (s.UNKNOWN, s.NIL):
+                continue
             if variable not in bound:
+                there = ", ".join(sorted(bound))
+                found.append((where, f"'{variable}' is not bound by an earlier step; there are {there}"))
+            elif bound[variable] != kind:
+                found.append((where, f"'{variable}' holds a {bound[variable]}, not a {kind}"))
+        for variable in bound_by(step):
+            kind = kind_bound_by(step)
+            if bound.setdefault(variable, kind) != kind:
                 found.append(
-                    (where, f"'{variable}' is not bound by an earlier step; there are {', '.join(sorted(bound))}")
+                    (where, f"'{variable}' holds a {bound[variable]} already; bind the {kind} to another name")
                 )
+        if isinstance(step, s.ContainerCall):
+            if busy:
+                found.append((where, f"'{min(busy)}' may still be operating a container; join it first"))
+            busy.update([step.thread] if step.thread else [])
+        elif isinstance(step, s.Join):
+            busy.discard(step.worker)
         if isinstance(step, s.OpenGate | s.ReachGate) and step.gate not in gates:
             found.append(
                 (where, f"no plan holds at gate '{step.gate}'; there are {', '.join(sorted(gates)) or 'none'}")
@@ -134,25 +145,35 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             found.append((where, f"no earlier step runs on thread '{step.worker}'"))
         if step.thread:
             workers.add(step.thread)
-        bound.update(bound_by(step))
     return found
+
+
+def uses(step: Step) -> tuple[tuple[str, str], ...]:
+    """The variables a step reads, each with the kind of thing it must hold."""
+    match step:
+        case s.RemoveComponent() | s.GetPortElement():
+            return (step.container, "container"), (step.id, "component")
+        case s.Connect():
+            return (step.container, "container"), (step.id, "component"), (step.to, "reference")
+        case s.Disconnect():
+            return (step.container, "container"), (step.connection, "connection")
+        case s.AddComponent() | s.Start() | s.Stop() | s.GetComponents() | s.RemoveContainer():
+            return ((step.container, "container"),)
+        case s.Invoke():
+            return ((step.ref, "reference"),)
+        case _:
+            return ()
 
 
 def used_by(step: Step) -> tuple[str, ...]:
     """The variables a step reads."""
-    match step:
-        case s.RemoveComponent() | s.GetPortElement():
-            return step.container, step.id
-        case s.Connect():
-            return step.container, step.id, step.to
-        case s.Disconnect():
-            return step.container, step.connection
-        case s.AddComponent() | s.Start() | s.Stop() | s.GetComponents() | s.RemoveContainer():
-            return (step.container,)
-        case s.Invoke():
-            return (step.ref,)
-        case _:
-            return ()
+    return tuple(variable for variable, _ in uses(step))
+
+
+def kind_bound_by(step: Step) -> str:
+    """The kind of thing that a step binds."""
+    kinds = {s.AddComponent: "component", s.GetPortElement: "reference", s.Connect: "connection"}
+    return kinds.get(type(step), "container")
 
 
 def bound_by(step: Step) -> tuple[str, ...]:
