@@ -103,7 +103,18 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
     member.once_connected.add(step.port)
     runtime.connections[step.bind] = connection
     if received(window, member, "on_startup"):
-        member.suspended = True
+        if window.judged and not member.suspended:  # late connections are taken at once
+            member.operational = True
+            member.startups += 1
+            _forget_start(member)
+            window.container.startup_order.append(member)
+        else:
+            member.suspended = True
+
+
+def _forget_start(member: Member) -> None:
+    if member in member.container.startup_order:
+        member.container.startup_order.remove(member)
 
 
 def _disconnected(runtime: Runtime, window: Window, step: s.Disconnect, end: Return | Raise) -> None:
@@ -119,6 +130,9 @@ def _disconnected(runtime: Runtime, window: Window, step: s.Disconnect, end: Ret
         return
     connection.live = False
     client = connection.client
+    if received(window, client, "on_shutdown"):  # it is not left half-connected
+        client.operational = False
+        _forget_start(client)
     if any(c.live is None and c.port == connection.port for c in client.connections):
         client.suspended = True
 
@@ -184,8 +198,7 @@ def _removed(runtime: Runtime, window: Window, removed: list[Member]) -> None:
     for member in removed:
         member.gone = True
         member.operational = False
-        if member in member.container.startup_order:
-            member.container.startup_order.remove(member)
+        _forget_start(member)
         for connection in member.connections:
             connection.live = False
 

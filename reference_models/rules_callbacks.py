@@ -92,18 +92,21 @@ def _listener(runtime: Runtime, window: Window, member: Member | None) -> tuple[
 def _deviates(
     ledger: Ledger, window: Window, row: Row, who: str, deviation: Deviation, events: list[Enter], end: Return | Raise
 ) -> None:
-    hook, operation = deviation.hook, window.operation
+    hook, operation, container = deviation.hook, window.operation, window.container.name
     if deviation.missing:
+        instead = [Arrow(container, who, hook)]
         cause, observed, offending = (
             f"{row.operation} without {hook}",
             f"{operation} ended without {hook} on {who}",
             [end.n],
         )
     elif hook:
+        instead = [Arrow(container, "test", f"return without {hook}")]
         offending = [e.n for e in events if e.hook == hook]
         times = f" {len(offending)} times" if len(offending) > 1 else ""
         cause, observed = f"{hook} by {row.id}", f"{who} received {hook}{times} from {operation} while {row.state}"
     else:
+        instead = [Arrow(container, who, h) for h in deviation.wanted]
         offending = [e.n for e in events]
         cause, observed = f"{row.operation} order", f"{who} received {', '.join(e.hook for e in events)}"
     situation = f"{row.state}, {row.condition}" if row.condition else row.state
@@ -115,8 +118,7 @@ def _deviates(
         observed,
         tuple(offending),
         window.step_number,
-        tuple(Arrow(window.container.name, who, h) for h in deviation.wanted)
-        or (Arrow(window.container.name, "test", "return, no callback"),),
+        tuple(instead),
     )
 
 

@@ -76,7 +76,10 @@ class Situations:
             other_kind = any(m.declaration.fragment != declaration.fragment for m in container.live_members())
             beside = ", beside the other kind" if other_kind else ""
             condition = f"container started, requires {needs}" if late else f"requires {needs}{beside}"
-        if container.started is None or (declaration is not None and raises(declaration, "set_container_interface")):
+        unforeseen: tuple[s.Hook, ...] = (
+            ("set_container_interface", "on_startup") if late else ("set_container_interface",)
+        )
+        if container.started is None or (declaration is not None and raises(declaration, *unforeseen)):
             window.judged = False
         self._role(window, None, "absent", condition)
 
