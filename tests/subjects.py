@@ -1,0 +1,83 @@
+"""Adapters for tests of the command line: ``subjects:NAME`` is any wrong subject, or one of those below."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+
+from wrong_subjects import SUBJECTS, Base, bind
+
+from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference_py.framework import ContainerManager, Member
+
+
+def __getattr__(name: str) -> type[ReferenceAdapter]:
+    try:
+        return SUBJECTS[name].adapter
+    except KeyError:
+        raise AttributeError(name) from None
+
+
+class Listening(ReferenceAdapter):
+    """Conformant; writes every name it hears, and the process it runs in, to the file ``$HEARD``."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+        with Path(os.environ["HEARD"]).open("a") as heard:
+            for one in implementations:
+                print(os.getpid(), one.name, *one.provides, *one.requires, file=heard)
+        return super().create_runtime(implementations)
+
+
+class Waiting(ReferenceAdapter):
+    """Tells the named pipe ``$HEARD`` that it has been called, and never comes back."""
+
+    def start(self, container: object) -> None:
+        Path(os.environ["HEARD"]).write_text("started")
+        threading.Event().wait()
+
+
+class Vandal(ReferenceAdapter):
+    """Puts a file where the report shall go."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+        out = Path(os.environ["REPORT"])
+        if out.is_dir():
+            shutil.rmtree(out)
+            out.write_text("")
+        return super().create_runtime(implementations)
+
+
+class Misspelled(ReferenceAdapter):
+    """Says nonsense about the names of port elements."""
+
+    port_element_name = "{gate}"
+
+
+class _Crashing(Base):
+    """Dies by a signal when a container that has members is started a second time."""
+
+    starts = 0
+
+    def start(self) -> None:
+        self.starts += 1
+        if self.members and self.starts > 1:
+            os.kill(os.getpid(), signal.SIGSEGV)
+        super().start()
+
+
+Crashing = bind("Crashing", _Crashing, _Crashing.__doc__)
+
+
+class _Parrot(Base):
+    """Has learnt the suite's scripts by heart: tells bodies the port element that scripts have, not their own."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return [PortConnection("out_api", d.to_port) for d in super()._dependencies_of(member)]
+
+
+Parrot = bind("Parrot", _Parrot, _Parrot.__doc__)

@@ -1,0 +1,218 @@
+"""A trace that no truthful host can produce is told from one that it can: each small lie in a right trace is found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import msgspec
+import pytest
+
+from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
+from ucm_cts.adapters.contract.scenario import Hook, Scenario
+from ucm_cts.adapters.contract.trace import Call, Enter, Event, Exit, Held, Opened, Reference, Return, Skip, Timeout
+from ucm_cts.adapters.python.engine import Engine
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.harness.integrity import contradiction
+
+CALL = {"do": "call", "port": "out", "value": 5}
+RICH = msgspec.convert(
+    {
+        "components": {
+            "server": {"provides": ["in"], "plan": {"exchange": [{"do": "hold", "gate": "g"}]}},
+            "client": {"provides": ["in"], "requires": ["out"], "connectable": True, "plan": {"exchange": [CALL]}},
+            "member": {"fragment": True, "plan": {"on_startup": [{"do": "siblings"}]}},
+            "faulty": {"plan": {"on_shutdown": [{"do": "raise"}]}},
+            "steady": {"provides": ["in"], "plan": {"exchange": [{"do": "return", "value": 9}]}},
+        },
+        "steps": [
+            *({"op": "add_component", "component": c} for c in ("server", "client", "member", "faulty", "steady")),
+            {"op": "get_port_element", "id": "server", "port": "in", "bind": "api"},
+            {"op": "get_port_element", "id": "client", "port": "in", "bind": "entry"},
+            {"op": "get_port_element", "id": "steady", "port": "in", "bind": "nine"},
+            {"op": "connect", "id": "client", "port": "out", "to": "api", "bind": "link"},
+            {"op": "start"},
+            {"op": "invoke", "ref": "entry", "value": 3, "thread": "w"},
+            {"op": "reach", "gate": "g"},
+            {"op": "get_components"},
+            {"op": "open", "gate": "g"},
+            {"op": "join", "worker": "w"},
+            {"op": "invoke", "ref": "nine", "value": 1},
+            {"op": "add_component", "component": "unheard-of"},
+            {"op": "remove_component", "id": "unheard-of"},
+            {"op": "stop"},
+        ],
+    },
+    Scenario,
+)
+ADD, GET, CONNECT, START, REACH, LIST, SKIPPED, STOP = 0, 5, 8, 9, 11, 12, 17, 18
+
+Events = list[Any]
+Edit = Callable[[Events], object]
+
+
+def truth() -> tuple[Event, ...]:
+    answer = from_host_decoder().decode(Engine(ReferenceAdapter).answer(encode(Run(0, RICH))))
+    assert isinstance(answer, Traced)
+    assert not answer.stuck
+    return answer.events
+
+
+TRUTH = truth()
+
+
+def where(kind: str, **fields: object) -> int:
+    """The place of the first event of ``kind`` with these ``fields``."""
+    for index, event in enumerate(TRUTH):
+        tag = type(event).__struct_config__.tag
+        if tag == kind and all(getattr(event, name) == value for name, value in fields.items()):
+            return index
+    raise LookupError(kind, fields)
+
+
+def change(kind: str, new: dict[str, object], **fields: object) -> Edit:
+    """An edit: that event says something else."""
+    index = where(kind, **fields)
+
+    def edit(events: Events) -> None:
+        events[index] = msgspec.structs.replace(events[index], **new)
+
+    return edit
+
+
+def drop(*places: int) -> Edit:
+    """An edit: these events did not happen."""
+
+    def edit(events: Events) -> None:
+        for index in sorted(places, reverse=True):
+            del events[index]
+
+    return edit
+
+
+def swap(one: int, other: int) -> Edit:
+    """An edit: these events happened the other way round."""
+
+    def edit(events: Events) -> None:
+        events[one], events[other] = events[other], events[one]
+
+    return edit
+
+
+def insert(index: int, event: Event) -> Edit:
+    """An edit: this happened too."""
+    return lambda events: events.insert(index, event)
+
+
+def renumbered(events: Events) -> tuple[Event, ...]:
+    return tuple(msgspec.structs.replace(e, n=n, t=n) for n, e in enumerate(events, 1))
+
+
+def entered(component: str, hook: Hook) -> Edit:
+    """An edit: that body was entered there as well, at the end."""
+    more = (Enter(0, 0, 0, component, 1, hook), Exit(0, 0, 0, component, 1, hook))
+    return lambda events: events.extend(more)
+
+
+def skip_list(events: Events) -> None:
+    index = where("call", step=LIST)
+    events[index : index + 2] = [Skip(0, 0, 0, LIST, "manager")]
+
+
+def carry_out_what_cannot_be(events: Events) -> None:
+    events[where("skip")] = Call(0, 0, 0, SKIPPED)
+    events.insert(where("skip") + 1, Return(0, 0, 0, SKIPPED))
+
+
+STRANGER = Reference("server", 2, "in")
+LIES: dict[str, tuple[Edit, str]] = {
+    "a step that is missing": (drop(where("call", step=ADD), where("return", step=ADD)), ""),
+    "a step that never ends": (drop(where("raise", step=STOP)), "ended"),
+    "a step that nobody asked for": (change("call", {"step": 99}, step=LIST), "no step 99"),
+    "a step carried out twice": (change("call", {"step": ADD}, step=LIST), "twice"),
+    "steps in another order": (
+        lambda events: events.insert(0, events.pop(where("call", step=LIST))), "comes after"
+    ),
+    "an end without its step": (drop(where("call", step=LIST)), "without being open"),
+    "an end on another thread": (change("return", {"thread": 7}, step=LIST), "without being open"),
+    "a wait that ends like an operation": (insert(0, Return(0, 0, 0, REACH)), "no operation"),
+    "an operation that runs out of patience": (insert(0, Timeout(0, 0, 0, LIST)), "not a wait"),
+    "an id that is none": (change("return", {"value": "opaque"}, step=ADD), "cannot return"),
+    "a list that is none": (change("return", {"value": 3}, step=LIST), "cannot return"),
+    "a reference that is none": (change("return", {"value": 3}, step=GET), "cannot return"),
+    "a value from start": (change("return", {"value": 0}, step=START), "cannot return"),
+    "a connection id that is none": (change("return", {"value": None}, step=CONNECT), "cannot return"),
+    "a reference to nobody": (change("return", {"value": STRANGER}, step=GET), "never made"),
+    "a component nobody declared": (change("create", {"component": "nobody"}, component="server"), "no component"),
+    "an instance left out": (change("create", {"instance": 2}, component="server"), "made after 0"),
+    "a body that was never made": (drop(where("create", component="server")), "never made"),
+    "a call of nothing": (change("enter", {"value": None}, hook="exchange", component="server"), "exchange on"),
+    "a call at no port": (change("enter", {"port": "out"}, hook="exchange", component="server"), "exchange on"),
+    "a request at no port": (change("request", {"port": "in"}), "a request through"),
+    "a reply at another port": (change("reply", {"port": "in"}), "without its request"),
+    "a reply without request": (drop(where("request")), ""),
+    "a body that leaves first": (swap(where("enter", hook="on_init"), where("exit", hook="on_init")), "entered"),
+    "a body left elsewhere": (change("exit", {"hook": "on_remove"}, hook="on_init"), "is left where"),
+    "a body that never leaves": (drop(where("exit", hook="on_init")), ""),
+    "another body acts": (change("held", {"component": "steady"}), "without having been entered"),
+    "another thread acts": (change("siblings", {"thread": 9}), "without having been entered"),
+    "a gate of nobody": (change("held", {"gate": "h"}), "plan"),
+    "a planned failure that did not come": (
+        change("exit", {"raised": False}, hook="on_shutdown", component="faulty"), "against its plan"
+    ),
+    "a failure nobody planned": (change("exit", {"raised": True}, hook="on_init", component="steady"), "against its plan"),
+    "another result than planned": (change("exit", {"value": 8}, value=9), "its plan says 9"),
+    "another result than computed": (change("exit", {"value": 0}, hook="exchange", component="server"), "its plan says"),
+    "a step skipped for nothing": (skip_list, "although manager is bound"),
+    "a step done without what it needs": (carry_out_what_cannot_be, "not bound"),
+    "a callback the body does not have": (entered("steady", "on_connect"), "not Connectable"),
+    "an interface the body does not have": (entered("steady", "set_container_interface"), "no fragment"),
+    "a start without dependencies": (change("enter", {"dependencies": None}, hook="on_startup"), "without dependencies"),
+    "dependencies out of place": (change("enter", {"dependencies": ()}, hook="on_init"), "with dependencies"),
+    "a hold that was left out": (drop(where("held")), "did not act"),
+    "a question that was left out": (drop(where("siblings")), "did not act"),
+    "another payload than planned": (change("request", {"value": 6}), "did not act"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("edit", "problem"), LIES.values(), ids=LIES.keys())
+def test_lie_is_found(edit: Edit, problem: str) -> None:
+    events = list(TRUTH)
+    edit(events)
+    found = contradiction(RICH, renumbered(events))
+    assert found is not None
+    assert problem in found
+
+
+def test_truth_is_believed() -> None:
+    assert contradiction(RICH, TRUTH) is None
+    kinds = {type(event) for event in TRUTH}
+    assert {Held, Opened, Skip} <= kinds, "the scenario has a bit of everything"
+    assert {event.thread for event in TRUTH} == {0, 1}
+
+
+@pytest.mark.parametrize(("n", "t", "problem"), [(9, 0, "event number 9"), (0, -1, "earlier")])
+def test_numbers_without_gap_and_clocks_that_go_on(n: int, t: int, problem: str) -> None:
+    events = list(renumbered(list(TRUTH)))
+    events[3] = msgspec.structs.replace(events[3], n=n or events[3].n, t=t or events[3].t)
+    assert problem in (contradiction(RICH, events) or "")
+
+
+def test_only_a_stuck_trace_may_break_off() -> None:
+    for length in range(len(TRUTH)):
+        assert contradiction(RICH, TRUTH[:length], stuck=True) is None
+        assert (contradiction(RICH, TRUTH[:length]) is None) == (length == len(TRUTH))
+
+
+def test_plans_are_checked_by_what_bodies_really_got() -> None:
+    """A client that was given no reference at on_startup has nobody to call."""
+    client = {"provides": ["in"], "requires": ["out"], "plan": {"exchange": [CALL]}}
+    steps = [
+        {"op": "add_component", "component": "client"},
+        {"op": "get_port_element", "id": "client", "port": "in", "bind": "entry"},
+        {"op": "invoke", "ref": "entry", "value": 1},
+    ]
+    scenario = msgspec.convert({"components": {"client": client}, "steps": steps}, Scenario)
+    answer = from_host_decoder().decode(Engine(ReferenceAdapter).answer(encode(Run(0, scenario))))
+    assert isinstance(answer, Traced)
+    assert contradiction(scenario, answer.events) is None
