@@ -1,0 +1,92 @@
+"""A failure is shown by the shortest scenario that can be found, and that scenario still fails for the same reason."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import msgspec
+import pytest
+from command_line import within
+
+from ucm_cts.adapters.contract.scenario import AddComponent, CreateContainer, Scenario
+from ucm_cts.harness import shrink
+from ucm_cts.harness.campaign import Campaign
+from ucm_cts.harness.driver import Driver
+from ucm_cts.harness.locate import locate
+from ucm_cts.harness.probes import load_probe_types
+from ucm_cts.harness.purposes import load_purposes, select
+from ucm_cts.harness.results import FailedExecution
+from ucm_cts.harness.scripts import Script, problems, to_scenario
+from ucm_cts.harness.tally import cause_of
+
+SCENARIOS = [scenario for purpose in load_purposes("container") for _, scenario in purpose.scenarios]
+LONGEST = max(
+    (x for x in SCENARIOS if not any(isinstance(step, CreateContainer) for step in x.steps)), key=lambda x: len(x.steps)
+)
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    within(tmp_path, monkeypatch)
+
+
+def failures(adapter: str, expression: str) -> tuple[list[FailedExecution], list[FailedExecution]]:
+    """What is found with the purposes that ``expression`` selects: as found, and shortened."""
+    with Driver(locate(adapter), seed=4) as driver:
+        campaign = Campaign(driver, "container")
+        for _ in campaign.check(select(load_purposes("container"), expression)):
+            pass
+        found = [f for r in campaign.report().requirements for f in r.findings]
+        causes = list(campaign.shorten())
+        shortened = [f for r in campaign.report().requirements for f in r.findings]
+    assert sorted(causes) == sorted(cause_of(f.finding) for f in found)
+    return found, shortened
+
+
+def test_shortened_failure_is_the_same_failure() -> None:
+    found, shortened = failures("subjects:stops_in_startup_order", "stop-reverses-start")
+    (long,), (short,) = found, shortened
+    assert cause_of(short.finding) == cause_of(long.finding)
+    assert len(long.execution.scenario.steps) >= 8
+    assert [type(step).__name__ for step in short.execution.scenario.steps] == [
+        "AddComponent", "AddComponent", "Start", "Stop"
+    ]  # fmt: skip
+    assert all(not d.plan and not d.connectable for d in short.execution.scenario.components.values())
+    assert short.occurrences == long.occurrences, "tries are not counted"
+
+
+def test_crash_is_shortened_with_the_trace_that_leads_to_it() -> None:
+    found, shortened = failures("subjects:Crashing", "start/already started or ready/start/ or stop-reverses-start")
+    assert found
+    for long, short in zip(found, shortened, strict=True):
+        assert cause_of(short.finding) == cause_of(long.finding)
+        assert short.execution.incident is not None
+        assert short.execution.incident.kind == "crash"
+        assert "subjects.py" in short.execution.incident.stacks
+        assert [type(step).__name__ for step in short.execution.scenario.steps] == ["AddComponent", "Start", "Start"]
+        assert short.finding.events == (short.execution.trace[-1].n,)
+
+
+def test_every_shorter_scenario_is_shorter_and_can_be_saved_and_read_back() -> None:
+    probes = load_probe_types()
+    for scenario in SCENARIOS[:: max(1, len(SCENARIOS) // 300)]:
+        for shorter in shrink._shorter(scenario):
+            assert len(encoded(shorter)) < len(encoded(scenario))
+            script = msgspec.convert({"scenario": "saved", **msgspec.to_builtins(shorter)}, Script)
+            assert to_scenario(script, probes) == shorter
+            assert problems(script, probes) == []
+
+
+def encoded(scenario: Scenario) -> bytes:
+    return msgspec.json.encode(scenario)
+
+
+def test_the_boldest_guess_that_fails_is_taken_and_then_improved() -> None:
+    def adds_two(candidates: Sequence[Scenario]) -> int | None:
+        fitting = [sum(isinstance(step, AddComponent) for step in c.steps) >= 2 for c in candidates]
+        return fitting.index(True) if any(fitting) else None
+
+    short = shrink.shortest(LONGEST, adds_two)
+    assert [type(step) for step in short.steps] == [AddComponent, AddComponent]
+    assert shrink.shortest(LONGEST, lambda candidates: None) == LONGEST
