@@ -330,7 +330,7 @@ def _failing(hook: s.Hook) -> Cast:
     broken_client = Declaration(requires=("out.api",), plan={hook: (s.RaiseError(),)})
     return Cast(
         f"failing-{hook}",
-        {"broken": broken, "sound": _HERMIT, "broken-client": broken_client},
-        (s.AddComponent("sound"), s.AddComponent("broken"), s.AddComponent("broken-client"), s.Start(), s.Stop()),
-        (s.RemoveComponent("broken"), s.RemoveComponent("broken-client")),
+        {"raising": broken, "sound": _HERMIT, "raising-client": broken_client},
+        (s.AddComponent("sound"), s.AddComponent("raising"), s.AddComponent("raising-client"), s.Start(), s.Stop()),
+        (s.RemoveComponent("raising"), s.RemoveComponent("raising-client")),
     )
