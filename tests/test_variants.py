@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import more_variants  # noqa: F401 - registers its variants
 import pytest
 from pipeline import failing_requirements
 from variants import VARIANTS

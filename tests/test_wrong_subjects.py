@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import subtle_subjects  # noqa: F401 - registers its subjects
 from pipeline import failing_requirements
 from wrong_subjects import SUBJECTS, WrongSubject
 

@@ -1,0 +1,145 @@
+"""Through whichever door a framework is reached, the suite sees the same and says the same."""
+
+from __future__ import annotations
+
+import functools
+import subprocess
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+from command_line import within
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Return, Siblings, Trace
+from ucm_cts.adapters.reference_cpp import COMMAND
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.driver import Driver
+from ucm_cts.harness.locate import locate
+from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.scripts import load_scripts
+from ucm_cts.reference_models.judgement import Judge
+
+GENERATED = 60
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What came through a door; what was exercised is counted where no threads run a race."""
+
+    traces: dict[str, Trace]
+    exercised: Counter[str]
+    broken: dict[str, list[str]]
+
+
+@functools.cache
+def sample() -> tuple[tuple[str, Scenario], ...]:
+    """Every script, and generated scenarios from all over the life cycle."""
+    purposes = load_purposes("container")
+    scripts = len(load_scripts())
+    generated = [case for purpose in purposes[scripts:] for case in purpose.scenarios]
+    return (
+        *(case for purpose in purposes[:scripts] for case in purpose.scenarios),
+        *generated[:: len(generated) // GENERATED],
+    )
+
+
+@functools.cache
+def through(door: str, in_process: bool = False) -> Seen:
+    """The sample run and judged, each door with the same names and payloads."""
+    judge = Judge(load_life_cycle())
+    seen = Seen({}, Counter(), {})
+    with Driver(locate(door, in_process), seed=9) as driver:
+        for answer in driver.run(sample()):
+            assert answer.incident is None, (answer.name, answer.incident)
+            ledger = judge.judge(answer.disguised, answer.trace)
+            seen.traces[answer.name] = answer.trace
+            if not any(step.thread for step in answer.disguised.steps):
+                seen.exercised.update(ledger.exercises)
+            if ledger.findings:
+                seen.broken[answer.name] = sorted(f.requirement for f in ledger.findings)
+    assert len(seen.traces) == len(sample())
+    return seen
+
+
+def plain(name: str, trace: Trace) -> list[Any]:
+    """Events without what no two runs share: times, and identifiers beyond which is which.
+
+    Where several threads run a race, the order is nobody's either.
+    """
+    scenario = dict(sample())[name]
+    known: dict[int, int] = {}
+
+    def same(identifier: int) -> int:
+        return known.setdefault(identifier, len(known))
+
+    events: list[Any] = []
+    for event in trace:
+        if isinstance(event, Return) and isinstance(scenario.steps[event.step], s.AddComponent | s.Connect):
+            assert isinstance(event.value, int)
+            event = msgspec.structs.replace(event, value=same(event.value))
+        elif isinstance(event, Return) and isinstance(event.value, tuple):
+            event = msgspec.structs.replace(event, value=tuple(map(same, event.value)))
+        elif isinstance(event, Siblings):
+            event = msgspec.structs.replace(event, ids=tuple(map(same, event.ids)))
+        fields = msgspec.to_builtins(event)
+        for own in ("n", "t", "thread", "detail"):
+            fields.pop(own, None)
+        events.append(fields)
+    if any(step.thread for step in scenario.steps):
+        events.sort(key=repr)
+    return events
+
+
+def assert_same(one: Seen, other: Seen) -> None:
+    assert other.broken == one.broken
+    assert other.exercised == one.exercised
+
+
+def assert_same_traces(one: Seen, other: Seen) -> None:
+    assert_same(one, other)
+    for name, trace in one.traces.items():
+        assert plain(name, other.traces[name]) == plain(name, trace), name
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    within(tmp_path, monkeypatch)
+
+
+@pytest.fixture(params=["tcp://127.0.0.1:0", "unix"])
+def listening(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
+    """The reference framework's executable, already running somewhere."""
+    address = f"unix:{tmp_path / 'socket'}" if request.param == "unix" else request.param
+    command = [str(COMMAND), "--listen", address]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        assert server.stdout
+        yield server.stdout.readline().removeprefix("listening on ").strip()
+        server.terminate()
+
+
+def test_the_reference_frameworks_agree_in_verdicts_and_in_what_they_exercised() -> None:
+    python = through("reference-py")
+    assert python.broken == {}
+    assert len(python.exercised) > 70, "the sample reaches nearly every requirement"
+    assert_same(python, through("reference-cpp"))
+
+
+def test_executable_and_extension_module_give_the_same_traces() -> None:
+    assert_same_traces(through("reference-cpp"), through("reference-cpp-module"))
+
+
+def test_executable_that_is_already_running(listening: str) -> None:
+    assert_same_traces(through("reference-cpp"), through.__wrapped__(listening))
+
+
+@pytest.mark.parametrize("door", ["reference-py", "reference-cpp-module", "subjects:stops_in_startup_order"])
+def test_in_process_and_in_a_host(door: str) -> None:
+    assert_same_traces(through(door), through(door, in_process=True))
+    if door.startswith("subjects"):
+        assert {r for broken in through(door).broken.values() for r in broken} == {"R-11.2.2.1-13"}
