@@ -20,6 +20,7 @@ from ucm_cts.harness.results import Incident, IncidentKind
 _CHUNK = 1 << 16
 _STDERR_TAIL = 1 << 16
 _LOOK_SECONDS = 0.05
+_LOOK_MILLISECONDS = 50
 _STACK_SECONDS = 0.3
 _QUIET_SECONDS = 0.05
 _END_SECONDS = 0.5
@@ -80,6 +81,7 @@ class WatchedHost:
 
     def __init__(self, channel: Channel, limits: Limits) -> None:
         self._channel = channel
+        self._source = channel.source
         self._limits = limits
         self._outgoing = bytearray()
         self._partial = bytearray()
@@ -110,28 +112,33 @@ class WatchedHost:
             self._flush()
 
     def receive(self, deadline: Deadline) -> bytes:
-        if self._lines and time.monotonic() < deadline.end:
+        now = time.monotonic()
+        if self._lines and now < deadline.end:
             return self._lines.popleft()
         while True:
             if self._ended and not self._read():  # even if the pipe is held open by a process that got away
                 self._fail_ended()
-            now = time.monotonic()
             if now >= deadline.end:
                 self._fail_hanging(deadline)
             if now >= self._looked + _LOOK_SECONDS:
                 self._looked = now
                 self._check_memory()
-            for ready, _ in self._poll.poll(1000 * min(deadline.end - now, _LOOK_SECONDS)):
-                if ready == self._channel.source:
+            for ready, _ in self._poll.poll(_LOOK_MILLISECONDS):
+                if ready == self._source:
                     self._read()
-                elif ready == self._channel.error:
-                    self._drain()
-                elif ready == self._channel.target:
-                    self._flush()
-                elif self._channel.status(0) is not None:
-                    self._ended = True
+                else:
+                    self._attend(ready)
             if self._lines:
                 return self._lines.popleft()
+            now = time.monotonic()
+
+    def _attend(self, ready: int) -> None:
+        if ready == self._channel.error:
+            self._drain()
+        elif ready == self._channel.target:
+            self._flush()
+        elif self._channel.status(0) is not None:
+            self._ended = True
 
     def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
         self._drain()
@@ -165,7 +172,7 @@ class WatchedHost:
     def _read(self) -> bool:
         """Take in what there is; False when there was nothing."""
         try:
-            data = os.read(self._channel.source, _CHUNK)
+            data = os.read(self._source, _CHUNK)
         except BlockingIOError:
             return False
         except OSError:  # a connection that was reset

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "ucm_cts/messages.hpp"
 #include "ucm_cts/signals.hpp"
@@ -46,22 +47,24 @@ inline bool write_all(int fd, const char* data, std::size_t size) {
 /// Lines from a file descriptor.
 class LineReader {
   public:
-    explicit LineReader(int fd) : fd_(fd) {}
+    explicit LineReader(int fd) : fd_(fd), buffer_(CHUNK) {}
 
     /// The next line without its newline, valid until the next call; false at the end.
     bool next(const char*& line, std::size_t& size) {
         std::size_t searched = begin_;
         while (true) {
-            const std::size_t newline = buffer_.find('\n', searched);
-            if (newline != std::string::npos) {
-                line = buffer_.data() + begin_;
-                size = newline - begin_;
-                begin_ = newline + 1;
+            const char* const start = buffer_.data() + begin_;
+            const void* const newline = std::memchr(buffer_.data() + searched, '\n', end_ - searched);
+            if (newline != nullptr) {
+                line = start;
+                size = static_cast<std::size_t>(static_cast<const char*>(newline) - start);
+                begin_ += size + 1;
                 return true;
             }
-            buffer_.erase(0, begin_);
+            std::memmove(buffer_.data(), start, end_ - begin_);
+            end_ -= begin_;
             begin_ = 0;
-            searched = buffer_.size();
+            searched = end_;
             if (!fill()) {
                 return false;
             }
@@ -70,20 +73,22 @@ class LineReader {
 
   private:
     bool fill() {
-        const std::size_t old = buffer_.size();
-        buffer_.resize(old + CHUNK);
+        if (buffer_.size() - end_ < CHUNK) {
+            buffer_.resize(2 * buffer_.size());
+        }
         ssize_t got;
         do {
-            got = read(fd_, &buffer_[old], CHUNK);
+            got = read(fd_, buffer_.data() + end_, CHUNK);
         } while (got < 0 && errno == EINTR);
-        buffer_.resize(old + (got > 0 ? static_cast<std::size_t>(got) : 0));
+        end_ += got > 0 ? static_cast<std::size_t>(got) : 0;
         return got > 0;
     }
 
     static const std::size_t CHUNK = 1 << 16;
     const int fd_;
-    std::string buffer_;
+    std::vector<char> buffer_;  // never cleared: that would cost more than a message
     std::size_t begin_ = 0;
+    std::size_t end_ = 0;
 };
 
 /// Answers until the harness closes its end, or until threads are stuck.
