@@ -197,7 +197,8 @@ class shows_the_container_at_start(Base):
     def _start_up(self, member: Member, failures: Failures) -> bool:
         if isinstance(member.body, FragmentObject) and not member.__dict__.get("shown"):
             member.__dict__["shown"] = True
-            member.body.set_container_interface(self)
+            if not failures.attempt(member.body.set_container_interface, self):
+                return False
         return super()._start_up(member, failures)
 
 

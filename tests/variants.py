@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Callable, Mapping, Sequence
 
 from wrong_subjects import Base, GivesOutProxies, Proxy, bind
@@ -10,6 +9,7 @@ from wrong_subjects import Base, GivesOutProxies, Proxy, bind
 from ucm_cts.adapters.contract.programming_model import (
     BadParameter,
     Connectable,
+    FragmentObject,
     NotFound,
     PortConnection,
     PortElementObject,
@@ -192,8 +192,10 @@ class swallows_exceptions(Base):
     """What bodies raise is ignored."""
 
     def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        with contextlib.suppress(Exception):
-            super()._configure(member, attributes)
+        self._set_attributes(member, attributes)
+        if isinstance(member.body, FragmentObject):
+            _Deaf().attempt(member.body.set_container_interface, self)
+        _Deaf().attempt(self._initialise, member)
 
     def _start_up(self, member: Member, failures: Failures) -> bool:
         super()._start_up(member, _Deaf()) or self._count_as_started(member)

@@ -1,0 +1,309 @@
+"""What the tests of the C++ parts need built, and conversations with it."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import ucm_cts
+from ucm_cts.adapters.contract import messages as m
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
+from ucm_cts.adapters.reference_cpp import COMMAND
+
+ROOT = Path(__file__).parent.parent
+SDK = ROOT / "adapters" / "cpp"
+FRAMEWORK = ROOT / "adapters" / "reference_cpp" / "framework"
+GUIDE = ROOT / "docs" / "adapter-cpp.md"
+PACKAGE = Path(ucm_cts.__file__).parent
+
+STRICT = ["-std=c++11", "-pedantic-errors", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
+REFERENCE = [ROOT / "adapters" / "reference_cpp" / "adapter.cpp", *sorted((FRAMEWORK / "src").glob("*.cpp"))]
+
+RUDE = """
+#include <ucm_cts/main.hpp>
+#include <cstdio>
+
+// does something bad, which the name of the component to add chooses
+class Rude : public ucm_cts::Adapter {
+    typedef ucm_cts::ContainerHandle Handle;
+
+  public:
+    Handle create_runtime(const std::vector<ucm_cts::Implementation>& all) override {
+        if (!all.empty() && all[0].name == "refuse") throw std::runtime_error("no licence");
+        return std::make_shared<int>(0);
+    }
+    ucm_cts::Id add_component(const Handle&, const std::string& what, const ucm_cts::Attributes&) override {
+        if (what == "print") { std::printf("{\\"type\\":\\"welcome\\"}\\n"); std::fflush(stdout); }
+        if (what == "crash") crash_here();
+        if (what == "abort") std::abort();
+        if (what == "hang") for (;;) pause();
+        if (what == "throw int") throw 42;
+        if (what == "throw long") throw std::length_error(std::string(300, 'x') + "\\xff");
+        if (what == "throw text") throw ucm_cts::NotFound("\\"quoted\\" \\xc3\\xa4 \\xff");
+        return 2147483647;
+    }
+    void remove_component(const Handle&, ucm_cts::Id id) override { throw ucm_cts::BadParameter(std::to_string(id)); }
+    ucm_cts::Reference get_port_element(const Handle&, ucm_cts::Id, const std::string&) override { return nullptr; }
+    ucm_cts::Id connect(const Handle&, ucm_cts::Id, const std::string&, const ucm_cts::Reference&) override { return 0; }
+    void disconnect(const Handle&, ucm_cts::Id) override {}
+    void start(const Handle&) override {}
+    void stop(const Handle&) override {}
+    std::vector<ucm_cts::Id> get_components(const Handle&) override { return {2147483646}; }
+    Handle create_container(const Handle&) override { return nullptr; }
+    void remove_container(const Handle&, const Handle&) override {}
+    void destroy(const Handle&) override { throw ucm_cts::UcmError("never"); }
+
+    __attribute__((noinline)) static void crash_here() { *static_cast<volatile int*>(nullptr) = 1; }
+};
+
+UCM_CTS_ADAPTER(Rude, "rude", "0");
+"""
+
+
+def guide_file(name: str) -> str:
+    """The code block of the guide that is marked as file ``name``."""
+    found = re.search(rf"<!-- file: {re.escape(name)} -->\n```\w+\n(.*?)```", GUIDE.read_text(), re.DOTALL)
+    assert found, f"{GUIDE.name} has no file {name}"
+    return found[1]
+
+
+def run(command: Sequence[str | Path], **options: Any) -> subprocess.CompletedProcess[str]:
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False, **options)
+    assert done.returncode == 0, f"{command}\n{done.stdout[-4000:]}\n{done.stderr[-8000:]}"
+    return done
+
+
+class Builds:
+    """Everything this file needs built, each in the background from the moment the tests begin."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self._pool = ThreadPoolExecutor(os.cpu_count() or 2)
+        self._prefix = self._pool.submit(self._install)
+        sources = [("rude", RUDE), ("beans", guide_file("beans_adapter.cpp"))]
+        for name, text in sources:
+            (folder / f"{name}.cpp").write_text(text)
+        asan = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g1"]
+        self._programs: dict[str, Future[Path]] = {
+            "rude": self._compile("rude", [folder / "rude.cpp"], STRICT),
+            "tsan": self._compile("tsan", REFERENCE, ["-std=c++11", "-fsanitize=thread", "-g1"]),
+            "asan": self._compile("asan", REFERENCE, ["-std=c++11", *asan]),
+            "spellings": self._compile("spellings", [SDK / "example" / "other_spellings.cpp"], STRICT),
+            "beans": self._compile("beans", [folder / "beans.cpp"], [*STRICT, "-I", str(SDK / "example")]),
+        }
+        self._vendor = self._pool.submit(self._build_like_a_vendor)
+
+    def program(self, name: str) -> Path:
+        return self._programs[name].result()
+
+    @property
+    def prefix(self) -> Path:
+        """Where the package is installed: site-packages, or a folder made for a plain checkout."""
+        return self._prefix.result()
+
+    @property
+    def reference(self) -> Path:
+        return self.prefix / "adapters" / "bin" / COMMAND.name
+
+    @property
+    def vendor(self) -> Path:
+        """Where the guide's CMake project was built."""
+        return self._vendor.result()
+
+    def _compile(self, name: str, sources: Sequence[Path], flags: Sequence[str]) -> Future[Path]:
+        includes: list[str | Path] = ["-I", SDK / "include", "-I", FRAMEWORK / "include"]
+        command: list[str | Path] = [
+            os.environ.get("CXX", "c++"),
+            *flags,
+            *includes,
+            *sources,
+            "-o",
+            self.folder / name,
+        ]
+        return self._pool.submit(lambda: (run([*command, "-pthread", "-rdynamic"]), self.folder / name)[1])
+
+    def _install(self) -> Path:
+        if COMMAND.exists() and (PACKAGE / "share" / "cmake" / "ucm_cts").exists():
+            return PACKAGE
+        build, prefix = self.folder / "package", self.folder / "installed" / "ucm_cts"
+        run(["cmake", "-S", ROOT, "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}", *self._cmake_options()])
+        run(["cmake", "--build", build, "-j2"])
+        run(["cmake", "--install", build])
+        return prefix
+
+    def _build_like_a_vendor(self) -> Path:
+        folder = self.folder / "vendor"
+        folder.mkdir()
+        for name in ("CMakeLists.txt", "acme_adapter.cpp"):
+            (folder / name).write_text(guide_file(name))
+        acme = folder / "acme"
+        acme.mkdir()
+        (acme / "ucm.hpp").write_text("#include <lwucm/runtime.hpp>\nnamespace acme = lwucm;\n")
+        sources = "\n".join(f'"{source}"' for source in REFERENCE[1:])
+        (folder / "acmeConfig.cmake").write_text(
+            f"""add_library(acme_ucm STATIC {sources})
+            target_include_directories(acme_ucm PUBLIC "{folder}" "{FRAMEWORK / "include"}")
+            set_target_properties(acme_ucm PROPERTIES POSITION_INDEPENDENT_CODE ON)
+            add_library(acme::ucm ALIAS acme_ucm)"""
+        )
+        build = folder / "build"
+        package = self.prefix / "share" / "cmake" / "ucm_cts"
+        run(
+            [
+                "cmake",
+                "-S",
+                folder,
+                "-B",
+                build,
+                f"-Ducm_cts_DIR={package}",
+                f"-Dacme_DIR={folder}",
+                *self._cmake_options(),
+            ]
+        )
+        run(["cmake", "--build", build, "-j2"])
+        return build
+
+    @staticmethod
+    def _cmake_options() -> list[str]:
+        import pybind11
+
+        return [
+            "-DCMAKE_BUILD_TYPE=Debug",
+            f"-Dpybind11_DIR={pybind11.get_cmake_dir()}",
+            f"-DPython_EXECUTABLE={sys.executable}",
+        ]
+
+
+@pytest.fixture(scope="session")
+def builds(tmp_path_factory: pytest.TempPathFactory) -> Builds:
+    if shutil.which("cmake") is None or shutil.which(os.environ.get("CXX", "c++")) is None:
+        pytest.skip("needs cmake and a C++ compiler")
+    return Builds(tmp_path_factory.mktemp("cpp"))
+
+
+def wire(*lines: bytes | m.ToHost) -> bytes:
+    return b"".join(line if isinstance(line, bytes) else m.encode(line) + b"\n" for line in lines)
+
+
+class Host:
+    """A stand-alone adapter in a process of its own."""
+
+    def __init__(self, program: Path) -> None:
+        self.process = subprocess.Popen(
+            [program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, bufsize=0
+        )
+
+    def send(self, *lines: bytes | m.ToHost) -> None:
+        assert self.process.stdin
+        self.process.stdin.write(
+            b"".join(line if isinstance(line, bytes) else m.encode(line) + b"\n" for line in lines)
+        )
+
+    def end(self, *lines: bytes | m.ToHost) -> tuple[list[m.FromHost], str, int]:
+        """Send these last messages and close its input; its answers, standard error and exit status."""
+        try:
+            out, err = self.process.communicate(wire(*lines), timeout=30)
+        finally:
+            self.process.kill()
+        decoder = m.from_host_decoder()
+        return (
+            [decoder.decode(line) for line in out.splitlines()],
+            err.decode(errors="replace"),
+            self.process.returncode,
+        )
+
+
+def talk(program: Path, *lines: bytes | m.ToHost) -> tuple[list[m.FromHost], str, int]:
+    return Host(program).end(*lines)
+
+
+def events(program: Path, scenario: s.Scenario) -> tuple[t.Event, ...]:
+    (answer,), _, status = talk(program, m.Run(1, scenario))
+    assert status == 0
+    assert isinstance(answer, m.Traced), answer
+    return answer.events
+
+
+def story(program: Path, scenario: s.Scenario) -> list[str]:
+    """The trace in short: callbacks as ``on_init A``, ends of steps as ``start: UCM_ERROR`` or ``start: None``."""
+    told = []
+    for event in events(program, scenario):
+        if isinstance(event, t.Enter):
+            told.append(f"{event.hook} {event.component}{'' if event.instance == 1 else event.instance}")
+        elif isinstance(event, t.Return):
+            told.append(f"{s.operation(scenario.steps[event.step])}: ok")
+        elif isinstance(event, t.Raise):
+            told.append(f"{s.operation(scenario.steps[event.step])}: {event.error}")
+    return told
+
+
+PROVIDER = s.Declaration(provides=("p_e",))
+CLIENT = s.Declaration(requires=("r_e",), connectable=True)
+PAIR = {"P": PROVIDER, "C": CLIENT}
+CONNECTED = (
+    s.AddComponent("P"),
+    s.AddComponent("C"),
+    s.GetPortElement("P", "p_e", "ref"),
+    s.Connect("C", "r_e", "ref", "k"),
+)
+LIFE = (
+    *CONNECTED,
+    s.Start(),
+    s.Invoke("ref", 7),
+    s.Stop(),
+    s.Disconnect("k"),
+    s.RemoveComponent("C"),
+    s.RemoveComponent("P"),
+)
+
+
+def concurrent_scenarios() -> list[s.Scenario]:
+    held: dict[s.Hook, tuple[s.Action, ...]] = {
+        "on_startup": (s.HoldAtGate("startup"), s.CallPort("r_e", 3), s.QuerySiblings()),
+        "exchange": (s.HoldAtGate("exchange"),),
+    }
+    fragment = s.Declaration(("p_e",), ("r_e",), {"a": "1"}, connectable=True, fragment=True, plan=held)
+    gates = s.Scenario(
+        {"F": fragment},
+        (
+            s.AddComponent("F"),
+            s.GetPortElement("F", "p_e", "ref"),
+            s.Connect("F", "r_e", "ref", "k"),
+            s.Start(thread="w"),
+            s.ReachGate("startup"),
+            s.GetComponents(),
+            s.Stop(thread="z"),
+            s.Invoke("ref", 1, thread="x"),
+            s.ReachGate("exchange"),
+            s.Invoke("ref", 2, thread="y"),
+            s.OpenGate("exchange"),
+            s.OpenGate("startup"),
+            *(s.Join(w) for w in "wxyz"),
+        ),
+    )
+    adds = tuple(s.AddComponent("P", bind=f"p{n}", thread=f"t{n % 4}") for n in range(40))
+    joins = tuple(s.Join(f"t{n}") for n in range(4))
+    crowd = s.Scenario(
+        {"P": PROVIDER, "bad": s.Declaration(plan={"on_init": (s.RaiseError(),)})},
+        (
+            *adds,
+            s.GetComponents(),
+            *joins,
+            s.AddComponent("bad"),
+            s.Start(thread="a"),
+            s.Stop(thread="b"),
+            s.GetComponents(),
+        ),
+    )
+    left = s.Scenario(PAIR, (*CONNECTED, s.Start(), s.CreateContainer("sub"), s.AddComponent("P", container="sub")))
+    return [gates, crowd, left, s.Scenario(PAIR, (*LIFE, s.Destroy()))]

@@ -1,0 +1,89 @@
+"""The guide to C++ adapters: what it shows is what is built and run."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from cpp_builds import LIFE, PAIR, PROVIDER, Builds, concurrent_scenarios, events, run, talk
+
+from ucm_cts.adapters.contract import messages as m
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
+
+
+def without_times(answers: Sequence[m.FromHost]) -> list[Any]:
+    return [re.sub(rb'"t":\d+', b"", m.encode(answer)) for answer in answers]
+
+
+def test_guide_for_a_framework_in_the_shape_of_12_10(builds: Builds) -> None:
+    runs = [m.Run(n, scenario) for n, scenario in enumerate((s.Scenario(PAIR, LIFE), concurrent_scenarios()[3]))]
+    expected, _, _ = talk(builds.reference, *runs)
+    answers, _, status = talk(builds.vendor / "acme_adapter", *runs)
+    assert status == 0
+    assert without_times(answers) == without_times(expected)
+
+
+def test_other_spellings_of_12_10(builds: Builds) -> None:
+    plan: dict[s.Hook, tuple[s.Action, ...]] = {"on_startup": (s.CallPort("r_e", 4), s.QuerySiblings())}
+    fragment = s.Declaration(requires=("r_e",), attributes={"a": "1"}, connectable=True, fragment=True, plan=plan)
+    scenario = s.Scenario({"P": PROVIDER, "C": fragment}, (*LIFE, s.AddComponent("nobody"), s.RemoveContainer("nil")))
+    trace = events(builds.program("spellings"), scenario)
+    returned = {e.step: e.value for e in trace if isinstance(e, t.Return)}
+    ids = (returned[0], returned[1])
+    assert ids == (2**40 + 1, 2**40 + 2), "ids come through as they are: that they are too wide is the judge's matter"
+    assert [e.ids for e in trace if isinstance(e, t.Siblings)] == [ids]
+    assert [e.value for e in trace if isinstance(e, t.Reply)] == [~4]
+    assert [e.attributes for e in trace if isinstance(e, t.Enter) and e.hook == "on_init"] == [{}, {"a": "1"}]
+    assert [e.reference for e in trace if isinstance(e, t.Enter) and e.hook == "on_connect"] == [
+        t.Reference("P", 1, "p_e")
+    ]
+    assert [e.error for e in trace if isinstance(e, t.Raise)] == ["UCM_ERROR", "NOT_FOUND"]
+
+
+def test_guide_module(builds: Builds) -> None:
+    lines = [m.encode(m.Hello(m.PROTOCOL)), m.encode(m.Run(1, s.Scenario(PAIR, LIFE), stream=True))]
+    script = f"""
+import acme_adapter
+events = []
+for line in {lines!r}:
+    print(acme_adapter.answer(line, events.append).decode())
+runtime = acme_adapter.Runtime([("Clock", ["time_api"], []), ("Display", [], ["time_api"])])
+clock, display = runtime.add_component("Clock"), runtime.add_component("Display")
+reference = runtime.get_port_element(clock, "time_api")
+connection = runtime.connect(display, "time_api", reference)
+runtime.start()
+assert runtime.exchange(reference, 5) == -6
+assert runtime.get_components() == [clock, display]
+runtime.stop()
+for wrong, error in ((lambda: runtime.remove_component(99), acme_adapter.NotFound),
+                     (lambda: runtime.connect(display, "time_api", None), acme_adapter.BadParameter),
+                     (lambda: runtime.add_component("Nobody"), acme_adapter.UcmError)):
+    try:
+        wrong()
+    except error:
+        continue
+    raise AssertionError(error)
+runtime.disconnect(connection)
+runtime.destroy()
+assert acme_adapter.life_cycles(100) > 0
+print(len(events))
+"""
+    done = run([sys.executable, "-c", script], cwd=builds.vendor)
+    welcome, traced, streamed = done.stdout.splitlines()
+    assert isinstance(m.from_host_decoder().decode(welcome), m.Welcome)
+    decoded = m.from_host_decoder().decode(traced)
+    assert isinstance(decoded, m.Traced)
+    assert len(decoded.events) == int(streamed)
+
+
+def test_guide_for_any_other_framework(builds: Builds) -> None:
+    components = {"P": PROVIDER, "C": s.Declaration(requires=("r_e",), plan={"on_startup": (s.CallPort("r_e", 4),)})}
+    trace = events(builds.program("beans"), s.Scenario(components, (*LIFE, s.GetComponents())))
+    assert [e.value for e in trace if isinstance(e, t.Reply)] == [~4]
+    assert [e.dependencies for e in trace if isinstance(e, t.Enter) and e.component == "C" and e.dependencies] == [
+        (t.Dependency("r_e", ("opaque",)),)
+    ]
+    assert [e.error for e in trace if isinstance(e, t.Raise)] == ["UCM_ERROR"], "only get_components is missing"
