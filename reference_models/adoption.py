@@ -16,7 +16,7 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
     if window.lost:
         _lose_track(window)
     if window.callbacks:
-        for member in runtime.members.values():
+        for member in runtime.everyone:
             if member.suspended:
                 _follow(window, member)
 
@@ -50,11 +50,14 @@ def _added(runtime: Runtime, window: Window, step: s.AddComponent, end: Return |
     twins = [m for m in window.container.live_members() if m.id == value]
     for twin in twins:
         twin.gone = twin.leaving  # its id is free, so the removal that failed did remove it
+        for connection in twin.connections if twin.gone else ():
+            connection.live = False
     twins = [m for m in twins if not m.gone]
     for unsure in (member, *twins) if twins or declaration is None else ():
         unsure.suspended = unsure.doubtful = True
     window.container.members.append(member)
     runtime.members[member.name] = member
+    runtime.everyone.append(member)
     if member.instance is not None:
         runtime.bodies[(member.component, member.instance)] = member
     if received(window, member, "on_startup"):
@@ -88,12 +91,12 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
     replaced = bool(received(window, member, "on_disconnect"))
     for earlier in member.live_connections(step.port):
         earlier.live = False if replaced or earlier.id == value else None
-    twins = [
-        c for c in runtime.connections.values() if c.live and c.id == value and c.client.container is member.container
-    ]
-    for twin in twins:
-        twin.ambiguous = connection.ambiguous = True
-        twin.client.suspended = member.suspended = True
+    of_that_id = [c for c in runtime.all_connections() if c.id == value and c.client.container is member.container]
+    for twin in of_that_id:
+        if twin.live:
+            twin.ambiguous = connection.ambiguous = True
+            twin.client.suspended = member.suspended = True
+        twin.live = twin.live or False  # its id is free, so a doubtful one does not stand
     connection.stale = provider is not None and provider.gone
     if connection.stale:
         connection.live = None
@@ -174,6 +177,7 @@ def _destroyed(runtime: Runtime, window: Window, step: s.Destroy, end: Return | 
     for container in runtime.containers.values():
         for member in container.members:
             member.gone = member.gone or isinstance(end, Return)
+            member.operational = False
 
 
 def _perhaps_removed(runtime: Runtime, members: list[Member]) -> None:
@@ -184,6 +188,8 @@ def _perhaps_removed(runtime: Runtime, members: list[Member]) -> None:
             connection.live = None
     for member in members:
         member.suspended = member.doubtful = member.leaving = True
+        for connection in member.live_connections():
+            connection.live = None
 
 
 def _removed(runtime: Runtime, window: Window, removed: list[Member]) -> None:
@@ -212,7 +218,8 @@ def _started(runtime: Runtime, window: Window, step: s.Start, end: Return | Rais
     if not returned:
         failing = any(m.raises("on_startup") for m in container.live_members())
         half_way = any(not received(window, m, "on_shutdown") for m in own)
-        unclear = container.started is not False or failing or half_way
+        unseen = window.forgiving and all(m.doubtful for m in container.live_members())
+        unclear = container.started is not False or failing or half_way or unseen
         if unclear and (container.started is not True or own):
             container.suspend()
         for member in reached:
@@ -262,7 +269,7 @@ def _stopped(runtime: Runtime, window: Window, step: s.Stop, end: Return | Raise
 def _unsure(member: Member) -> bool:
     """Is it open whether the instance is configured?"""
     open_ports = {c.port for c in member.connections if c.live is None} - {c.port for c in member.live_connections()}
-    return bool(open_ports) or member.instance is None or member.raises("on_init")
+    return bool(open_ports) or member.instance is None or member.raises("on_init", "set_container_interface")
 
 
 def _resolve(member: Member, startup: Enter) -> None:

@@ -13,7 +13,7 @@ from ucm_cts.reference_models.duties import Duties
 from ucm_cts.reference_models.ledger import Ledger, checks
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.rules_interactions import BusinessCall
-from ucm_cts.reference_models.runtime import Runtime, Window
+from ucm_cts.reference_models.runtime import Member, Runtime, Window
 from ucm_cts.reference_models.situations import Situations
 
 RULE_MODULES = (rules_operations, rules_dependencies, rules_interactions, rules_callbacks)
@@ -60,7 +60,7 @@ class _Reading:
     def call(self, event: Call) -> None:
         step = self.ledger.scenario.steps[event.step]
         if isinstance(step, s.Invoke):
-            self.calls.setdefault(event.thread, []).append(BusinessCall(step.value, event.n, step=step))
+            self.begin(event.thread, BusinessCall(step.value, event.n, step=step))
         else:
             self.window = self.judge.situations.open(self.runtime, event.step, step)  # type: ignore[arg-type]
             self.window.call = event.n
@@ -96,8 +96,19 @@ class _Reading:
         for check in self.judge.entered[event.hook]:
             check(ledger, runtime, window, event, heard)
         heard.append(event.hook)
+        member = runtime.member_of(event.component, event.instance)
+        if member is not None:
+            self.changes(member, event.hook)
         if window is not None:
             window.hear(event)
+
+    def changes(self, member: Member, hook: s.Hook) -> None:
+        """What is so from now on, although the operation has not ended."""
+        if hook == "on_startup":
+            member.closing = False
+            member.handed_over = tuple(c for c in member.connections if c.live is not False)
+        elif hook == "on_shutdown":
+            member.closing = True
 
     def enter_business(self, event: Enter) -> None:
         call = self.call_behind(event)
@@ -130,7 +141,11 @@ class _Reading:
     def request(self, event: Request) -> None:
         inside = self.hooks.get(event.thread)
         hook = inside[-1] if inside else ""
-        self.calls.setdefault(event.thread, []).append(BusinessCall(event.value, event.n, event, caller_hook=hook))
+        self.begin(event.thread, BusinessCall(event.value, event.n, event, caller_hook=hook))
+
+    def begin(self, thread: int, call: BusinessCall) -> None:
+        call.look(self.runtime)
+        self.calls.setdefault(thread, []).append(call)
 
     def reply(self, event: Reply) -> None:
         calls = self.calls.get(event.thread)
@@ -141,7 +156,7 @@ class _Reading:
 
     def siblings(self, event: Siblings) -> None:
         for check in self.judge.noted:
-            check(self.ledger, self.runtime, event)
+            check(self.ledger, self.runtime, self.window, event)
 
 
 _TAKE: dict[type[Any], Callable[[_Reading, Any], None]] = {

@@ -127,7 +127,7 @@ def _others(ledger: Ledger, runtime: Runtime, window: Window) -> None:
     concerned = {id(m) for m, _ in window.roles}
     told = {(c.component, c.instance) for c in window.callbacks if c.hook in LIFE_CYCLE_HOOKS}
     undisturbed_elsewhere = False
-    for member in runtime.members.values():
+    for member in runtime.everyone:
         if id(member) in concerned or member.gone or member.suspended:
             continue
         if any(c.live is None for c in member.connections) and window.operation in (
@@ -428,10 +428,12 @@ def container_interface(
 
 
 @rule("noted", "R-11.2.1.4-03")
-def siblings(ledger: Ledger, runtime: Runtime, event: Siblings) -> None:
-    """What a fragment learns of its container's members is what they are."""
+def siblings(ledger: Ledger, runtime: Runtime, window: Window | None, event: Siblings) -> None:
+    """What a fragment learns of its container's members is what they are, unless an operation is changing that."""
     member = runtime.member_of(event.component, event.instance)
-    if member is None or member.suspended or not member.operational:
+    if window is not None or member is None or not member.declaration.fragment:
+        return
+    if member.suspended or not member.operational:
         return
     problem = "the query failed" if event.raised else listing_problem(runtime, member.container, event.ids)
     if problem is None:

@@ -8,14 +8,15 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Exit, Raise, Reply, Request, Return
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.ledger import Ledger, rule
-from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
+from ucm_cts.reference_models.runtime import Connection, Member, Runtime, Window, lane
 
 
 @dataclass(slots=True, eq=False)
 class BusinessCall:
     """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
 
-    ``entries`` are the bodies it entered, with how they were left.
+    ``entries`` are the bodies it entered, with how they were left. ``callee`` is whose port element ``port`` the test
+    called; ``possible`` says that all who could be called were operational when the call was made.
     """
 
     value: int
@@ -24,6 +25,18 @@ class BusinessCall:
     step: s.Invoke | None = None
     caller_hook: str = ""
     entries: list[tuple[Enter, Exit | None]] = field(default_factory=list)
+    callee: Member | None = None
+    port: str | None = None
+    possible: bool = False
+
+    def look(self, runtime: Runtime) -> None:
+        """Note who is called, and whether a call is possible."""
+        if self.step is not None:
+            _, self.callee = runtime.reference(self.step.ref)
+            self.port = runtime.ports.get(self.step.ref)
+            self.possible = self.callee is not None and self.callee.serving
+        else:
+            self.possible = all(p.serving for p in _providers(runtime, self))
 
     def close(self, end: Exit) -> None:
         """The innermost entry of that body came to its end."""
@@ -37,11 +50,9 @@ class BusinessCall:
 @rule("answered", "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06")
 def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
     """A call through a reference enters an operational body once, with the value sent, and returns its result."""
-    assert call.step is not None
-    _, member = runtime.reference(call.step.ref)
-    if member is None or member.suspended or not member.operational or member.raises("exchange"):
+    member, port = call.callee, call.port
+    if member is None or not call.possible or not member.serving or member.raises("exchange"):
         return
-    port = runtime.ports.get(call.step.ref)
     own = [(e, x) for e, x in call.entries if (e.component, e.instance) == (member.component, member.instance)]
     expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
     if not own or isinstance(end, Raise):
@@ -96,9 +107,9 @@ def interactions(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Re
     """In the operational phase a call between two components comes back."""
     caller = runtime.member_of(reply.component, reply.instance)
     providers = _providers(runtime, call)
-    if caller is None or caller.suspended or not caller.operational or not providers:
+    if caller is None or not caller.serving or not providers or not call.possible:
         return
-    if not all(p.operational and not p.suspended for p in providers) or any(p.raises("exchange") for p in providers):
+    if not all(p.serving for p in providers) or any(p.raises("exchange") for p in providers):
         return
     if not reply.raised:
         ledger.exercised("R-11.2.3-03")
@@ -180,9 +191,14 @@ def _providers(runtime: Runtime, call: BusinessCall) -> list[Member]:
     caller = runtime.member_of(request.component, request.instance)
     if caller is None or caller.suspended:
         return []
-    connections = [c for c in caller.connections if c.port == request.port and c.live is not False]
+    connections = _connections(caller, request.port)
     providers = [c.provider for c in connections if c.provider is not None]
     return providers if len(providers) == len(connections) else []
+
+
+def _connections(caller: Member, port: str) -> list[Connection]:
+    """What may be behind ``port``: connections that stand, or stood when the caller was started."""
+    return [c for c in caller.connections if c.port == port and (c.live is not False or c in caller.handed_over)]
 
 
 def _targets(runtime: Runtime, call: BusinessCall) -> set[tuple[str, int | None, str]]:
@@ -190,8 +206,8 @@ def _targets(runtime: Runtime, call: BusinessCall) -> set[tuple[str, int | None,
     caller = runtime.member_of(request.component, request.instance) if request else None
     return {
         (c.provider.component, c.provider.instance, c.provided)
-        for c in (caller.connections if caller else ())
-        if request and c.port == request.port and c.live is not False and c.provider is not None
+        for c in (_connections(caller, request.port) if caller and request else ())
+        if c.provider is not None
     }
 
 

@@ -130,7 +130,7 @@ def connection_ids(ledger: Ledger, runtime: Runtime, window: Window, end: Return
     if isinstance(end, Return) and window.judged:
         assert isinstance(window.step, s.Connect)
         replaced = (window.subject, window.step.port)  # what it takes the place of may lend it its id
-        others = [c for c in runtime.connections.values() if c.live and (c.client, c.port) != replaced]
+        others = [c for c in runtime.all_connections() if c.live and (c.client, c.port) != replaced]
         live = [c.id for c in others if c.client.container is window.container]
         _identifier(ledger, window, end, live, "connection", "R-11.2.2.1-09", "R-12.10-03")
 

@@ -42,7 +42,8 @@ class Member:
     """A component instance as far as the trace has shown it.
 
     ``suspended``: its state is not known, so nothing about it is judged. ``doubtful``: not even whether it is a member.
-    ``leaving``: a removal of it failed half-way.
+    ``leaving``: a removal of it failed half-way. ``handed_over``: the connections that on_startup told it of last.
+    ``closing``: on_shutdown has come since.
     """
 
     name: str
@@ -60,6 +61,8 @@ class Member:
     served: bool = False
     connections: list[Connection] = field(default_factory=list)
     once_connected: set[str] = field(default_factory=set)
+    handed_over: tuple[Connection, ...] = ()
+    closing: bool = False
 
     def raises(self, *hooks: Hook) -> bool:
         """Does the plan make this body raise at one of ``hooks``?"""
@@ -68,6 +71,11 @@ class Member:
     def live_connections(self, port: str | None = None) -> list[Connection]:
         """Its own connections that certainly stand, of ``port`` or of all required port elements."""
         return [c for c in self.connections if c.live and (port is None or c.port == port)]
+
+    @property
+    def serving(self) -> bool:
+        """Is it certain that it is operational at this moment, whatever operation is in progress?"""
+        return self.operational and not self.closing and not self.suspended
 
     @property
     def lane(self) -> str:
@@ -154,12 +162,16 @@ def raises(declaration: Declaration, *hooks: Hook) -> bool:
 
 
 class Runtime:
-    """All containers, instances, connections and references of one scenario."""
+    """All containers, instances, connections and references of one scenario.
+
+    ``members``, ``connections`` and ``references`` are what variables hold now; ``everyone`` is every instance ever added.
+    """
 
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
         self.containers: dict[str, Container] = {MANAGER: Container(MANAGER)}
         self.members: dict[str, Member] = {}
+        self.everyone: list[Member] = []
         self.bodies: dict[tuple[str, int], Member] = {}
         self.discarded: set[tuple[str, int]] = set()
         self.connections: dict[str, Connection] = {}
@@ -192,15 +204,19 @@ class Runtime:
         wanted = self.connections[variable]
         if wanted.live is not False:
             return wanted, ""
-        for other in self.connections.values():
-            if other.live and other.id == wanted.id and other.client.container is wanted.client.container:
+        for other in self.all_connections():
+            if other.live is not False and other.id == wanted.id and other.client.container is wanted.client.container:
                 return other, ""
         return None, "already undone"
+
+    def all_connections(self) -> Iterator[Connection]:
+        """Every connection ever made."""
+        return (connection for member in self.everyone for connection in member.connections)
 
     def clients_of(self, providers: Iterable[Member]) -> Iterator[tuple[Member, list[Connection]]]:
         """Each other instance that has live connections to one of ``providers``, with these connections."""
         wanted = {id(p) for p in providers}
-        for member in self.members.values():
+        for member in self.everyone:
             if member.gone or id(member) in wanted:
                 continue
             used = [c for c in member.connections if c.live and c.provider is not None and id(c.provider) in wanted]

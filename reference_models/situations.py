@@ -101,7 +101,7 @@ class Situations:
             self._member_role(window, member, "provider in use")
         else:
             self._member_role(window, member, "connected" if member.live_connections() else "not connected")
-        doubtful = [c for m in runtime.members.values() for c in m.connections if c.live is None or c.ambiguous]
+        doubtful = [c for c in runtime.all_connections() if c.live is None or c.ambiguous]
         if any(member is c.provider or member is c.client for c in doubtful):
             window.judged = False
         for client, _ in clients:
@@ -149,6 +149,8 @@ class Situations:
         if member.raises("on_connect", "on_disconnect") or (late and member.raises("on_startup")):
             window.judged = False
         if provider is not None and provider.gone and window.roles[-1][1].condition != "provider already removed":
+            window.judged = False
+        if provider is not None and provider.doubtful:
             window.judged = False
 
     def _kind_of_connection(self, member: Member, step: s.Connect, provider: Member | None) -> str:
@@ -275,6 +277,8 @@ class Situations:
         window.container = container
         members = container.live_members()
         self._removal_of_all(window, members)
+        if any(c.live is None and c.provider in members for c in runtime.all_connections()):
+            window.judged = False
         for client, _ in runtime.clients_of(members):
             if client.container is not container:
                 self._member_role(window, client, "", "remove_provider")

@@ -34,6 +34,7 @@ from ucm_cts.adapters.contract.programming_model import (
     NotFound,
     PortConnection,
     PortElementObject,
+    UcmError,
 )
 from ucm_cts.adapters.reference_py.framework import Connection, Container, Failures, Member, State
 
@@ -244,15 +245,42 @@ class proxies_of_appended(proxies_between_components, appends_connections):
     """The same, with any number of connections a port element."""
 
 
-@variant
-class proxies_of_replaced(proxies_between_components, replaces_connections, configures_at_any_time):
-    """The same, with connections that replace each other at any time."""
-
+class _ReplacesAtAnyTime(replaces_connections, configures_at_any_time):
     def _connect(self, connection: Connection) -> None:
         for old in self._connections_from(connection.client):
             if old.port == connection.port:
                 self._disconnect(old, Failures())
         configures_at_any_time._connect(self, connection)
+
+
+@variant
+class proxies_of_replaced(proxies_between_components, _ReplacesAtAnyTime):
+    """The same, with connections that replace each other at any time."""
+
+
+class _Reserved(Proxy):
+    def exchange(self, value: int) -> int:
+        if self.member.state is not State.READY:
+            raise UcmError("not operational")
+        return self.target.exchange(value)
+
+
+@variant
+class refuses_calls_outside_operation(GivesOutProxies):
+    """Nobody reaches a component that is not operational: neither the test nor another component."""
+
+    proxy = _Reserved
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(self._reserved(t) for t in d.to_port)) for d in given]
+
+    def _reserved(self, target: PortElementObject | None) -> PortElementObject | None:
+        for container in (self.manager, *self.manager.sub_containers):
+            for member in container.members.values():
+                if any(target is member.body.get_portElement(port) for port in member.implementation.provides):
+                    return _Reserved(target, member)  # type: ignore[arg-type]
+        return target
 
 
 # threads
@@ -457,9 +485,8 @@ class everything_goes(
 
 @variant
 class everything_else_goes(
+    _ReplacesAtAnyTime,
     cascades,
-    configures_at_any_time,
-    replaces_connections,
     manager_reaches_down,
     starts_the_unconfigured_with_null,
     refuses_repetition,

@@ -223,7 +223,8 @@ class Writer:
 
     def held(self) -> None:
         """A call that is held inside a body while something else happens."""
-        if not self.holding or not self.references:
+        holds = any(s.HoldAtGate(_GATE) in d.plan.get("exchange", ()) for d in self.components.values())
+        if not self.holding or not holds or not self.references:
             return
         self.holding = False
         self.put(s.Invoke(self.choose(tuple(self.references)), self.value(), thread="caller"))
