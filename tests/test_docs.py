@@ -222,6 +222,7 @@ def test_conversation_is_one_that_takes_place() -> None:
     ledger = Judge(load_life_cycle()).judge(run.scenario, traced.events)
     assert ledger.exercises
     assert not ledger.findings
+    assert hello == m.Hello(m.PROTOCOL)
     assert welcome == msgspec.structs.replace(answer(hello), product="example", version="1.0")
     assert [msgspec.structs.replace(event, t=0) for event in traced.events] == list(answer(run).events)
 
