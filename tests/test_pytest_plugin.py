@@ -85,7 +85,7 @@ def run_pytest(*arguments: str) -> Session:
     assert "Traceback" not in done.stdout + done.stderr
     assert "pluggy" not in done.stdout + done.stderr, done.stdout
     nodes = {}
-    for case in ElementTree.parse("nodes.xml").iter("testcase"):
+    for case in ElementTree.parse("nodes.xml").iter("testcase") if Path("nodes.xml").exists() else ():
         name = case.get("name", "").removeprefix("test_clause[").removesuffix("]")
         assert name not in nodes, f"{name} ran twice"
         nodes[name] = "".join(problem.text or "" for problem in case)
