@@ -80,7 +80,11 @@ def _found(runtime: Runtime, window: Window, step: s.GetPortElement, end: Return
 
 def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | Raise) -> None:
     member = window.subject
-    if member is None or isinstance(end, Raise):
+    if member is None:
+        return
+    if isinstance(end, Raise):
+        if received(window, member, "on_startup") or received(window, member, "on_shutdown"):
+            member.suspended = True
         return
     value = end.value
     reference, provider = runtime.reference(step.to)
@@ -106,6 +110,7 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
     member.once_connected.add(step.port)
     runtime.connections[step.bind] = connection
     if received(window, member, "on_startup"):
+        member.handed_over = tuple(c for c in member.connections if c.live is not False)
         if window.judged and not member.suspended:  # late connections are taken at once
             member.operational = True
             member.startups += 1

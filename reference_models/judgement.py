@@ -106,7 +106,8 @@ class _Reading:
         """What is so from now on, although the operation has not ended."""
         if hook == "on_startup":
             member.closing = False
-            member.handed_over = tuple(c for c in member.connections if c.live is not False)
+            known = self.window is None or self.window.operation != "connect"
+            member.handed_over = tuple(c for c in member.connections if c.live is not False) if known else None
         elif hook == "on_shutdown":
             member.closing = True
 

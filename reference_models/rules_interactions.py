@@ -189,7 +189,7 @@ def _providers(runtime: Runtime, call: BusinessCall) -> list[Member]:
     if request is None:
         return []
     caller = runtime.member_of(request.component, request.instance)
-    if caller is None or caller.suspended:
+    if caller is None or caller.suspended or caller.handed_over is None:
         return []
     connections = _connections(caller, request.port)
     providers = [c.provider for c in connections if c.provider is not None]
@@ -198,7 +198,9 @@ def _providers(runtime: Runtime, call: BusinessCall) -> list[Member]:
 
 def _connections(caller: Member, port: str) -> list[Connection]:
     """What may be behind ``port``: connections that stand, or stood when the caller was started."""
-    return [c for c in caller.connections if c.port == port and (c.live is not False or c in caller.handed_over)]
+    return [
+        c for c in caller.connections if c.port == port and (c.live is not False or c in (caller.handed_over or ()))
+    ]
 
 
 def _targets(runtime: Runtime, call: BusinessCall) -> set[tuple[str, int | None, str]]:

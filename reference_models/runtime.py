@@ -42,7 +42,7 @@ class Member:
     """A component instance as far as the trace has shown it.
 
     ``suspended``: its state is not known, so nothing about it is judged. ``doubtful``: not even whether it is a member.
-    ``leaving``: a removal of it failed half-way. ``handed_over``: the connections that on_startup told it of last.
+    ``leaving``: a removal of it failed half-way. ``handed_over``: the connections that on_startup told it of last, None while that is not known.
     ``closing``: on_shutdown has come since.
     """
 
@@ -61,7 +61,7 @@ class Member:
     served: bool = False
     connections: list[Connection] = field(default_factory=list)
     once_connected: set[str] = field(default_factory=set)
-    handed_over: tuple[Connection, ...] = ()
+    handed_over: tuple[Connection, ...] | None = ()
     closing: bool = False
 
     def raises(self, *hooks: Hook) -> bool:

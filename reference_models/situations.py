@@ -106,7 +106,7 @@ class Situations:
             window.judged = False
         for client, _ in clients:
             self._member_role(window, client, "", "remove_provider")
-            if client.raises("on_disconnect"):
+            if _raises_when_disconnected(client):
                 window.judged = False
 
     def _get_port_element(self, runtime: Runtime, window: Window, step: s.GetPortElement) -> None:
@@ -146,7 +146,7 @@ class Situations:
             self._member_role(window, member, "container started")
         else:
             self._member_role(window, member, self._kind_of_connection(member, step, provider))
-        if member.raises("on_connect", "on_disconnect") or (late and member.raises("on_startup")):
+        if member.raises("on_connect", "on_disconnect") or (late and member.raises("on_startup", "on_shutdown")):
             window.judged = False
         if provider is not None and provider.gone and window.roles[-1][1].condition != "provider already removed":
             window.judged = False
@@ -176,7 +176,7 @@ class Situations:
             return
         window.connection = connection
         member = window.subject = connection.client
-        if member.raises("on_disconnect") or connection.live is None or connection.ambiguous:
+        if _raises_when_disconnected(member) or connection.live is None or connection.ambiguous:
             window.judged = False
         if member.state == "ready":
             condition = ""
@@ -282,6 +282,8 @@ class Situations:
         for client, _ in runtime.clients_of(members):
             if client.container is not container:
                 self._member_role(window, client, "", "remove_provider")
+                if _raises_when_disconnected(client):
+                    window.judged = False
 
     def _removal_of_all(self, window: Window, members: list[Member]) -> None:
         if not members:
@@ -294,6 +296,10 @@ class Situations:
 
 def _late(window: Window) -> str:
     return ", container started" if window.container.started is not False else ""
+
+
+def _raises_when_disconnected(member: Member) -> bool:
+    return member.raises("on_disconnect") or (member.operational and member.raises("on_shutdown"))
 
 
 def undone_by(window: Window, member: Member) -> list[Connection]:

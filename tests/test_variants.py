@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import more_variants  # noqa: F401 - registers its variants
 import pytest
+import rare_variants  # noqa: F401 - registers its variants
 from pipeline import failing_requirements
 from variants import VARIANTS
 

@@ -1,0 +1,85 @@
+"""Conformant variants that take operational components down, or restart them, when their connections change."""
+
+from __future__ import annotations
+
+from variants import appends_connections, cascades, manager_reaches_down, starts_the_unconfigured, variant
+from wrong_subjects import Base
+
+from ucm_cts.adapters.contract.programming_model import PortElementObject
+from ucm_cts.adapters.reference_py.framework import Connection, Container, Failures, Member, State
+
+
+def _take_down(member: Member, failures: Failures) -> None:
+    member.container.started.remove(member)
+    member.container._shut_down(member, failures)
+
+
+@variant
+class takes_clients_down(cascades):
+    """What loses a connection while it is operational is shut down first and waits for another start."""
+
+    def disconnect(self, connection: int) -> None:
+        started, self.is_started = self.is_started, False
+        try:
+            super().disconnect(connection)
+        finally:
+            self.is_started = started
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        if connection.client in connection.client.container.started:
+            _take_down(connection.client, failures)
+        super()._disconnect(connection, failures)
+
+
+@variant
+class restarts_clients(takes_clients_down, starts_the_unconfigured):
+    """The same; and what gets a connection while it is operational is shut down, told, and started again."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        started, self.is_started = self.is_started, False
+        try:
+            return super().connect(instance, port_name, to_port)
+        finally:
+            self.is_started = started
+
+    def _connect(self, connection: Connection) -> None:
+        client, failures = connection.client, Failures()
+        restarts = client.state is State.READY
+        if restarts:
+            _take_down(client, failures)
+        super()._connect(connection)
+        if restarts:
+            self._start_up(client, failures)
+        failures.report()
+
+
+@variant
+class restarts_clients_of_many(restarts_clients, appends_connections):
+    """The same, with any number of connections a port element."""
+
+
+@variant
+class reaches_down_first(manager_reaches_down):
+    """The manager's start begins with its sub-containers, and its stop ends with them."""
+
+    def start(self) -> None:
+        if self is self.manager:
+            for container in self.manager.sub_containers:
+                Container.start(container)
+        Container.start(self)
+
+
+@variant
+class lists_what_is_being_added(Base):
+    """A member is listed, and can be asked for port elements, as soon as its body is made."""
+
+    def _set_attributes(self, member: Member, attributes: object) -> None:
+        self.members[member.id] = member
+        super()._set_attributes(member, attributes)  # type: ignore[arg-type]
+
+    def _configure(self, member: Member, attributes: object) -> None:
+        try:
+            super()._configure(member, attributes)  # type: ignore[arg-type]
+        except Exception:
+            self.members.pop(member.id, None)
+            raise

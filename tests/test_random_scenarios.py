@@ -1,0 +1,168 @@
+"""Whatever is asked of whatever framework: nobody who conforms is failed, and no trace is too odd to be judged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import Path
+
+import more_variants  # noqa: F401 - registers its variants
+import msgspec
+import pytest
+import rare_variants  # noqa: F401 - registers its variants
+import subtle_subjects  # noqa: F401 - registers its subjects
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from random_scenarios import scenarios
+from variants import VARIANTS
+from wrong_subjects import SUBJECTS
+
+from ucm_cts.adapters.contract.adapter import Adapter
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Event, Trace
+from ucm_cts.adapters.python.engine import ContractBroken, Performance
+from ucm_cts.adapters.python.recorder import Recorder
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.disguise import Disguise
+from ucm_cts.harness.integrity import contradiction
+from ucm_cts.harness.scripts import read_scripts, to_scenario
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.judgement import Judge
+
+CONFORMANT: dict[str, type[Adapter]] = {"reference": ReferenceAdapter, **VARIANTS}
+WRONG = [subject.adapter for subject in SUBJECTS.values()]
+SOME = 20
+"""One of so many wrong subjects takes part in each example."""
+
+TESTABLE = {requirement.id for requirement in load_requirements() if not requirement.untestable}
+ONCE_FAILED = {script.scenario: script for script in read_scripts(Path(__file__).parent / "once_failed.yaml")}
+
+Mutation = tuple[str, int, int]
+MUTATIONS = st.lists(
+    st.tuples(st.sampled_from(("drop", "repeat", "swap", "copy")), st.integers(0, 99), st.integers(0, 99)),
+    min_size=1,
+    max_size=4,
+)
+
+
+def examples(number: int) -> settings:
+    """The same examples each time; nothing is kept, and slow machines are no failures."""
+    return settings(
+        max_examples=number, derandomize=True, database=None, deadline=None, suppress_health_check=list(HealthCheck)
+    )
+
+
+@cache
+def judge() -> Judge:
+    return Judge(load_life_cycle())
+
+
+def perform(adapter: type[Adapter], scenario: Scenario) -> tuple[Trace, bool]:
+    """What happens, and whether a worker never came back."""
+    performance = Performance(adapter(), scenario, Recorder())
+    trace, stuck = performance.run()
+    return trace, bool(stuck)
+
+
+def traces_of_wrong_subjects(scenario: Scenario, first: int) -> Iterator[tuple[Trace, bool]]:
+    for adapter in WRONG[first::SOME]:
+        try:
+            yield perform(adapter, scenario)
+        except ContractBroken:
+            continue
+
+
+def assert_nobody_fails(scenario: Scenario) -> None:
+    judged: set[bytes] = set()
+    for name, adapter in CONFORMANT.items():
+        trace, stuck = perform(adapter, scenario)
+        timeless = msgspec.json.encode([msgspec.structs.replace(event, t=0) for event in trace])
+        if timeless in judged:
+            continue
+        judged.add(timeless)
+        assert contradiction(scenario, trace, stuck) is None, name
+        findings = judge().judge(scenario, trace).findings
+        assert not findings, (name, findings, timeless)
+
+
+@examples(200)
+@given(scenarios())
+def test_no_conformant_variant_is_ever_failed(scenario: Scenario) -> None:
+    assert_nobody_fails(scenario)
+
+
+@pytest.mark.parametrize("name", ONCE_FAILED)
+def test_conformant_variants_once_failed_are_failed_no_more(name: str) -> None:
+    assert_nobody_fails(to_scenario(ONCE_FAILED[name]))
+
+
+@examples(250)
+@given(scenarios(), st.integers(0, SOME - 1))
+def test_findings_about_wrong_subjects_name_what_is_there(scenario: Scenario, first: int) -> None:
+    for trace, _ in traces_of_wrong_subjects(scenario, first):
+        for finding in judge().judge(scenario, trace).findings:
+            assert finding.requirement in TESTABLE
+            assert set(finding.events) <= {event.n for event in trace}
+            assert finding.events
+            assert finding.step is None or 0 <= finding.step < len(scenario.steps)
+            assert finding.expected
+            assert finding.observed
+
+
+@examples(250)
+@given(scenarios(), st.integers(0, SOME - 1), MUTATIONS, st.booleans())
+def test_a_changed_trace_is_refused_or_judged(
+    scenario: Scenario, first: int, mutations: Sequence[Mutation], stuck: bool
+) -> None:
+    for trace, _ in traces_of_wrong_subjects(scenario, first):
+        changed = mutated(trace, mutations)
+        if contradiction(scenario, changed, stuck) is None:
+            judge().judge(scenario, changed)
+
+
+@examples(100)
+@given(scenarios(), st.integers(0, SOME - 1), st.integers(0, 2**32))
+def test_findings_depend_on_the_trace_alone_and_not_on_names(scenario: Scenario, first: int, seed: int) -> None:
+    disguise = Disguise(seed, "{port}_{element}")
+    disguised = disguise.scenario(scenario)
+    for trace, _ in traces_of_wrong_subjects(disguised, first):
+        findings = judge().judge(disguised, trace).findings
+        assert judge().judge(disguised, trace).findings == findings
+        assert Judge(load_life_cycle()).judge(disguised, trace).findings == findings
+        revealed = tuple(disguise.reveal(event) for event in trace)
+        assert gist(judge().judge(scenario, revealed).findings) == gist(findings)
+
+
+def gist(findings: Sequence[Finding]) -> list[object]:
+    """What findings say, but for names."""
+    return [(f.requirement, f.rule, f.events, f.step) for f in findings]
+
+
+def mutated(trace: Trace, mutations: Sequence[Mutation]) -> Trace:
+    """The trace with events left out, repeated, swapped, or with something of another event; counted anew."""
+    events = list(trace)
+    for what, here, there in mutations:
+        if not events:
+            break
+        i, j = here % len(events), there % len(events)
+        if what == "drop":
+            del events[i]
+        elif what == "repeat":
+            events.insert(j, events[i])
+        elif what == "swap":
+            events[i], events[j] = events[j], events[i]
+        else:
+            events[i] = mixed(events[i], events[j], here + there)
+    return tuple(msgspec.structs.replace(event, n=index + 1, t=index) for index, event in enumerate(events))
+
+
+def mixed(event: Event, other: Event, which: int) -> Event:
+    """``event`` with one field of ``other``, if the wire could carry that."""
+    fields = [f for f in event.__struct_fields__ if f in other.__struct_fields__]
+    field = fields[which % len(fields)]
+    change = msgspec.structs.replace(event, **{field: getattr(other, field)})
+    try:
+        return msgspec.json.decode(msgspec.json.encode(change), type=type(event))
+    except msgspec.ValidationError:
+        return event
