@@ -151,6 +151,7 @@ def _casts() -> Iterator[Cast]:
         yield _pair(container)
     yield _fork()
     yield _kinds()
+    yield _mirror()
     yield _used_relay()
     yield _loose_client()
     yield _containers()
@@ -222,6 +223,27 @@ def _fork() -> Cast:
             s.RemoveComponent("client"),
             s.RemoveComponent("server"),
             s.Destroy(),
+        ),
+    )
+
+
+def _mirror() -> Cast:
+    return Cast(
+        "mirror",
+        {
+            "mirror": Declaration(("in.api",), ("out.api",), {}, True),
+            "facets": Declaration(("in.api",), ("left.api", "right.api"), {}, True),
+        },
+        (
+            s.AddComponent("mirror"),
+            s.AddComponent("facets"),
+            s.GetPortElement("mirror", "in.api", "own"),
+            s.GetPortElement("facets", "in.api", "self"),
+            s.Connect("mirror", "out.api", "own", "link"),
+            s.Connect("facets", "left.api", "self", "left"),
+            s.Connect("facets", "right.api", "own", "right"),
+            s.Start(),
+            s.Stop(),
         ),
     )
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Raise, Reference, Return
-from ucm_cts.reference_models.runtime import Connection, Container, Member, Runtime, Window, raises
+from ucm_cts.reference_models.runtime import NO_ID, Connection, Container, Member, Runtime, Window, raises
 
 
 def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
@@ -82,12 +82,18 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
     member = window.subject
     if member is None:
         return
+    reference, provider = runtime.reference(step.to)
     if isinstance(end, Raise):
-        if received(window, member, "on_startup") or received(window, member, "on_shutdown"):
+        if (member.component, member.instance) in window.by_body:  # it began: nobody knows what stands
             member.suspended = True
+            for earlier in member.live_connections(step.port):
+                earlier.live = None
+            port = runtime.ports.get(step.to, "")
+            member.connections.append(
+                Connection(step.bind, NO_ID, member, step.port, reference, provider, port, live=None)
+            )
         return
     value = end.value
-    reference, provider = runtime.reference(step.to)
     if not isinstance(value, int) or step.port not in member.declaration.requires or step.to == s.NIL:
         member.suspended = True
         return
@@ -132,7 +138,7 @@ def _disconnected(runtime: Runtime, window: Window, step: s.Disconnect, end: Ret
     if isinstance(end, Raise):
         if connection.live is None and end.error == "NOT_FOUND":
             connection.live = False
-        elif received(window, connection.client, "on_disconnect"):
+        elif (connection.client.component, connection.client.instance) in window.by_body:
             connection.live = None
             connection.client.suspended = True
         return
@@ -160,7 +166,8 @@ def _container_created(runtime: Runtime, window: Window, step: s.CreateContainer
         earlier = runtime.containers.get(step.bind)
         if earlier is not None:  # the variable is bound anew; the container it held is still there
             runtime.containers[f"{step.bind}, {len(runtime.containers)}"] = earlier
-        runtime.containers[step.bind] = Container(step.bind)
+        cascading = runtime.containers[s.MANAGER].started is not False  # its phase may become the new one's
+        runtime.containers[step.bind] = Container(step.bind, started=None if cascading else False)
 
 
 def _container_removed(runtime: Runtime, window: Window, step: s.RemoveContainer, end: Return | Raise) -> None:

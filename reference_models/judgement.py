@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Call, Create, Enter, Exit, Raise, Reply, Request, Return, Siblings, Trace
+from ucm_cts.adapters.contract.trace import Call, Create, Enter, Event, Exit, Raise, Reply, Request, Return, Siblings, Trace
 from ucm_cts.reference_models import rules_callbacks, rules_dependencies, rules_interactions, rules_operations
 from ucm_cts.reference_models.adoption import adopt
 from ucm_cts.reference_models.duties import Duties
@@ -34,9 +34,14 @@ class Judge:
         self.noted = checks("noted", "siblings")
 
     def judge(self, scenario: s.Scenario, trace: Trace) -> Ledger:
-        """Everything the rules say about ``trace``, which may break off anywhere."""
+        """Everything the rules say about ``trace``, which may break off anywhere.
+
+        Where two operations overlap, because one of them took too long, reading ends: who did what cannot be told.
+        """
         reading = _Reading(self, scenario)
         for event in trace:
+            if reading.overlaps(event):
+                break
             take = _TAKE.get(type(event))
             if take is not None:
                 take(reading, event)
@@ -56,6 +61,14 @@ class _Reading:
         self.calls: dict[int, list[BusinessCall]] = {}
         self.hooks: dict[int, list[s.Hook]] = {}
         self.served: dict[int, list[BusinessCall | None]] = {}
+
+    def overlaps(self, event: Event) -> bool:
+        """Does another operation begin while one is in progress?"""
+        return (
+            self.window is not None
+            and isinstance(event, Call)
+            and not isinstance(self.ledger.scenario.steps[event.step], s.Invoke)
+        )
 
     def call(self, event: Call) -> None:
         step = self.ledger.scenario.steps[event.step]
@@ -96,6 +109,8 @@ class _Reading:
         for check in self.judge.entered[event.hook]:
             check(ledger, runtime, window, event, heard)
         heard.append(event.hook)
+        if event.hook == "on_startup":
+            runtime.startups[body] = [event.n]
         member = runtime.member_of(event.component, event.instance)
         if member is not None:
             self.changes(member, event.hook)
@@ -126,6 +141,8 @@ class _Reading:
         hooks = self.hooks.get(event.thread)
         if hooks:
             hooks.pop()
+        if event.hook == "on_startup":
+            self.runtime.startups.get((event.component, event.instance), []).append(event.n)
         served = self.served.get(event.thread)
         if event.hook == "exchange" and served:
             call = served.pop()

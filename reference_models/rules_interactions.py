@@ -74,6 +74,7 @@ def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return |
         _violate(ledger, "R-11.2.1.1-02", "stimulus", "wrong value", expected, observed, call.n, end.n, member)
         return
     ledger.exercised("R-11.2.1.1-02")
+    ledger.exercised("R-11.2.2.1-06")
 
 
 @rule("replied", "R-11.1.3-01", "R-11.1.2-02")

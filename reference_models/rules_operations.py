@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Reference, Return
 from ucm_cts.reference_models.adoption import received
@@ -254,17 +256,17 @@ def right_body(ledger: Ledger, runtime: Runtime, window: Window, end: Return | R
 
 @rule("ended", "R-11.2.2.1-13", at=("stop",))
 def stop_order(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
-    """stop shuts members down in the reverse of the order they were started in."""
+    """stop shuts members down in the reverse of the order they were started in, where they were not started at a time."""
     if not isinstance(end, Return):
         return
     started = [m for m in window.container.startup_order if not m.gone and not m.suspended]
     when = {id(m): received(window, m, "on_shutdown") for m in started}
     stopped = sorted((m for m in started if when[id(m)]), key=lambda m: when[id(m)][0].n)
     expected = [m for m in reversed(started) if m in stopped]
-    if len(expected) < 2:
-        return
-    if stopped == expected:
-        ledger.exercised("R-11.2.2.1-13")
+    pairs = list(itertools.combinations(stopped, 2))
+    if not any(runtime.started_before(one, other) for one, other in pairs):
+        if any(runtime.started_before(other, one) for one, other in pairs):
+            ledger.exercised("R-11.2.2.1-13")
         return
     ledger.violated(
         "R-11.2.2.1-13",

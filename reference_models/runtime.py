@@ -14,6 +14,9 @@ from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaratio
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
 from ucm_cts.reference_models.life_cycle import Row, State
 
+NO_ID = 2**64
+"""The id of a connection whose id nobody was told."""
+
 
 @dataclass(slots=True, eq=False)
 class Connection:
@@ -165,6 +168,7 @@ class Runtime:
     """All containers, instances, connections and references of one scenario.
 
     ``members``, ``connections`` and ``references`` are what variables hold now; ``everyone`` is every instance ever added.
+    ``startups`` tells of each body when its last on_startup began and ended, by ``n``.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -174,6 +178,7 @@ class Runtime:
         self.everyone: list[Member] = []
         self.bodies: dict[tuple[str, int], Member] = {}
         self.discarded: set[tuple[str, int]] = set()
+        self.startups: dict[tuple[str, int], list[int]] = {}
         self.connections: dict[str, Connection] = {}
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
         self.ports: dict[str, str] = {}
@@ -186,6 +191,12 @@ class Runtime:
     def provider_of(self, reference: MaybeReference) -> Member | None:
         """The instance that a recognised reference belongs to."""
         return self.bodies.get((reference.component, reference.instance)) if isinstance(reference, Reference) else None
+
+    def started_before(self, one: Member, other: Member) -> bool:
+        """Had the one's last on_startup ended when the other's began?"""
+        first = self.startups.get((one.component, one.instance or 0), [])
+        second = self.startups.get((other.component, other.instance or 0), [])
+        return len(first) == 2 and bool(second) and first[1] < second[0]
 
     def find_member(self, container: Container, variable: str) -> tuple[Member | None, str]:
         """The live instance that the id in ``variable`` designates in ``container``, else None and why."""

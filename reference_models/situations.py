@@ -11,6 +11,7 @@ from ucm_cts.reference_models.runtime import Connection, Container, Member, Runt
 
 _FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")
 
+_CONFIGURING = frozenset(("add_component", "remove_component", "connect", "disconnect", "create_container"))
 _OF_THE_MANAGER = frozenset(("create_container", "remove_container", "destroy"))
 
 
@@ -47,10 +48,20 @@ class Situations:
             window.judged = False
             return window
         self._looks[operation](runtime, window, step)
+        self._other_phases(runtime, window)
         for member, _ in window.roles:
             if member is not None and member.suspended:
                 window.judged = False
         return window
+
+    def _other_phases(self, runtime: Runtime, window: Window) -> None:
+        """Where phases are the whole application's, what another container is in may be a reason to refuse."""
+        others = [c for c in runtime.containers.values() if c is not window.container and not c.removed]
+        if window.operation in _CONFIGURING:
+            window.forgiving = window.forgiving or any(c.started is not False for c in others)
+        elif window.operation == "start":
+            unready = any(m.state == "initialized" or m.suspended for c in others for m in c.live_members())
+            window.forgiving = window.forgiving or unready
 
     def _role(self, window: Window, member: Member | None, state: State, condition: str, operation: str = "") -> None:
         key = (state, operation or window.operation, condition)
@@ -156,6 +167,9 @@ class Situations:
     def _kind_of_connection(self, member: Member, step: s.Connect, provider: Member | None) -> str:
         if member.live_connections(step.port):
             return "already connected"
+        if provider is member:
+            alone = len(member.declaration.requires) == 1
+            return "provider is itself" if alone else "provider is itself, one of several ports"
         if provider is not None and provider.gone:
             return "provider already removed"
         missing = [p for p in member.declaration.requires if not member.live_connections(p)]
@@ -255,7 +269,11 @@ class Situations:
                     window.forgiving = True
 
     def _create_container(self, runtime: Runtime, window: Window, step: s.CreateContainer) -> None:
-        self._role(window, None, "absent", "first" if len(runtime.containers) == 1 else "another")
+        if window.container.started is not False:
+            condition = "manager started"
+        else:
+            condition = "first" if len(runtime.containers) == 1 else "another"
+        self._role(window, None, "absent", condition)
 
     def _destroy(self, runtime: Runtime, window: Window, step: s.Destroy) -> None:
         self._removal_of_all(window, [m for c in runtime.containers.values() for m in c.live_members()])
