@@ -6,7 +6,19 @@ from collections.abc import Callable
 from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Call, Create, Enter, Event, Exit, Raise, Reply, Request, Return, Siblings, Trace
+from ucm_cts.adapters.contract.trace import (
+    Call,
+    Create,
+    Enter,
+    Event,
+    Exit,
+    Raise,
+    Reply,
+    Request,
+    Return,
+    Siblings,
+    Trace,
+)
 from ucm_cts.reference_models import rules_callbacks, rules_dependencies, rules_interactions, rules_operations
 from ucm_cts.reference_models.adoption import adopt
 from ucm_cts.reference_models.duties import Duties
@@ -110,7 +122,7 @@ class _Reading:
             check(ledger, runtime, window, event, heard)
         heard.append(event.hook)
         if event.hook == "on_startup":
-            runtime.startups[body] = [event.n]
+            runtime.startups[body] = event.n, event.thread
         member = runtime.member_of(event.component, event.instance)
         if member is not None:
             self.changes(member, event.hook)
@@ -141,8 +153,6 @@ class _Reading:
         hooks = self.hooks.get(event.thread)
         if hooks:
             hooks.pop()
-        if event.hook == "on_startup":
-            self.runtime.startups.get((event.component, event.instance), []).append(event.n)
         served = self.served.get(event.thread)
         if event.hook == "exchange" and served:
             call = served.pop()

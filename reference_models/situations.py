@@ -150,7 +150,7 @@ class Situations:
         if member.state == "ready":
             self._member_role(window, member, "wrong argument" if wrong else "")
         elif wrong:
-            window.judged = not late
+            window.judged = not late and provider is not member
             self._member_role(window, member, wrong)
         elif late:
             window.judged = window.container.started is not None
@@ -246,9 +246,8 @@ class Situations:
             if not member.operational:
                 self._member_role(window, member, "not started")
             elif failing:
-                self._member_role(
-                    window, member, "on_shutdown fails" if member in failing else "a peer's on_shutdown fails"
-                )
+                alone = failing == [member]  # of several that fail, each may be the first, and the last told
+                self._member_role(window, member, "on_shutdown fails" if alone else "a peer's on_shutdown fails")
             else:
                 self._member_role(window, member, "")
         self._reach_below(runtime, window)

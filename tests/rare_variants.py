@@ -83,3 +83,65 @@ class lists_what_is_being_added(Base):
         except Exception:
             self.members.pop(member.id, None)
             raise
+
+
+# what is left half-way when something fails
+
+
+@variant
+class leaves_started_what_was_started(Base):
+    """A start that meets what is unconfigured or raises leaves the others started; another start goes on from there."""
+
+    def start(self) -> None:
+        with self._operation():
+            failures = Failures()
+            for member in self._start_order():
+                if member.state is State.READY:
+                    continue
+                if all(self._is_connected(member, port) for port in member.implementation.requires):
+                    self._start_up(member, failures)
+                else:
+                    failures.first = failures.first or "not connected"
+            failures.report()
+            self.is_started = True
+
+
+@variant
+class stops_half_way(Base):
+    """A stop ends where an on_shutdown raises; another stop goes on from there."""
+
+    def stop(self) -> None:
+        with self._operation():
+            while self.started:
+                failures = Failures()
+                self._shut_down(self.started.pop(), failures)
+                failures.report()
+            self.is_started = False
+
+
+@variant
+class keeps_what_it_could_not_announce(Base):
+    """A connection whose on_connect raises is made, one whose on_disconnect raises is kept; both raise UCM_ERROR."""
+
+    def _connect(self, connection: Connection) -> None:
+        self.manager.connections[connection.id] = connection
+        super()._connect(connection)
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        mine = Failures()
+        super()._disconnect(connection, mine)
+        if mine.first:
+            failures.first = failures.first or mine.first
+            self.manager.connections[connection.id] = connection
+
+
+@variant
+class keeps_what_it_could_not_remove(Base):
+    """A member whose on_remove raises stays."""
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        mine = Failures()
+        super()._remove(member, mine)
+        if mine.first:
+            failures.first = failures.first or mine.first
+            self.members[member.id] = member
