@@ -189,7 +189,6 @@ def _pair(container: str) -> Cast:
         s.GetPortElement("client", "else.where", "x", container),
         s.Connect(s.UNKNOWN, "out.api", "api", "x", container),
         s.Connect("client", "else.where", "api", "x", container),
-        s.Connect("server", "in.api", "api", "x", container),
         s.Connect("client", "out.api", s.NIL, "x", container),
         s.Connect("client", "out.api", "api", "x", container),
         s.Disconnect(s.UNKNOWN, container),
@@ -242,9 +241,8 @@ def _mirror() -> Cast:
             s.Connect("mirror", "out.api", "own", "link"),
             s.Connect("facets", "left.api", "self", "left"),
             s.Connect("facets", "right.api", "own", "right"),
-            s.Start(),
-            s.Stop(),
         ),
+        (s.Connect("mirror", "in.api", "self", "x"),),
     )
 
 

@@ -263,9 +263,10 @@ def stop_order(ledger: Ledger, runtime: Runtime, window: Window, end: Return | R
     when = {id(m): received(window, m, "on_shutdown") for m in started}
     stopped = sorted((m for m in started if when[id(m)]), key=lambda m: when[id(m)][0].n)
     expected = [m for m in reversed(started) if m in stopped]
-    pairs = list(itertools.combinations(stopped, 2))
-    if not any(runtime.started_before(one, other) for one, other in pairs):
-        if any(runtime.started_before(other, one) for one, other in pairs):
+    if len(expected) < 2:
+        return
+    if not any(runtime.started_before(one, other) for one, other in itertools.combinations(stopped, 2)):
+        if stopped == expected:
             ledger.exercised("R-11.2.2.1-13")
         return
     ledger.violated(

@@ -168,7 +168,7 @@ class Runtime:
     """All containers, instances, connections and references of one scenario.
 
     ``members``, ``connections`` and ``references`` are what variables hold now; ``everyone`` is every instance ever added.
-    ``startups`` tells of each body when its last on_startup began and ended, by ``n``.
+    ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -178,7 +178,7 @@ class Runtime:
         self.everyone: list[Member] = []
         self.bodies: dict[tuple[str, int], Member] = {}
         self.discarded: set[tuple[str, int]] = set()
-        self.startups: dict[tuple[str, int], list[int]] = {}
+        self.startups: dict[tuple[str, int], tuple[int, int]] = {}
         self.connections: dict[str, Connection] = {}
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
         self.ports: dict[str, str] = {}
@@ -193,10 +193,10 @@ class Runtime:
         return self.bodies.get((reference.component, reference.instance)) if isinstance(reference, Reference) else None
 
     def started_before(self, one: Member, other: Member) -> bool:
-        """Had the one's last on_startup ended when the other's began?"""
-        first = self.startups.get((one.component, one.instance or 0), [])
-        second = self.startups.get((other.component, other.instance or 0), [])
-        return len(first) == 2 and bool(second) and first[1] < second[0]
+        """Was the one started before the other, and for certain? Threads may start two of them at a time."""
+        first = self.startups.get((one.component, one.instance or 0))
+        second = self.startups.get((other.component, other.instance or 0))
+        return first is not None and second is not None and first[1] == second[1] and first[0] < second[0]
 
     def find_member(self, container: Container, variable: str) -> tuple[Member | None, str]:
         """The live instance that the id in ``variable`` designates in ``container``, else None and why."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import more_variants  # noqa: F401 - registers its variants
+import phase_variants  # noqa: F401 - registers its variants
 import pytest
 import rare_variants  # noqa: F401 - registers its variants
 from pipeline import failing_requirements
