@@ -97,24 +97,24 @@ def _deviates(
         instead = [Arrow(container, who, hook)]
         cause, observed, offending = (
             f"{row.operation} without {hook}",
-            f"{operation} ended without {hook} on {who}",
+            f"{operation} ended without {hook} on '{who}'",
             [end.n],
         )
     elif hook:
         instead = [Arrow(container, "test", f"return without {hook}")]
         offending = [e.n for e in events if e.hook == hook]
         times = f" {len(offending)} times" if len(offending) > 1 else ""
-        cause, observed = f"{hook} by {row.id}", f"{who} received {hook}{times} from {operation} while {row.state}"
+        cause, observed = f"{hook} by {row.id}", f"{operation} called {hook}{times} on '{who}', which was {row.state}"
     else:
         instead = [Arrow(container, who, h) for h in deviation.wanted]
         offending = [e.n for e in events]
-        cause, observed = f"{row.operation} order", f"{who} received {', '.join(e.hook for e in events)}"
+        cause, observed = f"{row.operation} order", f"{operation} called {', '.join(e.hook for e in events)} on '{who}'"
     situation = f"{row.state}, {row.condition}" if row.condition else row.state
     ledger.violated(
         deviation.requirement,
         "callbacks",
         cause,
-        f"{operation} brings {who} {', '.join(deviation.wanted) or 'no callback'} ({situation})",
+        f"{operation} calls {', '.join(deviation.wanted) or 'nothing'} on '{who}' ({situation})",
         observed,
         tuple(offending),
         window.step_number,
@@ -183,7 +183,7 @@ def _manager_forgot_its_own(ledger: Ledger, window: Window, answer: str, end: in
         "R-11.2.2.2-01",
         "callbacks",
         f"manager without {hook}",
-        f"{window.operation} of the manager brings its own members {hook}",
+        f"{window.operation} of the manager calls {hook} on its own members",
         f"{window.operation} returned and none of {', '.join(m.lane for m in due)} received {hook}",
         (window.call, end),
         window.step_number,
