@@ -25,84 +25,175 @@ from ucm_cts.adapters.contract.trace import (
     Timeout,
 )
 from ucm_cts.harness.scripts import bound_by, used_by
+from ucm_cts.harness.turns import Turns
 
-_SILENT = (s.OpenGate, s.ReachGate, s.Join)
+_WAITS = (s.ReachGate, s.Join)
+_OF_SCENARIO = (*_WAITS, s.OpenGate)
 _ID_GIVING = (s.AddComponent, s.Connect, s.Invoke)
+
+_PUNCTUALITY, _GRAIN = 0.9, 5_000_000
+"""A wait for patience that ends after this part of it, less so many nanoseconds, is believed: clocks differ."""
+
+_LONGEST_PATIENCE = 24 * 60 * 60 * 1000
+_NANOSECONDS = 1_000_000
 
 
 def contradiction(scenario: Scenario, trace: Sequence[Event], stuck: bool = False) -> str | None:
     """Why ``trace`` cannot be what happened when ``scenario`` ran; None if it can.
 
-    ``stuck`` traces may leave steps open. Checks order, nesting, completeness, and that bodies kept to their plans.
+    ``stuck`` traces may leave steps open. Checks order, nesting, threads, gates, completeness, and that bodies kept to
+    their plans.
     """
-    return _Check(scenario).run(trace, stuck)
+    check = _Check(scenario)
+    for event in trace:
+        problem = check.take(event)
+        if problem:
+            return problem
+    return None if stuck else check.end()
+
+
+def believable(scenario: Scenario, events: Sequence[Event]) -> tuple[Event, ...]:
+    """``events`` as far as they can be true."""
+    check = _Check(scenario)
+    for index, event in enumerate(events):
+        if check.take(event):
+            return tuple(events[:index])
+    return tuple(events)
 
 
 class _Check:
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
+        self.taken = 0
         self.done: dict[int, bool] = {}
         self.open: dict[int, list[Event]] = {}
         self.bodies: dict[str, int] = {}
-        self.last_inline = -1
         self.clock: dict[int, int] = {}
         self.bound = {s.MANAGER, s.UNKNOWN, s.NIL}
         self.null = {s.NIL}
         self.holds: dict[tuple[str, int], dict[str, int]] = {}
         self.acts: dict[int, list[list[Action]]] = {}
+        self.turns = Turns(scenario)
+        self.waiting: dict[int, Held] = {}
+        self.reached: set[str] = set()
+        self.opened: set[str] = set()
+        patience = min(max(scenario.patience, 0), _LONGEST_PATIENCE) * _NANOSECONDS
+        self.shortest_wait = patience * _PUNCTUALITY - _GRAIN
 
-    def run(self, trace: Sequence[Event], stuck: bool) -> str | None:
-        for index, event in enumerate(trace):
-            if event.n != index + 1:
-                return f"event number {event.n} where {index + 1} is due"
-            if event.t < self.clock.get(event.thread, event.t):
-                return f"event {event.n} is earlier than the one before it on thread {event.thread}"
-            self.clock[event.thread] = event.t
-            problem = self.check(event)
-            if problem:
-                return f"event {event.n}: {problem}"
-        if stuck:
-            return None
+    def take(self, event: Event) -> str | None:
+        """What is wrong with the next event."""
+        self.taken += 1
+        if event.n != self.taken:
+            return f"event number {event.n} where {self.taken} is due"
+        before = self.clock.get(event.thread)
+        if before is not None and event.t < before:
+            return f"event {event.n} is earlier than the one before it on thread {event.thread}"
+        self.clock[event.thread] = event.t
+        problem = self.check_gate(event) or self.check(event, before)
+        return f"event {event.n}: {problem}" if problem else None
+
+    def end(self) -> str | None:
+        """What is wrong if nothing follows."""
         for number, step in enumerate(self.scenario.steps):
-            if not isinstance(step, _SILENT) and not self.done.get(number):
+            if isinstance(step, s.ReachGate):
+                if number not in self.done and step.gate not in self.reached:
+                    return f"step {number} (reach) has met nobody at {step.gate!r} and not run out of patience"
+            elif not isinstance(step, s.Join) and not self.done.get(number):
                 return f"step {number} ({s.operation(step)}) is missing or not ended"
         return None
 
-    def check(self, event: Event) -> str | None:
-        if isinstance(event, Call | Skip | Timeout | Return | Raise):
-            return self.check_step(event)
+    def check(self, event: Event, before: int | None) -> str | None:
+        if isinstance(event, Call | Skip):
+            return self.check_begin(event)
+        if isinstance(event, Return | Raise):
+            return self.check_end(event)
+        if isinstance(event, Timeout):
+            return self.check_timeout(event, before)
         if isinstance(event, Opened):
-            return None
+            return self.check_opened(event)
         return self.check_body(event)
 
-    def check_step(self, event: Call | Skip | Timeout | Return | Raise) -> str | None:
-        if not 0 <= event.step < len(self.scenario.steps):
-            return f"there is no step {event.step}"
-        step = self.scenario.steps[event.step]
-        if isinstance(event, Timeout):
-            return None if isinstance(step, _SILENT) else f"step {event.step} is not a wait"
-        if isinstance(step, _SILENT):
+    def check_gate(self, event: Event) -> str | None:
+        """A body that is held lets its thread go on when the gate is open, patience has run out or all is over."""
+        held = self.waiting.pop(event.thread, None)
+        if held is None or held.gate in self.opened or event.t - held.t >= self.shortest_wait:
+            return None
+        if all(self.done.get(number) for number in self.turns.steps[None] if not self.is_wait(number)):
+            return None
+        return f"{held.component} goes on although gate {held.gate!r} is closed"
+
+    def is_wait(self, number: int) -> bool:
+        return isinstance(self.scenario.steps[number], _WAITS)
+
+    def check_turn(self, number: int, thread: int) -> str | None:
+        """A thread takes its steps one by one, in order; what it leaves behind without a trace must be over."""
+        if self.open.get(thread):
+            return f"step {number} begins while another one is open on thread {thread}"
+        problem = self.turns.begin(number, thread)
+        if problem:
+            return problem
+        for passed in self.turns.passed:
+            step = self.scenario.steps[passed]
+            if isinstance(step, s.ReachGate):
+                if passed not in self.done and step.gate not in self.reached:
+                    return f"step {number} comes after step {passed} (reach), which has met nobody at {step.gate!r}"
+            elif isinstance(step, s.Join):
+                before = [n for n in self.turns.steps.get(step.worker, ()) if n < passed and not self.is_wait(n)]
+                if passed not in self.done and not all(self.done.get(n) for n in before):
+                    return f"step {number} comes after step {passed} (join), and '{step.worker}' is not done"
+            elif passed not in self.done:
+                return f"step {number} comes after step {passed} ({s.operation(step)}), which is missing"
+        return None
+
+    def check_begin(self, event: Call | Skip) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if isinstance(step, _OF_SCENARIO):
+            return f"step {event.step} is no operation"
+        if event.step in self.done:
+            return f"step {event.step} is carried out twice"
+        missing = [v for v in used_by(step) if v not in self.bound or (isinstance(step, s.Invoke) and v in self.null)]
+        if isinstance(event, Skip) and event.variable not in missing:
+            return f"step {event.step} is skipped although {event.variable} is bound"
+        if isinstance(event, Call) and missing:
+            return f"step {event.step} is carried out although {missing[0]} is not bound"
+        problem = self.check_turn(event.step, event.thread)
+        self.done[event.step] = isinstance(event, Skip)
+        if isinstance(event, Call):
+            self.open.setdefault(event.thread, []).append(event)
+        return problem
+
+    def check_timeout(self, event: Timeout, before: int | None) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if not isinstance(step, _WAITS) or event.step in self.done:
+            return f"step {event.step} is not a wait"
+        if before is not None and event.t - before < self.shortest_wait:
+            return f"step {event.step} runs out of patience too early"
+        problem = self.check_turn(event.step, event.thread)
+        self.done[event.step] = True
+        return problem
+
+    def check_opened(self, event: Opened) -> str | None:
+        number = self.turns.next_open(event.gate, event.thread)
+        if number is None:
+            return f"gate {event.gate!r} is opened where no step does so"
+        problem = self.check_turn(number, event.thread)
+        self.done[number] = True
+        self.opened.add(event.gate)
+        return problem
+
+    def check_end(self, event: Return | Raise) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if isinstance(step, _OF_SCENARIO):
             return f"step {event.step} is no operation"
         frames = self.open.setdefault(event.thread, [])
-        if isinstance(event, Call | Skip):
-            if event.step in self.done:
-                return f"step {event.step} is carried out twice"
-            missing = [
-                v for v in used_by(step) if v not in self.bound or (isinstance(step, s.Invoke) and v in self.null)
-            ]
-            if isinstance(event, Skip) and event.variable not in missing:
-                return f"step {event.step} is skipped although {event.variable} is bound"
-            if isinstance(event, Call) and missing:
-                return f"step {event.step} is carried out although {missing[0]} is not bound"
-            if step.thread is None:
-                if event.step < self.last_inline:
-                    return f"step {event.step} comes after step {self.last_inline}"
-                self.last_inline = event.step
-            self.done[event.step] = isinstance(event, Skip)
-            if isinstance(event, Call):
-                frames.append(event)
-            return None
-        if not frames or not isinstance(frames[-1], Call) or frames[-1].step != event.step:
+        top = frames[-1] if frames else None
+        if not isinstance(top, Call) or top.step != event.step:
             return f"step {event.step} ends without being open on thread {event.thread}"
         frames.pop()
         self.done[event.step] = True
@@ -112,6 +203,12 @@ class _Check:
         if isinstance(step, s.GetPortElement):
             (self.null.add if event.value is None else self.null.discard)(step.bind)
         return self.check_value(step, event)
+
+    def step(self, event: Call | Skip | Return | Raise | Timeout) -> s.Step | str:
+        """The event's step, or that there is none."""
+        if not 0 <= event.step < len(self.scenario.steps):
+            return f"there is no step {event.step}"
+        return self.scenario.steps[event.step]
 
     def check_value(self, step: s.Step, event: Return) -> str | None:
         value = event.value
@@ -167,6 +264,8 @@ class _Check:
             acts[-1].append(s.QuerySiblings())
         if isinstance(event, Held):
             acts[-1].append(s.HoldAtGate(event.gate))
+            self.reached.add(event.gate)
+            self.waiting[event.thread] = event
             gates = {a.gate for a in declaration.plan.get(top.hook, ()) if isinstance(a, s.HoldAtGate)}
             return None if event.gate in gates else f"held at {event.gate!r}, which the plan does not name"
         return None

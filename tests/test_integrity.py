@@ -37,6 +37,8 @@ RICH = msgspec.convert(
             {"op": "get_components"},
             {"op": "open", "gate": "g"},
             {"op": "join", "worker": "w"},
+            {"op": "invoke", "ref": "nine", "value": 1, "thread": "w"},
+            {"op": "join", "worker": "w"},
             {"op": "invoke", "ref": "nine", "value": 1},
             {"op": "add_component", "component": "unheard-of"},
             {"op": "remove_component", "id": "unheard-of"},
@@ -45,7 +47,7 @@ RICH = msgspec.convert(
     },
     Scenario,
 )
-ADD, GET, CONNECT, START, REACH, LIST, SKIPPED, STOP = 0, 5, 8, 9, 11, 12, 17, 18
+ADD, GET, CONNECT, START, ENTRY, REACH, LIST, NINE, SKIPPED, STOP = 0, 5, 8, 9, 10, 11, 12, 15, 19, 20
 
 Events = list[Any]
 Edit = Callable[[Events], object]
@@ -124,11 +126,41 @@ def carry_out_what_cannot_be(events: Events) -> None:
     events.insert(where("skip") + 1, Return(0, 0, 0, SKIPPED))
 
 
+def on_thread(thread: int, *steps: int) -> Edit:
+    """An edit: these steps ran on another thread, with all that happened in them."""
+
+    def edit(events: Events) -> None:
+        for step in steps:
+            first, last = where("call", step=step), where("return", step=step)
+            own = events[first].thread
+            for index in range(first, last + 1):
+                if events[index].thread == own:
+                    events[index] = msgspec.structs.replace(events[index], thread=thread)
+
+    return edit
+
+
+def move(index: int, to: int) -> Edit:
+    """An edit: it happened at another time."""
+    return lambda events: events.insert(to, events.pop(index))
+
+
 STRANGER = Reference("server", 2, "in")
 LIES: dict[str, tuple[Edit, str]] = {
     "a step that is missing": (drop(where("call", step=ADD), where("return", step=ADD)), ""),
     "a step that never ends": (drop(where("raise", step=STOP)), "ended"),
     "a step that nobody asked for": (change("call", {"step": 99}, step=LIST), "no step 99"),
+    "a worker's step on the scenario's thread": (on_thread(0, ENTRY, NINE), "which is another one's"),
+    "a step of the scenario on another thread": (on_thread(7, LIST), "not on the scenario's own"),
+    "a worker on two threads": (on_thread(7, NINE), "others of 'w' on thread 1"),
+    "a step inside another one": (move(where("return", step=LIST), where("call", step=SKIPPED - 1) + 1), "is open on"),
+    "a gate nobody opened": (drop(where("opened")), "goes on although gate 'g' is closed"),
+    "a gate opened too late": (move(where("opened"), where("return", step=ENTRY)), "goes on although gate"),
+    "a gate opened twice": (lambda events: events.insert(0, events[where("opened")]), "no step does so"),
+    "another gate opened": (change("opened", {"gate": "h"}), "no step does so"),
+    "a wait for nobody": (move(where("held"), where("call", step=LIST)), "met nobody at 'g'"),
+    "a join that did not wait": (move(where("return", step=NINE), where("call", step=NINE + 2)), "'w' is not done"),
+    "patience that was not had": (insert(where("call", step=LIST), Timeout(0, 0, 0, REACH)), "too early"),
     "a step carried out twice": (change("call", {"step": ADD}, step=LIST), "twice"),
     "steps in another order": (
         lambda events: events.insert(0, events.pop(where("call", step=LIST))), "comes after"
@@ -169,7 +201,7 @@ LIES: dict[str, tuple[Edit, str]] = {
     "an interface the body does not have": (entered("steady", "set_container_interface"), "no fragment"),
     "a start without dependencies": (change("enter", {"dependencies": None}, hook="on_startup"), "without dependencies"),
     "dependencies out of place": (change("enter", {"dependencies": ()}, hook="on_init"), "with dependencies"),
-    "a hold that was left out": (drop(where("held")), "did not act"),
+    "a hold that was left out": (drop(where("held")), "met nobody"),
     "a question that was left out": (drop(where("siblings")), "did not act"),
     "another payload than planned": (change("request", {"value": 6}), "did not act"),
 }  # fmt: skip
@@ -202,6 +234,38 @@ def test_only_a_stuck_trace_may_break_off() -> None:
     for length in range(len(TRUTH)):
         assert contradiction(RICH, TRUTH[:length], stuck=True) is None
         assert (contradiction(RICH, TRUTH[:length]) is None) == (length == len(TRUTH))
+
+
+WAITING = msgspec.convert(
+    {
+        "components": {"slow": {"provides": ["in"], "plan": {"exchange": [{"do": "hold", "gate": "g"}]}}},
+        "steps": [
+            {"op": "add_component", "component": "slow"},
+            {"op": "get_port_element", "id": "slow", "port": "in", "bind": "api"},
+            {"op": "start"},
+            {"op": "reach", "gate": "g"},
+            {"op": "invoke", "ref": "api", "value": 1},
+            {"op": "open", "gate": "g"},
+        ],
+        "patience": 30,
+    },
+    Scenario,
+)
+
+
+def test_waits_end_when_patience_has_run_out() -> None:
+    answer = from_host_decoder().decode(Engine(ReferenceAdapter).answer(encode(Run(0, WAITING))))
+    assert isinstance(answer, Traced)
+    assert contradiction(WAITING, answer.events) is None
+    kinds = [type(event) for event in answer.events]
+    assert {Timeout, Held, Opened} <= set(kinds)
+    for kind, problem in (Timeout, "runs out of patience too early"), (Held, "goes on although gate 'g' is closed"):
+        index = kinds.index(kind)
+        hurried = [
+            msgspec.structs.replace(e, t=e.t - 25_000_000 if n >= index + (kind is Held) else e.t)
+            for n, e in enumerate(answer.events)
+        ]
+        assert problem in (contradiction(WAITING, hurried) or "")
 
 
 def test_plans_are_checked_by_what_bodies_really_got() -> None:

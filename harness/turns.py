@@ -1,0 +1,55 @@
+"""Whose turn it is: which steps of a scenario run on which thread of a trace, and in which order."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario
+
+
+class Turns:
+    """The steps of each worker, by number, and the threads that turned out to be theirs. ``None`` is the scenario itself."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self.steps: dict[str | None, list[int]] = {None: []}
+        for number, step in enumerate(scenario.steps):
+            self.steps.setdefault(step.thread, []).append(number)
+        self._scenario = scenario
+        self._threads: dict[str | None, int] = {None: 0}
+        self._next: dict[str | None, int] = {}
+        self._passed: list[int] = []
+
+    def begin(self, number: int, thread: int) -> str | None:
+        """Step ``number`` begins on ``thread``; why it cannot be so."""
+        worker = self._scenario.steps[number].thread
+        if thread != self._threads.get(worker, thread):
+            if worker is None:
+                return f"step {number} runs on thread {thread}, not on the scenario's own"
+            return f"step {number} runs on thread {thread}, others of '{worker}' on thread {self._threads[worker]}"
+        if thread in self._threads.values() and worker not in self._threads:
+            return f"step {number} of '{worker}' runs on thread {thread}, which is another one's"
+        self._threads[worker] = thread
+        first = self._next.get(worker, 0)
+        place = self.steps[worker].index(number)
+        if place < first:
+            return f"step {number} comes after step {self.steps[worker][first - 1]}"
+        self._passed = self.steps[worker][first:place]
+        self._next[worker] = place + 1
+        return None
+
+    @property
+    def passed(self) -> list[int]:
+        """The steps between the one that began last and the one before it on the same thread."""
+        return self._passed
+
+    def next_open(self, gate: str, thread: int) -> int | None:
+        """The step that can have opened ``gate`` on ``thread``, waits apart the next one there."""
+        for worker in self.steps:
+            if self._threads.get(worker, thread) != thread or (worker not in self._threads and thread == 0):
+                continue
+            for number in self.steps[worker][self._next.get(worker, 0) :]:
+                step = self._scenario.steps[number]
+                if isinstance(step, s.OpenGate) and step.gate == gate:
+                    return number
+                if not isinstance(step, s.ReachGate | s.Join):
+                    break
+        return None
