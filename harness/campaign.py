@@ -13,6 +13,7 @@ from ucm_cts.harness import shrink
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.driver import Answer, Driver
 from ucm_cts.harness.known_failures import KnownFailure
+from ucm_cts.harness.payloads import Payloads
 from ucm_cts.harness.results import Execution, IncidentKind, Report
 from ucm_cts.harness.scripts import TestPurpose
 from ucm_cts.harness.tally import Cause, Tally, cause_of, finding_of_incident, overall
@@ -41,6 +42,7 @@ class Campaign:
         self._known = known_failures
         self._judge = Judge(load_life_cycle())
         self._tally = Tally()
+        self._payloads = Payloads(driver.seed)
         self._began = time.monotonic()
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
 
@@ -51,7 +53,8 @@ class Campaign:
         def cases() -> Iterator[tuple[str, Scenario]]:
             for purpose in purposes:
                 queue.append(purpose)
-                yield from purpose.scenarios
+                for name, scenario in purpose.scenarios:
+                    yield name, self._payloads.deal(scenario)
 
         answers = self._driver.run(cases())
         failures: list[tuple[Finding | None, Execution]] = []

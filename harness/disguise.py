@@ -16,11 +16,11 @@ import msgspec
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Scenario, Step
 from ucm_cts.harness.locate import WrongUse
+from ucm_cts.harness.payloads import EDGES, LARGEST
 
 T = TypeVar("T")
 
 _LETTERS = "bcdfghjklmnpqrstvwxz"
-_LONGEST_PAYLOAD = 2**31 - 1
 
 
 class Disguise:
@@ -79,9 +79,15 @@ class Disguise:
         return spelled
 
     def _value(self, plain: int) -> int:
+        if plain in EDGES:
+            return plain
         value = self._values.get(plain)
         if value is None:
-            value = self._random.randrange(10**9, _LONGEST_PAYLOAD)
+            value = self._random.randrange(10**9, LARGEST)
+            while str(value) in self._plain:
+                value = self._random.randrange(10**9, LARGEST)
+            if plain < 0:
+                value = ~value
             self._values[plain] = value
             self._remember(str(value), str(plain))
             self._remember(str(~value), str(~plain))

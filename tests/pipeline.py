@@ -12,6 +12,7 @@ from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.disguise import Disguise
 from ucm_cts.harness.integrity import contradiction
+from ucm_cts.harness.payloads import Payloads
 from ucm_cts.harness.purposes import load_purposes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
@@ -40,11 +41,11 @@ def failing_requirements(adapter: type[Adapter]) -> dict[str, str]:
 @functools.cache
 def _prepared() -> dict[bytes, tuple[str, Scenario]]:
     """The suite's scenarios by what a host is sent; those that several test purposes share are there once."""
-    disguise = Disguise(1, "{port}_{element}")
+    disguise, payloads = Disguise(1, "{port}_{element}"), Payloads(1)
     prepared: dict[bytes, tuple[str, Scenario]] = {}
     for purpose in load_purposes("container"):
         for name, plain in purpose.scenarios:
-            scenario = disguise.scenario(plain)
+            scenario = disguise.scenario(payloads.deal(plain))
             prepared.setdefault(encode(Run(0, scenario)), (name, scenario))
     return prepared
 
