@@ -6,7 +6,7 @@ rows of the table, and the shortest ways to each row become the scenarios of tha
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -15,9 +15,10 @@ from ucm_cts.adapters.contract.scenario import ContainerCall, Declaration, Scena
 from ucm_cts.harness.scripts import TestPurpose, used_by
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, Row
 from ucm_cts.reference_models.prediction import Prediction
+from ucm_cts.reference_models.runtime import Member
 
 WAYS_TO_A_ROW = 4
-"""Scenarios kept for each row and set of components; the shortest are taken."""
+"""Scenarios kept for each row, set of components and kind of instance it stands for; the shortest are taken."""
 
 _DEEPEST = 9
 _SERVER = Declaration(provides=("in.api",), connectable=True)
@@ -60,7 +61,8 @@ def _clause(row: Row) -> str:
 
 
 def _explore(table: LifeCycleTable, cast: Cast) -> Iterator[tuple[str, int, Scenario]]:
-    kept: dict[str, int] = {}
+    numbers: dict[str, int] = {}
+    kept: Counter[object] = Counter()
     seen: set[object] = set()
     queue: deque[tuple[ContainerCall, ...]] = deque([()])
     while queue:
@@ -71,10 +73,12 @@ def _explore(table: LifeCycleTable, cast: Cast) -> Iterator[tuple[str, int, Scen
         for step in cast.probes + cast.moves:
             if not _bound(now, step):
                 continue
-            for row_id in dict.fromkeys(row.id for _, row in now.look(step).roles):
-                if kept.get(row_id, 0) < WAYS_TO_A_ROW:
-                    kept[row_id] = kept.get(row_id, 0) + 1
-                    yield row_id, kept[row_id], Scenario(cast.components, (*path, step, *_afterwards(step)))
+            kinds = dict.fromkeys((row.id, *_kind(now, member)) for member, row in now.look(step).roles)
+            new = {row_id for row_id, *kind in kinds if kept[row_id, *kind] < WAYS_TO_A_ROW}
+            kept.update(kinds.keys())
+            for row_id in sorted(new):
+                numbers[row_id] = numbers.get(row_id, 0) + 1
+                yield row_id, numbers[row_id], Scenario(cast.components, (*path, step, *_afterwards(step)))
         if len(path) == _DEEPEST:
             continue
         for step in cast.moves:
@@ -85,6 +89,13 @@ def _explore(table: LifeCycleTable, cast: Cast) -> Iterator[tuple[str, int, Scen
             if key not in seen:
                 seen.add(key)
                 queue.append((*path, step))
+
+
+def _kind(now: Prediction, member: Member | None) -> tuple[bool, ...]:
+    """What makes instances in one row differ: are they connected, used by others, have they been started before?"""
+    if member is None:
+        return ()
+    return bool(member.live_connections()), any(now.runtime.clients_of([member])), member.startups > 0
 
 
 def _replay(table: LifeCycleTable, cast: Cast, path: tuple[ContainerCall, ...]) -> Prediction:
@@ -156,6 +167,7 @@ def _casts() -> Iterator[Cast]:
     yield _loose_client()
     yield _containers()
     yield _across()
+    yield _strangers()
     for hook in ("on_init", "on_startup", "on_shutdown", "on_remove"):
         yield _failing(hook)
 
@@ -341,7 +353,39 @@ def _across() -> Cast:
             s.Start("back"),
             s.Start(),
         ),
-        (s.RemoveComponent("server", "back"), s.RemoveContainer("back"), s.Stop("back"), s.Stop(), s.Destroy()),
+        (
+            s.RemoveComponent("server", "back"),
+            s.RemoveContainer("back"),
+            s.Stop("back"),
+            s.Stop(),
+            s.Destroy(),
+            s.RemoveComponent("client", "back"),
+            s.Disconnect("link", "back"),
+        ),
+    )
+
+
+def _strangers() -> Cast:
+    """Identifiers are used with a container that did not give them out."""
+    return Cast(
+        "strangers",
+        {"server": _SERVER, "client": Declaration(("in.api",), ("out.api",), {}, True)},
+        (
+            s.CreateContainer("one"),
+            s.CreateContainer("two"),
+            s.AddComponent("server", "one"),
+            s.AddComponent("client", "two"),
+            s.GetPortElement("server", "in.api", "api", "one"),
+            s.Connect("client", "out.api", "api", "link", "two"),
+            s.Start("one"),
+            s.Start("two"),
+        ),
+        (
+            s.RemoveComponent("client", "one"),
+            s.GetPortElement("client", "in.api", "x", "one"),
+            s.Connect("client", "out.api", "api", "x", "one"),
+            s.Disconnect("link", "one"),
+        ),
     )
 
 

@@ -74,8 +74,9 @@ def _found(runtime: Runtime, window: Window, step: s.GetPortElement, end: Return
     if isinstance(end, Return):
         recognised = isinstance(end.value, Reference) or end.value == "opaque"
         reference: MaybeReference = end.value if recognised else None  # type: ignore[assignment]
-        runtime.references[step.bind] = (reference, window.subject)
-        runtime.ports[step.bind] = step.port
+        owner = runtime.provider_of(reference)
+        runtime.references[step.bind] = (reference, owner or window.subject)
+        runtime.ports[step.bind] = reference.port if isinstance(reference, Reference) and owner else step.port
 
 
 def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | Raise) -> None:

@@ -127,7 +127,12 @@ def disabled_ports(
 ) -> None:
     """Before start was called on its container, no component is called by another one or by the framework."""
     member = runtime.member_of(event.component, event.instance)
-    if member is None or (call is not None and call.step is not None) or (member.startups and not member.operational):
+    if call is not None and call.step is not None:
+        return
+    if member is None:
+        _called_while_added(ledger, window, event, call)
+        return
+    if member.startups and not member.operational:
         return
     container = member.container
     starting = window is not None and window.operation == "start"
@@ -151,6 +156,27 @@ def disabled_ports(
         (event.n,),
         window.step_number if window else None,
         (Arrow("test", container.name, "start"), Arrow(caller, member.lane, "exchange")),
+    )
+
+
+def _called_while_added(ledger: Ledger, window: Window | None, event: Enter, call: BusinessCall | None) -> None:
+    """The body is one that add_component is just making, in a container that is not started."""
+    step = window.step if window is not None else None
+    if window is None or not isinstance(step, s.AddComponent) or step.component != event.component:
+        return
+    if window.container.started is not False:
+        return
+    who = lane(event.component, event.instance)
+    caller = call.request.component if call is not None and call.request is not None else "the framework"
+    ledger.violated(
+        "R-11.2.3-02",
+        "disabled_ports",
+        "called while added",
+        f"{who} is not called before its container {window.container.name} is started",
+        f"{caller} called {who}'s {event.port} during add_component",
+        (event.n,),
+        window.step_number,
+        (Arrow("test", window.container.name, "start"), Arrow(caller, who, "exchange")),
     )
 
 

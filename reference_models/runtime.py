@@ -199,26 +199,35 @@ class Runtime:
         return first is not None and second is not None and first[1] == second[1] and first[0] < second[0]
 
     def find_member(self, container: Container, variable: str) -> tuple[Member | None, str]:
-        """The live instance that the id in ``variable`` designates in ``container``, else None and why."""
+        """The live instance that the id in ``variable`` designates in ``container``, else None and why.
+
+        The manager may know the members of its sub-containers.
+        """
         if variable == UNKNOWN or variable not in self.members:
             return None, "never existed"
         wanted = self.members[variable]
         for member in container.members:
             if not member.gone and member.id == wanted.id:
                 return member, ""
-        return None, "already removed" if wanted.gone else "never existed"
+        if wanted.gone:
+            return None, "already removed"
+        return (wanted, "") if container.name == MANAGER else (None, "of another container")
 
-    def find_connection(self, variable: str) -> tuple[Connection | None, str]:
-        """The connection, perhaps undone already, that the id in ``variable`` designates, else None and why."""
+    def find_connection(self, container: Container, variable: str) -> tuple[Connection | None, str]:
+        """The connection, perhaps undone already, that the id in ``variable`` designates in ``container``, else None and why.
+
+        The manager may know the connections of its sub-containers.
+        """
         if variable == UNKNOWN or variable not in self.connections:
             return None, "never existed"
         wanted = self.connections[variable]
-        if wanted.live is not False:
-            return wanted, ""
-        for other in self.all_connections():
-            if other.live is not False and other.id == wanted.id and other.client.container is wanted.client.container:
-                return other, ""
-        return None, "already undone"
+        of_that_id = [c for c in self.all_connections() if c.live is not False and c.id == wanted.id]
+        for connection in (wanted, *of_that_id):
+            if connection.live is not False and connection.client.container is container:
+                return connection, ""
+        if wanted.live is False:
+            return None, "already undone"
+        return (wanted, "") if container.name == MANAGER else (None, "of another container")
 
     def all_connections(self) -> Iterator[Connection]:
         """Every connection ever made."""

@@ -48,6 +48,8 @@ class Situations:
             window.judged = False
             return window
         self._looks[operation](runtime, window, step)
+        if window.subject is not None and window.subject.container is not container:
+            window.judged = False
         self._other_phases(runtime, window)
         for member, _ in window.roles:
             if member is not None and member.suspended:
@@ -184,9 +186,9 @@ class Situations:
         return "last port" if member.declaration.connectable else "last port, not Connectable"
 
     def _disconnect(self, runtime: Runtime, window: Window, step: s.Disconnect) -> None:
-        connection, why = runtime.find_connection(step.connection)
-        if connection is None or connection.client.container is not window.container:
-            self._role(window, None, "absent", (why or "never existed") + _late(window))
+        connection, why = runtime.find_connection(window.container, step.connection)
+        if connection is None:
+            self._role(window, None, "absent", why + _late(window))
             return
         window.connection = connection
         member = window.subject = connection.client

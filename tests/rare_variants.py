@@ -85,6 +85,28 @@ class lists_what_is_being_added(Base):
             raise
 
 
+@variant
+class manager_knows_everyone(Base):
+    """The manager carries out what concerns members and connections of its sub-containers."""
+
+    def _find_member(self, number: int) -> Member:
+        for container in self.manager.sub_containers if self is self.manager else ():
+            if number in container.members:
+                return container.members[number]
+        return super()._find_member(number)
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        if member.container is self:
+            super()._remove(member, failures)
+        else:
+            member.container._remove(member, failures)
+
+    def disconnect(self, connection: int) -> None:
+        found = self.manager.connections.get(connection)
+        container = found.client.container if found is not None and self is self.manager else self
+        Container.disconnect(container, connection)
+
+
 # what is left half-way when something fails
 
 

@@ -79,6 +79,47 @@ class calls_the_first_provider(_HandsOver):
         ]
 
 
+class _Unsigned(Proxy):
+    def exchange(self, value: int) -> int:
+        return self.target.exchange(abs(value))
+
+
+@breaks("R-11.1.3-01", "R-11.1.2-02")
+class drops_the_sign(_HandsOver):
+    """A component that is sent a negative payload by another one receives a positive one."""
+
+    proxy = _Unsigned
+
+
+class _Clipped(Proxy):
+    def exchange(self, value: int) -> int:
+        return self.target.exchange(max(value, 1 - 2**31))
+
+
+@breaks("R-11.1.3-01", "R-11.1.2-02")
+class loses_the_smallest(_HandsOver):
+    """The smallest payload arrives as the second smallest."""
+
+    proxy = _Clipped
+
+
+@breaks("R-11.1.3-01", "R-11.1.2-02")
+class calls_the_first_element(Base):
+    """Calls between components reach the provider's first port element, whichever is connected."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(_Plain(self._first(t), member) for t in d.to_port)) for d in given]
+
+    def _first(self, target: PortElementObject | None) -> PortElementObject:
+        containers = (self.manager, *self.manager.sub_containers)
+        bodies = [(m.body, m.implementation.provides) for c in containers for m in c.members.values()]
+        owners = [b.get_portElement(ports[0]) for b, ports in bodies if target in map(b.get_portElement, ports)]
+        element = owners[0] if owners else target
+        assert element is not None
+        return element
+
+
 class _Cut(Proxy):
     def exchange(self, value: int) -> int:
         raise UcmError("stopped")
@@ -96,7 +137,7 @@ class is_dead_after_restart(Base):
         return [PortConnection(d.from_port, tuple(_Cut(t, member) for t in d.to_port if t)) for d in given]
 
 
-@breaks("R-11.2.2.1-06")
+@breaks("R-11.2.2.1-06", also=("R-11.1.3-01", "R-11.1.2-02"))
 class any_proxy_will_do(GivesOutProxies):
     """get_port_element gives a proxy of the first provided port element whatever the name; only calls show it."""
 
@@ -110,7 +151,40 @@ class any_proxy_will_do(GivesOutProxies):
         return _Plain(first, member)
 
 
-@breaks("R-11.2.1.2-07")
+class _Dead(PortElementObject):
+    def exchange(self, value: int) -> int:
+        raise UcmError("given out before")
+
+
+@breaks("R-11.2.1.2-07", "R-11.2.3-03")
+class gives_references_once(Base):
+    """Who asks for a port element again gets a reference that refuses every call, also of components."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(comp_instance, port_name)
+        given: set[tuple[int, str]] = self.__dict__.setdefault("given", set())
+        if (comp_instance, port_name) in given:
+            return _Dead()
+        given.add((comp_instance, port_name))
+        return element
+
+
+@breaks("R-11.2.2.1-06")
+class confuses_twins_after_removals(Base):
+    """Once a component was removed, get_port_element gives that of the first instance of the implementation."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(comp_instance, port_name)
+        wanted = self.members[comp_instance].implementation
+        twin = next(m for m in self.members.values() if m.implementation is wanted)
+        return (twin.body.get_portElement(port_name) or element) if self.__dict__.get("removed") else element
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        super()._remove(member, failures)
+        self.__dict__["removed"] = True
+
+
+@breaks("R-11.2.1.2-07", also=("R-11.1.3-01", "R-11.2.3-14"))
 class any_twin_will_do(GivesOutProxies):
     """get_port_element gives a proxy of the first instance of the implementation."""
 
@@ -160,6 +234,18 @@ class fragments_get_nothing(Base):
 
     def _dependencies_of(self, member: Member) -> list[PortConnection]:
         return [] if isinstance(member.body, FragmentObject) else super()._dependencies_of(member)
+
+
+@breaks("R-11.2.3-02")
+class tries_new_components(Base):
+    """add_component calls the new body once, to see that it answers."""
+
+    def _initialise(self, member: Member) -> None:
+        super()._initialise(member)
+        for port in member.implementation.provides:
+            element = member.body.get_portElement(port)
+            if element is not None:
+                element.exchange(0)
 
 
 @breaks("R-11.2.1.2-09")
@@ -245,6 +331,33 @@ class confuses_removed_ids(Base):
         if comp_instance in self.__dict__.get("removed", []) and comp_instance not in self.members and self.members:
             comp_instance = list(self.members)[-1]
         return super().get_port_element(comp_instance, port_name)
+
+
+@breaks("R-12.10-15", also=("R-11.1.3-04",))
+class finds_members_elsewhere(Base):
+    """Component ids work with every container of the runtime."""
+
+    def _find_member(self, number: int) -> Member:
+        for container in (self.manager, *self.manager.sub_containers):
+            if number in container.members:
+                return container.members[number]
+        return super()._find_member(number)
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        if member.container is self:
+            super()._remove(member, failures)
+        else:
+            member.container._remove(member, failures)
+
+
+@breaks("R-12.10-16", also=("R-11.1.3-04",))
+class undoes_connections_elsewhere(Base):
+    """Connection ids work with every container of the runtime."""
+
+    def disconnect(self, connection: int) -> None:
+        found = self.manager.connections.get(connection)
+        container = found.client.container if found is not None else self
+        Container.disconnect(container, connection)
 
 
 # attributes and fragments
@@ -410,6 +523,17 @@ class drops_both_connections(appends_connections):
                 del self.manager.connections[other.id]
 
 
+@breaks("R-11.2.3-06", also=("R-11.2.2.1-10", "R-11.2.3-10"))
+class loses_connections_when_idle(Base):
+    """stop of a container that is not started loses the connections of its members, and tells nobody."""
+
+    def stop(self) -> None:
+        for member in () if self.is_started else self.members.values():
+            for connection in self._connections_from(member):
+                del self.manager.connections[connection.id]
+        super().stop()
+
+
 # removal of containers
 
 
@@ -435,6 +559,22 @@ class leaves_the_rest_ready(Base):
             self._shut_down(self.started.pop(), failures)
         self.started.clear()
         self.is_started = False
+
+
+@breaks("R-11.2.2.2-01", also=("R-11.2.3-07",))
+class never_recovers_from_a_failing_stop(Base):
+    """After a failing on_shutdown the container counts as started for good: stop and start return and do nothing."""
+
+    def stop(self) -> None:
+        try:
+            super().stop()
+        except UcmError:
+            self.__dict__["stuck"] = True
+            raise
+
+    def start(self) -> None:
+        if not self.__dict__.get("stuck"):
+            super().start()
 
 
 @breaks("R-11.2.1.2-10")
