@@ -62,7 +62,7 @@ def _clause(row: Row) -> str:
 
 def _explore(table: LifeCycleTable, cast: Cast) -> Iterator[tuple[str, int, Scenario]]:
     numbers: dict[str, int] = {}
-    kept: Counter[object] = Counter()
+    kept: Counter[tuple[str, tuple[bool, ...]]] = Counter()
     seen: set[object] = set()
     queue: deque[tuple[ContainerCall, ...]] = deque([()])
     while queue:
@@ -73,10 +73,10 @@ def _explore(table: LifeCycleTable, cast: Cast) -> Iterator[tuple[str, int, Scen
         for step in cast.probes + cast.moves:
             if not _bound(now, step):
                 continue
-            kinds = dict.fromkeys((row.id, *_kind(now, member)) for member, row in now.look(step).roles)
-            new = {row_id for row_id, *kind in kinds if kept[row_id, *kind] < WAYS_TO_A_ROW}
-            kept.update(kinds.keys())
-            for row_id in sorted(new):
+            seen_now = {(row.id, _kind(now, member)) for member, row in now.look(step).roles}
+            wanted = {row_id for row_id, kind in seen_now if kept[row_id, kind] < WAYS_TO_A_ROW}
+            kept.update(seen_now)
+            for row_id in sorted(wanted):
                 numbers[row_id] = numbers.get(row_id, 0) + 1
                 yield row_id, numbers[row_id], Scenario(cast.components, (*path, step, *_afterwards(step)))
         if len(path) == _DEEPEST:

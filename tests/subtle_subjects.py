@@ -61,14 +61,14 @@ class _Remembers(Proxy):
         return self.result
 
 
-@breaks("R-11.1.3-01")
+@breaks("R-11.1.3-01", also=("R-11.1.2-02",))
 class calls_once(_HandsOver):
     """Only the first call through a connection reaches the other component; later ones get its result again."""
 
     proxy = _Remembers
 
 
-@breaks("R-11.1.3-01")
+@breaks("R-11.1.3-01", also=("R-11.1.2-02",))
 class calls_the_first_provider(_HandsOver):
     """Calls through any required port element reach the provider of the first one."""
 
@@ -200,7 +200,7 @@ class any_twin_will_do(GivesOutProxies):
 # what on_startup gets
 
 
-@breaks("R-11.2.1.2-03", "R-11.1.3-01")
+@breaks("R-11.2.1.2-03", "R-11.1.3-01", also=("R-11.1.2-02",))
 class mixes_twins_up(Base):
     """Of two clients of one implementation the second is given the first one's references, and so calls the wrong one."""
 
@@ -517,7 +517,8 @@ class drops_both_connections(appends_connections):
     """Undoing one of a port element's two connections undoes both; for the other one on_disconnect never comes."""
 
     def _disconnect(self, connection: Connection, failures: Failures) -> None:
-        super()._disconnect(connection, failures)
+        if connection.id in self.manager.connections:
+            super()._disconnect(connection, failures)
         for other in self._connections_from(connection.client):
             if other.port == connection.port:
                 del self.manager.connections[other.id]

@@ -219,7 +219,7 @@ class starts_what_was_removed(Base):
             Failures().attempt(ghost.body.on_startup, [])
 
 
-@breaks("R-11.2.1.2-03", also=("R-11.1.3-01",))
+@breaks("R-11.2.1.2-03", also=("R-11.1.3-01", "R-11.1.2-02"))
 class mixes_references_up(Base):
     """Hands over the references of two port elements in reverse."""
 
@@ -423,7 +423,7 @@ class makes_two_bodies(Base):
         member.implementation.create().on_init()
 
 
-@breaks("R-11.2.2.1-03")
+@breaks("R-11.2.2.1-03", also=("R-11.2.2.1-06",))
 class same_id_for_all(Base):
     """A second instance of an implementation is given the id of the first."""
 
@@ -491,7 +491,8 @@ class refuses_to_disconnect(Base):
     """disconnect of a live connection is refused."""
 
     def disconnect(self, connection: int) -> None:
-        if connection in self.manager.connections and not self.is_started:
+        found = self.manager.connections.get(connection)
+        if found is not None and found.client.container is self and not self.is_started:
             raise UcmError("never")
         super().disconnect(connection)
 
@@ -621,7 +622,7 @@ class refuses_to_end(Base):
 # clause 11.2.3
 
 
-@breaks("R-11.2.3-01", "R-11.2.3-02")
+@breaks("R-11.2.3-01", "R-11.2.3-02", also=("R-11.2.1.2-10", "R-11.2.2.1-11", "R-11.2.2.2-01"))
 class starts_when_connected(Base):
     """A component is started as soon as its last required port element is connected."""
 
