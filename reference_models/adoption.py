@@ -17,6 +17,8 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
         _lose_track(window)
     if window.callbacks:
         for member in runtime.everyone:
+            if window.operation in ("remove_component", "remove_container") and _in_doubt(window, member):
+                member.suspended = True
             if member.suspended:
                 _follow(window, member)
 
@@ -311,6 +313,12 @@ def _reached_unseen(runtime: Runtime, container: Container) -> None:
         for other in runtime.containers.values():
             if other is not container and not other.live_members():
                 other.started = None
+
+
+def _in_doubt(window: Window, member: Member) -> bool:
+    """Was it told something, and may it be of a connection of which nobody knows whether it stood?"""
+    heard = (member.component, member.instance) in window.by_body
+    return heard and not member.gone and any(c.live is None for c in member.connections)
 
 
 def _follow(window: Window, member: Member) -> None:

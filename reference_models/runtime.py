@@ -92,8 +92,12 @@ class Member:
             return "absent"
         if self.operational:
             return "ready"
-        connected = {c.port for c in self.connections if c.live}
-        return "configured" if connected.issuperset(self.declaration.requires) else "initialized"
+        return "configured" if self.connected else "initialized"
+
+    @property
+    def connected(self) -> bool:
+        """Is every required port element certainly connected?"""
+        return {c.port for c in self.connections if c.live}.issuperset(self.declaration.requires)
 
 
 @dataclass(slots=True, eq=False)

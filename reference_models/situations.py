@@ -62,7 +62,7 @@ class Situations:
         if window.operation in _CONFIGURING:
             window.forgiving = window.forgiving or any(c.started is not False for c in others)
         elif window.operation == "start":
-            unready = any(m.state == "initialized" or m.suspended for c in others for m in c.live_members())
+            unready = any(not m.connected or m.suspended for c in others for m in c.live_members())
             window.forgiving = window.forgiving or unready
 
     def _role(self, window: Window, member: Member | None, state: State, condition: str, operation: str = "") -> None:

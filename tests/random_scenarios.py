@@ -61,12 +61,14 @@ class Writer:
         self.holding = self.threaded and self.choose((False, True))
         for name in ("ann", "bob", "cyd", "dan")[: self.choose((2, 3, 4, 1))]:
             self.components[name] = self.declaration(failing)
+        if self.choose((False, True)):
+            self.assemble()
         for _ in range(self.choose((6, 10, 14, 20, 28))):
             getattr(self, self.choose(_OPERATIONS))()
         return Scenario(self.components, tuple(self.steps), patience=20)
 
     def declaration(self, failing: bool) -> Declaration:
-        level = self.choose((0, 0, 0, 1, 2))
+        level = self.choose((0, 0, 1, 1, 2))
         provides = [f"p{level}.{e}" for e in self.choose(("x", "xy", ""))]
         requires = [f"r{level}.{e}" for e in self.choose(("", "x", "xy"))]
         fragment = self.choose((False, False, True))
@@ -121,9 +123,23 @@ class Writer:
 
     # operations
 
+    def assemble(self) -> None:
+        """An application that could run: all of it connected, and perhaps started."""
+        for _ in range(self.choose((0, 0, 1, 2))):
+            self.box()
+        for component in (*self.components, *self.components)[: self.choose((2, 3, 4, 5))]:
+            self.add_to(component, self.container())
+        for client in tuple(self.members):
+            self.link_from(client)
+        for container in (*self.boxes, s.MANAGER):
+            if self.choose((True, True, False)):
+                self.put(s.Start(container))
+
     def add(self) -> None:
-        component = self.rarely(self.choose(tuple(self.components)), "nobody")
-        container, bind = self.container(), self.name("m", tuple(self.members))
+        self.add_to(self.rarely(self.choose(tuple(self.components)), "nobody"), self.container())
+
+    def add_to(self, component: str, container: str) -> None:
+        bind = self.name("m", tuple(self.members))
         self.members[bind] = (component, container)
         self.put(s.AddComponent(component, container, bind, thread=self.thread()))
 
@@ -170,16 +186,24 @@ class Writer:
     def link(self) -> None:
         """Look a port element up and connect something to it."""
         clients = [m for m, (c, _) in self.members.items() if self.required(c)]
-        servers = [m for m, (c, _) in self.members.items() if c in self.components and self.components[c].provides]
-        if not clients or not servers:
+        if clients:
+            self.link_from(self.choose(clients))
+        else:
             self.add()
-            return
-        client, server = self.choose(clients), self.choose(servers)
+
+    def link_from(self, client: str) -> None:
         component, container = self.members[client]
-        provided = self.choose(self.components[self.members[server][0]].provides)
         for port in self.required(component):
-            if self.goes_down(port, provided):
-                to = self.find_port(server, self.members[server][1], provided)
+            servers = [
+                (server, box, provided)
+                for server, (c, box) in self.members.items()
+                if c in self.components
+                for provided in self.components[c].provides
+                if self.goes_down(port, provided)
+            ]
+            if servers:
+                server, box, provided = self.choose(servers)
+                to = self.find_port(server, box, provided)
                 bind = self.name("c", tuple(self.connections))
                 self.connections[bind] = container
                 self.put(s.Connect(client, port, to, bind, container))

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import more_variants  # noqa: F401 - registers its variants
 import msgspec
+import phase_variants  # noqa: F401 - registers its variants
 import pytest
 import rare_variants  # noqa: F401 - registers its variants
 import subtle_subjects  # noqa: F401 - registers its subjects
@@ -30,7 +31,12 @@ from ucm_cts.harness.scripts import read_scripts, to_scenario
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
 
+WAITING = ("calls_wait_for_the_start", "starts_all_at_a_time")
+"""Variants that may wait for ever where a scenario calls too early or a body raises."""
+
 CONFORMANT: dict[str, type[Adapter]] = {"reference": ReferenceAdapter, **VARIANTS}
+for waiting in WAITING:
+    CONFORMANT.pop(waiting, None)
 WRONG = [subject.adapter for subject in SUBJECTS.values()]
 SOME = 20
 """One of so many wrong subjects takes part in each example."""
@@ -86,7 +92,7 @@ def assert_nobody_fails(scenario: Scenario) -> None:
         assert not findings, (name, findings, timeless)
 
 
-@examples(200)
+@examples(150)
 @given(scenarios())
 def test_no_conformant_variant_is_ever_failed(scenario: Scenario) -> None:
     assert_nobody_fails(scenario)
@@ -97,7 +103,7 @@ def test_conformant_variants_once_failed_are_failed_no_more(name: str) -> None:
     assert_nobody_fails(to_scenario(ONCE_FAILED[name]))
 
 
-@examples(250)
+@examples(200)
 @given(scenarios(), st.integers(0, SOME - 1))
 def test_findings_about_wrong_subjects_name_what_is_there(scenario: Scenario, first: int) -> None:
     for trace, _ in traces_of_wrong_subjects(scenario, first):
@@ -110,7 +116,7 @@ def test_findings_about_wrong_subjects_name_what_is_there(scenario: Scenario, fi
             assert finding.observed
 
 
-@examples(250)
+@examples(200)
 @given(scenarios(), st.integers(0, SOME - 1), MUTATIONS, st.booleans())
 def test_a_changed_trace_is_refused_or_judged(
     scenario: Scenario, first: int, mutations: Sequence[Mutation], stuck: bool
