@@ -277,6 +277,14 @@ class forgets_the_fifth(Base):
         return [*order[:4], *order[5:]]
 
 
+@breaks("R-11.2.2.1-11", also=("R-11.2.1.4-01",))
+class starts_sixteen(Base):
+    """start reaches sixteen members and no more."""
+
+    def _start_order(self) -> Sequence[Member]:
+        return list(super()._start_order())[:16]
+
+
 @breaks("R-11.2.2.1-13")
 class swaps_the_last_two(Base):
     """Of three or more members the two started last are shut down in the order of their start."""
@@ -400,6 +408,30 @@ class shows_fragments_the_manager(Base):
         self._set_attributes(member, attributes)
         if isinstance(member.body, FragmentObject):
             member.body.set_container_interface(self.manager)
+        self._initialise(member)
+
+
+class _Remembered:
+    """What a container listed when it was first asked."""
+
+    def __init__(self, container: Container) -> None:
+        self.container = container
+        self.listed: list[int] | None = None
+
+    def get_components(self) -> list[int]:
+        if self.listed is None:
+            self.listed = self.container.get_components()
+        return self.listed
+
+
+@breaks("R-11.2.1.4-03")
+class shows_fragments_the_past(Base):
+    """What a fragment once learnt of its container's members it is told ever after."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        self._set_attributes(member, attributes)
+        if isinstance(member.body, FragmentObject):
+            member.body.set_container_interface(_Remembered(self))
         self._initialise(member)
 
 
