@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import subprocess
+import sys
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ import pytest
 from command_line import within
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.messages import Refused, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Return, Siblings, Trace
 from ucm_cts.adapters.reference_cpp import COMMAND
@@ -26,6 +28,7 @@ from ucm_cts.harness.scripts import load_scripts
 from ucm_cts.reference_models.judgement import Judge
 
 GENERATED = 60
+PYTHON = "ucm_cts.adapters.reference_py.adapter:ReferenceAdapter"
 
 
 @dataclass(frozen=True)
@@ -121,6 +124,36 @@ def listening(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
         assert server.stdout
         yield server.stdout.readline().removeprefix("listening on ").strip()
         server.terminate()
+
+
+STEP = '{"type":"run","id":7,"scenario":{"components":{},"steps":[%s]}}'
+PART = '{"type":"run","id":7,"scenario":{"components":{"A":{%s}},"steps":[]}}'
+REFUSED: dict[str, int | None] = {
+    '{"type":"hello","protocol":2}': None,
+    '{"type":"hello","protocol":18446744073709551616}': None,
+    '{"type":"run","id":18446744073709551616,"scenario":{"components":{},"steps":[]}}': None,
+    '{"type":"run","id":7}': 7,
+    '{"type":"run","id":7,"scenario":{"components":{},"steps":[],"patience":18446744073709551616}}': 7,
+    STEP % '{"op":"dance"}': 7,
+    STEP % '{"op":"invoke","ref":"nil","value":2147483648}': 7,
+    PART % '"provides":["p","p"]': 7,
+    PART % '"provides":["p"],"requires":["p"]': 7,
+    PART % '"plan":{"exchange":[{"do":"return","value":-2147483649}]}': 7,
+    "nonsense": None,
+}
+
+
+def test_hosts_refuse_the_same_and_say_which_message() -> None:
+    lines = "".join(f"{line}\n\n" for line in REFUSED)
+    for command in [COMMAND], [sys.executable, "-m", "ucm_cts.adapters.python.host", PYTHON]:
+        done = subprocess.run(command, input=lines, capture_output=True, text=True, check=True)
+        answers = [from_host_decoder().decode(line) for line in done.stdout.splitlines()]
+        assert len(answers) == len(REFUSED)
+        for answer, (line, number) in zip(answers, REFUSED.items(), strict=True):
+            assert isinstance(answer, Refused), line
+            assert answer.id == number, line
+        assert answers[0] == Refused("the harness speaks protocol 2, this host speaks 1")
+        assert all("twice" in answers[n].reason for n in (7, 8))  # type: ignore[union-attr]
 
 
 def test_the_reference_frameworks_agree_in_verdicts_and_in_what_they_exercised() -> None:

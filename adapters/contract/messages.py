@@ -9,11 +9,11 @@ each event as it happens, before the trace message; the harness asks for that wh
 from __future__ import annotations
 
 import functools
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
 
-from ucm_cts.adapters.contract.scenario import Scenario, Value
+from ucm_cts.adapters.contract.scenario import Int64, Scenario, Value
 from ucm_cts.adapters.contract.trace import Event
 
 PROTOCOL = 1
@@ -26,7 +26,7 @@ class Message(Value, frozen=True, tag_field="type"):
 class Hello(Message, frozen=True, tag="hello"):
     """Harness to host, first: the protocol version the harness speaks."""
 
-    protocol: int
+    protocol: Int64
 
 
 class Welcome(Message, frozen=True, tag="welcome"):
@@ -35,8 +35,8 @@ class Welcome(Message, frozen=True, tag="welcome"):
     ``port_element_name`` says how the framework spells port element names from ``{port}`` and ``{element}``.
     """
 
-    protocol: int
-    product: str
+    protocol: Int64
+    product: Annotated[str, msgspec.Meta(min_length=1)]
     version: str
     port_element_name: str = "{port}_{element}"
 
@@ -44,7 +44,7 @@ class Welcome(Message, frozen=True, tag="welcome"):
 class Run(Message, frozen=True, tag="run"):
     """Harness to host: run ``scenario`` on a fresh runtime; ``id`` comes back in the answer."""
 
-    id: int
+    id: Int64
     scenario: Scenario
     stream: bool = False
 
@@ -52,7 +52,7 @@ class Run(Message, frozen=True, tag="run"):
 class Traced(Message, frozen=True, tag="trace"):
     """Host to harness: what happened. ``stuck`` names the threads that never came back."""
 
-    id: int
+    id: Int64
     events: tuple[Event, ...]
     stuck: tuple[str, ...] = ()
 
@@ -60,7 +60,7 @@ class Traced(Message, frozen=True, tag="trace"):
 class Happened(Message, frozen=True, tag="event"):
     """Host to harness, streaming only: one event, as soon as it happened."""
 
-    id: int
+    id: Int64
     event: Event
 
 
@@ -68,7 +68,7 @@ class Refused(Message, frozen=True, tag="refused"):
     """Host to harness: the message just received breaks the protocol, or the adapter could not set up its framework."""
 
     reason: str
-    id: int | None = None
+    id: Int64 | None = None
 
 
 ToHost = Hello | Run
@@ -88,6 +88,20 @@ def to_host_decoder() -> msgspec.json.Decoder[ToHost]:
 def from_host_decoder() -> msgspec.json.Decoder[FromHost]:
     """Strict decoder of what a host sends; raises ``msgspec.ValidationError`` naming the offending field."""
     return msgspec.json.Decoder(FromHost)
+
+
+class _Numbered(msgspec.Struct, frozen=True, tag_field="type", tag="run"):
+    """As much of a ``run`` message as it takes to answer it."""
+
+    id: Int64
+
+
+def refusal(line: bytes, reason: str) -> Refused:
+    """The answer to a ``line`` that is no message, with the id of what it was to run if that can be read."""
+    try:
+        return Refused(reason, msgspec.json.decode(line, type=_Numbered).id)
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):
+        return Refused(reason)
 
 
 def protocol_schema() -> dict[str, Any]:

@@ -9,13 +9,19 @@ identifier the framework never gave out, ``NIL`` a null reference. ``MANAGER`` i
 
 from __future__ import annotations
 
-from typing import Literal, get_args
+from typing import Annotated, Literal, get_args
 
 import msgspec
 
 MANAGER = "manager"
 UNKNOWN = "unknown"
 NIL = "nil"
+
+Int32 = Annotated[int, msgspec.Meta(ge=-(2**31), le=2**31 - 1)]
+"""A payload: what every framework's integers hold."""
+
+Int64 = Annotated[int, msgspec.Meta(ge=-(2**63), le=2**63 - 1)]
+"""Any other integer on the wire."""
 
 PortElementName = str
 """How a port element is spelled at the Container API, ``<port>_<element>`` unless the adapter says otherwise."""
@@ -32,14 +38,14 @@ class RaiseError(Value, frozen=True, tag_field="do", tag="raise"):
 class ReturnValue(Value, frozen=True, tag_field="do", tag="return"):
     """The probe's ``exchange`` returns ``value`` instead of its own computation."""
 
-    value: int
+    value: Int32
 
 
 class CallPort(Value, frozen=True, tag_field="do", tag="call"):
     """The probe calls ``exchange(value)`` on every reference it holds for its required port element ``port``."""
 
     port: PortElementName
-    value: int
+    value: Int32
 
 
 class HoldAtGate(Value, frozen=True, tag_field="do", tag="hold"):
@@ -72,7 +78,7 @@ class Declaration(Value, frozen=True):
 
     ``provides`` and ``requires`` list port element names; ``attributes`` maps attribute names to configured values;
     ``connectable`` bodies implement Connectable (11.2.1.3), ``fragment`` bodies FragmentObject (11.2.1.4).
-    ``plan`` lists, per hook, the actions the probe performs each time it is entered there.
+    ``plan`` lists, per hook, the actions the probe performs each time it is entered there. No port element twice.
     """
 
     provides: tuple[PortElementName, ...] = ()
@@ -81,6 +87,10 @@ class Declaration(Value, frozen=True):
     connectable: bool = False
     fragment: bool = False
     plan: dict[Hook, tuple[Action, ...]] = {}
+
+    def __post_init__(self) -> None:
+        if len({*self.provides, *self.requires}) < len(self.provides) + len(self.requires):
+            raise ValueError("a port element is declared twice")
 
 
 class StepBase(Value, frozen=True, kw_only=True):
@@ -171,7 +181,7 @@ class Invoke(StepBase, frozen=True, tag_field="op", tag="invoke"):
     """Stimulus: call ``exchange(value)`` on the provided port element reference bound to ``ref``."""
 
     ref: str
-    value: int
+    value: Int32
 
 
 class OpenGate(StepBase, frozen=True, tag_field="op", tag="open"):
@@ -231,7 +241,7 @@ class Scenario(Value, frozen=True):
 
     components: dict[str, Declaration]
     steps: tuple[Step, ...]
-    patience: int = 2000
+    patience: Int64 = 2000
 
 
 def operation(step: Step) -> str:

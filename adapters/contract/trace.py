@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from ucm_cts.adapters.contract.scenario import Hook, PortElementName, Value
+from ucm_cts.adapters.contract.scenario import Hook, Int64, PortElementName, Value
 
 DeclaredError = Literal["NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"]
 """The three exceptions of 12.10."""
@@ -21,7 +21,7 @@ class Reference(Value, frozen=True):
     """A provided port element that the SDK recognised: ``port`` of the ``instance``-th body made for ``component``."""
 
     component: str
-    instance: int
+    instance: Int64
     port: PortElementName
 
 
@@ -41,28 +41,28 @@ class Dependency(Value, frozen=True):
 class EventBase(Value, frozen=True, tag_field="kind"):
     """Common to all events."""
 
-    n: int
-    t: int
-    thread: int
+    n: Int64
+    t: Int64
+    thread: Int64
 
 
 class Call(EventBase, frozen=True, tag="call"):
     """Scenario step number ``step`` (from 0) is handed to the framework."""
 
-    step: int
+    step: Int64
 
 
 class Return(EventBase, frozen=True, tag="return"):
     """The step's operation came back; ``value`` is an id, a list of ids, a reference, or a business result."""
 
-    step: int
-    value: int | tuple[int, ...] | Reference | Opaque | None = None
+    step: Int64
+    value: Int64 | tuple[Int64, ...] | Reference | Opaque | None = None
 
 
 class Raise(EventBase, frozen=True, tag="raise"):
     """The step's operation ended with an exception; ``detail`` is its text, for people."""
 
-    step: int
+    step: Int64
     error: ErrorName
     detail: str = ""
 
@@ -70,21 +70,21 @@ class Raise(EventBase, frozen=True, tag="raise"):
 class Skip(EventBase, frozen=True, tag="skip"):
     """The step was not tried, because ``variable`` was never bound."""
 
-    step: int
+    step: Int64
     variable: str
 
 
 class Timeout(EventBase, frozen=True, tag="timeout"):
     """A wait step ran out of patience."""
 
-    step: int
+    step: Int64
 
 
 class BodyEvent(EventBase, frozen=True):
     """Common to events inside the ``instance``-th body (from 1) that the framework made for ``component``."""
 
     component: str
-    instance: int
+    instance: Int64
 
 
 class Create(BodyEvent, frozen=True, tag="create"):
@@ -100,7 +100,7 @@ class Enter(BodyEvent, frozen=True, tag="enter"):
 
     hook: Hook
     port: PortElementName | None = None
-    value: int | None = None
+    value: Int64 | None = None
     reference: MaybeReference = None
     dependencies: tuple[Dependency, ...] | None = None
     attributes: dict[str, str] | None = None
@@ -110,7 +110,7 @@ class Exit(BodyEvent, frozen=True, tag="exit"):
     """The body left ``hook``: with ``value``, or with an exception when ``raised``."""
 
     hook: Hook
-    value: int | None = None
+    value: Int64 | None = None
     raised: bool = False
 
 
@@ -118,21 +118,21 @@ class Request(BodyEvent, frozen=True, tag="request"):
     """The body is about to call ``exchange(value)`` through its required port element ``port``."""
 
     port: PortElementName
-    value: int
+    value: Int64
 
 
 class Reply(BodyEvent, frozen=True, tag="reply"):
     """That call came back with ``value``, or with an exception when ``raised``."""
 
     port: PortElementName
-    value: int | None = None
+    value: Int64 | None = None
     raised: bool = False
 
 
 class Siblings(BodyEvent, frozen=True, tag="siblings"):
     """A fragment asked its container interface for ``get_components``: the ids, or an exception when ``raised``."""
 
-    ids: tuple[int, ...] = ()
+    ids: tuple[Int64, ...] = ()
     raised: bool = False
 
 

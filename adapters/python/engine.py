@@ -20,12 +20,13 @@ from ucm_cts.adapters.contract.messages import (
     Traced,
     Welcome,
     encode,
+    refusal,
     to_host_decoder,
 )
 from ucm_cts.adapters.contract.programming_model import BadParameter, NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import Scenario, Step
 from ucm_cts.adapters.contract.trace import Call, ErrorName, Event, Opened, Raise, Return, Skip, Timeout
-from ucm_cts.adapters.python.probe import Stage
+from ucm_cts.adapters.python.probe import Stage, is_integer
 from ucm_cts.adapters.python.recorder import Recorder
 from ucm_cts.adapters.python.variables import Unbound, Variables
 from ucm_cts.adapters.python.workers import Workers
@@ -61,7 +62,10 @@ class Engine:
         try:
             message = to_host_decoder().decode(line)
         except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
-            return encode(Refused(f"not a message of protocol {PROTOCOL}: {error}"))
+            return encode(refusal(line, f"not a message of protocol {PROTOCOL}: {error}"))
+        if isinstance(message, Hello) and message.protocol != PROTOCOL:
+            spoken = f"the harness speaks protocol {message.protocol}, this host speaks {PROTOCOL}"
+            return encode(Refused(spoken))
         if isinstance(message, Hello):
             cls = self.adapter_class
             return encode(Welcome(PROTOCOL, cls.product, cls.version, cls.port_element_name))
@@ -264,9 +268,7 @@ _WITH_RESULT = (s.AddComponent, s.GetPortElement, s.Connect, s.GetComponents, s.
 
 
 def _integer(value: Any) -> int:
-    if (
-        not isinstance(value, int) or not -(2**63) <= value < 2**63
-    ):  # what the wire carries; 32 bits are the judge's matter
+    if not is_integer(value):
         raise ContractBroken(f"returned {value!r}; it returns an integer")
     return int(value)
 

@@ -73,6 +73,8 @@ def serve(answer: Answer, source: int, target: int) -> NoReturn:
     try:
         with os.fdopen(source, "rb", buffering=1 << 16) as lines:
             for line in lines:
+                if line == b"\n":
+                    continue
                 reply = answer(line, write)
                 write(reply + b"\n")
                 if _is_stuck(reply):

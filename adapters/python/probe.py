@@ -33,6 +33,11 @@ from ucm_cts.adapters.python.gates import Gates
 from ucm_cts.adapters.python.recorder import Recorder
 
 
+def is_integer(value: object) -> bool:
+    """Can the wire carry it? Whether it has 32 bits is the judge's matter."""
+    return isinstance(value, int) and -(2**63) <= value < 2**63
+
+
 class PlannedFailure(Exception):
     """What a probe raises when its plan says ``raise``: an exception no interface declares."""
 
@@ -134,7 +139,7 @@ class Probe(ComponentObject):
 
     def exchange(self, port: str, value: int) -> int:
         """The business method of provided port element ``port``."""
-        if not isinstance(value, int):
+        if not is_integer(value):
             self.stage.recorder.complain(f"exchange was called with {value!r}, which is no integer")
             value = 0
         result = self._visit("exchange", result=~value, port=port, value=value)
@@ -175,7 +180,7 @@ class Probe(ComponentObject):
         except Exception:  # noqa: BLE001 - whatever the callee raised
             self._record(Reply, port=port, raised=True)
             return
-        if not isinstance(result, int):
+        if not is_integer(result):
             self.stage.recorder.complain(f"exchange returned {result!r} to a probe; it returns an integer")
             return
         self._record(Reply, port=port, value=result)
@@ -188,7 +193,7 @@ class Probe(ComponentObject):
         except Exception:  # noqa: BLE001 - whatever the framework raised
             self._record(Siblings, raised=True)
             return
-        if not all(isinstance(member, int) for member in members):
+        if not all(map(is_integer, members)):
             self.stage.recorder.complain(
                 f"get_components of the container interface returned {members!r}, not integers"
             )

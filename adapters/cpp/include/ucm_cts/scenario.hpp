@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,11 @@ inline Declaration read_declaration(const json::Value& value) {
         });
     });
     fields.end();
+    std::set<std::string> names(declaration.provided.begin(), declaration.provided.end());
+    names.insert(declaration.required.begin(), declaration.required.end());
+    if (names.size() != declaration.provided.size() + declaration.required.size()) {
+        value.fail("a port element is declared twice");
+    }
     return declaration;
 }
 
