@@ -15,6 +15,7 @@ from contextlib import suppress
 from typing import Protocol
 
 from ucm_cts.harness.locate import Door, WrongUse
+from ucm_cts.harness.report.foreign import clean, one_line
 from ucm_cts.harness.results import Incident, IncidentKind
 
 START_SECONDS = 60.0
@@ -23,13 +24,18 @@ START_SECONDS = 60.0
 _RETRY_SECONDS = 1.0
 _FAREWELL_SECONDS = 0.5
 _LOG_TAIL = 1 << 16
+_LAST_LINES = 20
 
 
 class HostUnavailable(Exception):
-    """There is no host to be had behind a door; ``incident`` says why."""
+    """There is no host to be had behind a door; ``incident`` says why, the text the end of it."""
 
     def __init__(self, incident: Incident) -> None:
-        super().__init__(f"{incident.detail}\n{incident.stacks}".strip())
+        printed = incident.stacks.strip().splitlines()
+        shown = [one_line(line) for line in printed[-_LAST_LINES:]]
+        if len(printed) > len(shown):
+            shown.insert(0, f"({len(printed) - len(shown)} more lines)")
+        super().__init__("\n".join([clean(incident.detail), *shown]))
         self.incident = incident
 
 

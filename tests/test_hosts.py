@@ -159,7 +159,9 @@ def test_stream_without_end_is_a_hang(tmp_path: Path) -> None:
     [
         (speakers.SaysNothing, "hang", "does not answer hello: hang, no answer within 0.5 s"),
         (speakers.SpeaksAnotherProtocol, "protocol", "speaks protocol 2, the harness 1"),
+        (speakers.HasNoName, "protocol", "Expected `str` of length >= 1 - at `$.product`"),
         (speakers.DiesAtOnce, "exit", "exit status 4\ncannot read my configuration"),
+        (speakers.DiesLoudly, "exit", "noise 4999"),
     ],
 )
 @pytest.mark.usefixtures("no_leaks")
@@ -173,6 +175,8 @@ def test_without_a_welcome_there_is_no_host(
         list(hosts.run([Run(1, CALM)]))
     assert caught.value.incident.kind == kind
     assert detail in str(caught.value)
+    assert len(str(caught.value).splitlines()) <= 22, "only the end of what was printed"
+    assert "\x1b" not in str(caught.value)
 
 
 @pytest.mark.usefixtures("no_leaks")

@@ -129,6 +129,22 @@ class SpeaksAnotherProtocol(Speaker):
         self.say(type="welcome", protocol=2, product="hostile", version="1")
 
 
+class HasNoName(Speaker):
+    """Does not say what product it is."""
+
+    def greet(self) -> None:
+        self.say(type="welcome", protocol=1, product="", version="1")
+
+
+class DiesLoudly(Speaker):
+    """Prints very much instead of answering hello."""
+
+    def greet(self) -> None:
+        for number in range(5000):
+            print("\x1b[31mnoise", number, file=sys.stderr)
+        sys.exit(4)
+
+
 class DiesAtOnce(Speaker):
     """Ends with a status instead of answering hello."""
 
