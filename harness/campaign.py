@@ -12,16 +12,21 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness import shrink
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.driver import Answer, Driver
+from ucm_cts.harness.incidents import finding_of_incident
 from ucm_cts.harness.known_failures import KnownFailure
 from ucm_cts.harness.payloads import Payloads
 from ucm_cts.harness.results import Execution, IncidentKind, Report
 from ucm_cts.harness.scripts import TestPurpose
-from ucm_cts.harness.tally import Cause, Tally, cause_of, finding_of_incident, overall
+from ucm_cts.harness.tally import Cause, Tally, cause_of, overall
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
 
 _QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
 """Incidents whose scenarios are shortened; each try of another one would cost its whole deadline."""
+
+
+SECONDS_FOR_SHORTER_CRASHES = 20
+"""How long shorter scenarios of crashes are looked for; each try takes two hosts."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +44,8 @@ class Campaign:
     def __init__(self, driver: Driver, profile: str, known_failures: Sequence[KnownFailure] = ()) -> None:
         self._driver = driver
         self._profile = profile
-        self._known = known_failures
+        self.known = known_failures
+        self.checked: list[TestPurpose] = []
         self._judge = Judge(load_life_cycle())
         self._tally = Tally()
         self._payloads = Payloads(driver.seed)
@@ -64,6 +70,7 @@ class Campaign:
             failures.extend(self._take(answer, purpose))
             done += 1
             if done == len(purpose.scenarios):
+                self.checked.append(purpose)
                 yield Checked(queue.pop(0), done, tuple(failures))
                 failures, done = [], 0
 
@@ -85,33 +92,32 @@ class Campaign:
 
     def shorten(self) -> Iterator[Cause]:
         """Look for the shortest scenario of each failure; yields each cause when it is done."""
+        until = time.monotonic() + SECONDS_FOR_SHORTER_CRASHES
         for cause, failure in list(self._tally.failures.items()):
             incident = failure.execution.incident
-            if incident is not None:
-                self._driver.allow_second_looks()
+
+            def first_failing(candidates: Sequence[Scenario], cause: Cause = cause) -> int | None:
+                shown = self._show(cause, candidates, until)
+                if shown is None:
+                    return None
+                self._tally.replace(cause, *shown[1:])
+                return shown[0]
+
             if incident is None or incident.kind in _QUICK:
-
-                def first_failing(candidates: Sequence[Scenario], cause: Cause = cause) -> int | None:
-                    shown = self._show(cause, candidates)
-                    if shown is None:
-                        return None
-                    self._tally.replace(cause, *shown[1:])
-                    return shown[0]
-
                 shrink.shortest(failure.execution.scenario, first_failing)
             yield cause
 
-    def _show(self, cause: Cause, candidates: Sequence[Scenario]) -> tuple[int, Finding, Execution] | None:
+    def _show(
+        self, cause: Cause, candidates: Sequence[Scenario], until: float
+    ) -> tuple[int, Finding, Execution] | None:
         """The first of ``candidates`` that shows ``cause``; all are run, so that the host stays in step.
 
-        Those that may end the host are run one by one, and no more than needed.
+        Those that may end the host are run one by one, no more than needed, and none after ``until``.
         """
         first: tuple[int, Finding, Execution] | None = None
         cases = [(f"{cause[0]}-shortest", c) for c in candidates]
         alone = self._tally.failures[cause].execution.incident is not None
-        answers = (
-            (answer for case in cases for answer in self._driver.run([case])) if alone else self._driver.run(cases)
-        )
+        answers = self._one_by_one(cases, until) if alone else self._driver.run(cases)
         for index, answer in enumerate(answers):
             if first is None:
                 execution = self._driver.revealed(answer)
@@ -121,6 +127,12 @@ class Campaign:
             if first is not None and alone:
                 break
         return first
+
+    def _one_by_one(self, cases: Sequence[tuple[str, Scenario]], until: float) -> Iterator[Answer]:
+        for case in cases:
+            if time.monotonic() > until:
+                return
+            yield from self._driver.run([case], insist=True)
 
     def _findings(self, answer: Answer, execution: Execution) -> list[Finding]:
         """What is wrong with one answer, as people read it."""
@@ -132,16 +144,17 @@ class Campaign:
     def report(self) -> Report:
         """All verdicts of the run so far."""
         requirements = [r for r in load_requirements() if r.profile == self._profile]
-        results = self._tally.results(requirements, self._known)
+        results = self._tally.results(requirements, self.known)
+        incidents = self._tally.incidents
         identity = self._driver.identity
         return Report(
             product=identity.product,
             version=identity.version,
             profile=self._profile,
-            verdict=overall(results, self._tally.incidents),
+            verdict=overall(results, incidents),
             requirements=results,
             transitions=self._tally.transitions(load_life_cycle()),
-            incidents=tuple(self._tally.incidents),
+            incidents=incidents,
             adapter=self._driver.adapter,
             suite_version=ucm_cts.__version__,
             seed=self._driver.seed,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections import Counter, deque
+from collections import deque
 from collections.abc import Iterable, Iterator
+from contextlib import closing
 from dataclasses import dataclass, replace
 from types import TracebackType
 from typing import Self, TypeVar
@@ -18,22 +19,16 @@ from ucm_cts.adapters.contract.trace import Event, Trace
 from ucm_cts.harness.disguise import Disguise
 from ucm_cts.harness.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosts import Hosts, Limits
-from ucm_cts.harness.integrity import contradiction
+from ucm_cts.harness.incidents import Patience
+from ucm_cts.harness.integrity import believable, contradiction
 from ucm_cts.harness.locate import Door
-from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Execution, Incident
+from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 
 __all__ = ["Answer", "Driver", "Limits"]
 
 T = TypeVar("T")
 
-SECONDS_FOR_INCIDENTS = 30
-"""How long a run may deal with crashes and hangs before it gives up on the scenarios that remain."""
-
-FULL_WAITS, SHORT_WAIT = 2, 0.5
-"""After so many hangs were waited out in full, the next ones are given that many seconds: the defect is known by then."""
-
-SECOND_LOOKS = {"hang": 3, "memory": 3, "crash": 50, "exit": 50}
-"""How many incidents of a kind are looked at again, each on a fresh host; those of a run that hangs take long."""
+_HOST_IS_GONE: frozenset[IncidentKind] = FRAMEWORK_INCIDENTS | {"flood", "garbage", "protocol"}
 
 
 @dataclass(frozen=True)
@@ -55,8 +50,8 @@ class Driver:
         self.adapter = door.text
         self.seed = seed
         self._disguise: Disguise | None = None
-        self._met: Counter[str] = Counter()
-        self._spent = 0.0
+        self._numbers = itertools.count()
+        self._patience = Patience(self._hosts.limits.incident_seconds)
 
     def __enter__(self) -> Self:
         return self
@@ -78,40 +73,54 @@ class Driver:
             self._disguise = Disguise(self.seed, self.identity.port_element_name)
         return self._disguise
 
-    def run(self, cases: Iterable[tuple[str, Scenario]]) -> Iterator[Answer]:
+    def run(self, cases: Iterable[tuple[str, Scenario]], insist: bool = False) -> Iterator[Answer]:
         """The answers to ``cases`` (name, scenario), in order; many are on their way at a time.
 
-        Once incidents have taken ``SECONDS_FOR_INCIDENTS``, what remains is answered as ``unreachable`` without a try.
+        When patience with incidents has run out, some are answered as ``untried``, unless the caller does ``insist``.
         """
-        waiting: deque[tuple[str, Scenario, Run]] = deque()
         source = iter(cases)
-        numbers = itertools.count()
+        returned: deque[_Case] = deque()
+        waiting: deque[_Case] = deque()
 
         def runs() -> Iterator[Run]:
-            while self._spent < SECONDS_FOR_INCIDENTS:
-                case = next(source, None)
-                if case is None:
-                    return
-                name, scenario = case
-                run = Run(next(numbers), self.disguise.scenario(scenario))
-                waiting.append((name, scenario, run))
-                yield run
+            while (case := returned.popleft() if returned else self._next(source)) is not None:
+                untried = None if insist else self._patience.not_tried(case.scenario)
+                waiting.append(replace(case, untried=untried))
+                if untried is None:
+                    yield case.run
 
-        began = time.monotonic()
-        for reply in self._hosts.run(runs()):
-            name, scenario, run = waiting.popleft()
-            trace, incident = self._examine(run, reply)
-            if incident is not None:
-                self._spent += time.monotonic() - began
-            yield Answer(name, scenario, run.scenario, trace, incident)
-            began = time.monotonic()
-        for name, scenario in source:
-            reason = f"not run: incidents before it had taken {SECONDS_FOR_INCIDENTS} s"
-            yield Answer(name, scenario, scenario, (), Incident("unreachable", reason))
+        def untried() -> Iterator[Answer]:
+            while waiting and waiting[0].untried is not None:
+                case = waiting.popleft()
+                yield Answer(case.name, case.scenario, case.run.scenario, (), case.untried)
 
-    def allow_second_looks(self) -> None:
-        """Incidents are looked at again from now on, however many there have been."""
-        self._met.clear()
+        while True:
+            lost = False
+            with closing(self._hosts.run(runs())) as replies:
+                began = time.monotonic()
+                for reply in replies:
+                    yield from untried()
+                    case = waiting.popleft()
+                    trace, incident = self._examine(case.run, reply, insist)
+                    lost = incident is not None and incident.kind in _HOST_IS_GONE
+                    if incident is not None and lost:
+                        self._patience.spend(time.monotonic() - began, case.run.scenario, incident, trace)
+                    yield Answer(case.name, case.scenario, case.run.scenario, trace, incident)
+                    if lost:
+                        break
+                    began = time.monotonic()
+            yield from untried()
+            if not lost:
+                return
+            returned.extendleft(reversed(waiting))
+            waiting.clear()
+
+    def _next(self, source: Iterator[tuple[str, Scenario]]) -> _Case | None:
+        case = next(source, None)
+        if case is None:
+            return None
+        name, scenario = case
+        return _Case(name, scenario, Run(next(self._numbers), self.disguise.scenario(scenario)))
 
     def reveal(self, value: T) -> T:
         """``value`` in the script's own names."""
@@ -129,7 +138,7 @@ class Driver:
     def _reveal_trace(self, trace: Trace) -> Trace:
         return self.reveal(_Whole(trace)).trace
 
-    def _examine(self, run: Run, answer: HostAnswer) -> tuple[Trace, Incident | None]:
+    def _examine(self, run: Run, answer: HostAnswer, insist: bool) -> tuple[Trace, Incident | None]:
         reply = answer.reply
         if isinstance(reply, Traced):
             problem = contradiction(run.scenario, reply.events, bool(reply.stuck))
@@ -142,33 +151,33 @@ class Driver:
             return (), Incident("refused", reply.reason)
         if reply.kind not in FRAMEWORK_INCIDENTS:
             return (), reply
-        self._met[reply.kind] += 1
-        if reply.kind == "hang" and self._met["hang"] == FULL_WAITS:
-            limits = self._hosts.limits
-            self._hosts.limits = replace(limits, seconds=min(limits.seconds, SHORT_WAIT))
-        if self._met[reply.kind] > SECOND_LOOKS[reply.kind]:
+        if not insist and not self._patience.is_worth_a_look(run.scenario, reply.kind):
             return (), reply
         return self._second_look(run, reply)
 
     def _second_look(self, run: Run, first: Incident) -> tuple[Trace, Incident]:
         """The same scenario once more, each event sent as it happens: what led to the incident?"""
+        began = time.monotonic()
         second = self._hosts.look_again(run)
+        self._patience.looked(time.monotonic() - began)
         if isinstance(second.reply, Incident) and second.reply.kind == first.kind:
-            return _believable(run.scenario, second.happened), msgspec.structs.replace(
+            return believable(run.scenario, second.happened), msgspec.structs.replace(
                 second.reply, stacks=second.reply.stacks or first.stacks
             )
         return (), msgspec.structs.replace(first, reproduced=False)
+
+
+@dataclass(frozen=True)
+class _Case:
+    """One scenario on its way: what is sent, and why it is not sent after all."""
+
+    name: str
+    scenario: Scenario
+    run: Run
+    untried: Incident | None = None
 
 
 class _Whole(msgspec.Struct, frozen=True):
     """A trace as one value, so that it can be revealed at once."""
 
     trace: tuple[Event, ...]
-
-
-def _believable(scenario: Scenario, events: tuple[Event, ...]) -> Trace:
-    """Streamed events as long as they can be true."""
-    for length in range(len(events), 0, -1):
-        if contradiction(scenario, events[:length], stuck=True) is None:
-            return events[:length]
-    return ()

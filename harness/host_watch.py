@@ -31,13 +31,15 @@ _PAGE = os.sysconf("SC_PAGE_SIZE")
 @dataclass(frozen=True)
 class Limits:
     """What a host may take: ``seconds`` an answer, waits of the scenario not counted; ``memory`` resident MiB;
-    ``line`` bytes in one message; ``welcome_seconds`` until it has said who it is.
+    ``line`` bytes in one message; ``welcome_seconds`` until it has said who it is. ``incident_seconds`` is what a run
+    may take for all that goes wrong with its hosts.
     """
 
     seconds: float = 5.0
     memory: int = 1024
     line: int = 16 * _MIB
     welcome_seconds: float = 20.0
+    incident_seconds: float = 60.0
 
 
 class Deadline(msgspec.Struct, frozen=True):

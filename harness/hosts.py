@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import itertools
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable
 from types import TracebackType
 from typing import Self
 
@@ -87,7 +87,7 @@ class Hosts:
             assert self._welcome
         return self._welcome
 
-    def run(self, runs: Iterable[Run], window: int = 32) -> Iterator[Answer]:
+    def run(self, runs: Iterable[Run], window: int = 32) -> Generator[Answer, None, None]:
         """The answers to ``runs``, in order; up to ``window`` messages are on their way at a time.
 
         Between two answers the caller may ``look_again``: what was on its way is then sent again.

@@ -15,13 +15,25 @@ Overall = Literal["conformant", "not conformant", "inconclusive"]
 """A run's verdict: not conformant if any requirement failed, conformant if all that apply passed."""
 
 IncidentKind = Literal[
-    "crash", "exit", "hang", "memory", "flood", "garbage", "protocol", "refused", "contradiction", "unreachable"
+    "crash",
+    "exit",
+    "hang",
+    "memory",
+    "flood",
+    "garbage",
+    "protocol",
+    "refused",
+    "contradiction",
+    "unreachable",
+    "untried",
 ]
 """How a host can fail to answer: killed by a signal; ended; silent past the deadline; too much memory; too much output;
-not JSON; JSON that breaks the schema; refused by the adapter itself; a trace that cannot be true; no host to be had."""
+not JSON; JSON that breaks the schema; refused by the adapter itself; a trace that cannot be true; no host to be had;
+not tried, because earlier incidents had taken too long."""
 
 FRAMEWORK_INCIDENTS: frozenset[IncidentKind] = frozenset(("crash", "exit", "hang", "memory"))
-"""Incidents that are the framework's doing; the others are the adapter's and lead to ``error``, never to ``fail``."""
+"""Incidents that are the framework's doing; the others, but for ``untried``, are the adapter's and lead to ``error``, never to
+``fail``."""
 
 
 class Incident(Value, frozen=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -112,7 +113,6 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
                 found.append((f"{where}.attributes", f"probe '{part.probe}' has no attribute '{unknown[0]}'"))
     bound = {s.MANAGER: "container"}
     workers: set[str] = set()
-    busy: set[str] = set()
     actions = [a for p in script.components.values() for plan in p.plan.values() for a in plan]
     gates = {a.gate for a in actions if isinstance(a, s.HoldAtGate)}
     for index, step in enumerate(script.steps):
@@ -131,12 +131,6 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
                 found.append(
                     (where, f"'{variable}' holds a {bound[variable]} already; bind the {kind} to another name")
                 )
-        if isinstance(step, s.ContainerCall):
-            if busy:
-                found.append((where, f"'{min(busy)}' may still be operating a container; join it first"))
-            busy.update([step.thread] if step.thread else [])
-        elif isinstance(step, s.Join):
-            busy.discard(step.worker)
         if isinstance(step, s.OpenGate | s.ReachGate) and step.gate not in gates:
             found.append(
                 (where, f"no plan holds at gate '{step.gate}'; there are {', '.join(sorted(gates)) or 'none'}")
@@ -145,7 +139,21 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             found.append((where, f"no earlier step runs on thread '{step.worker}'"))
         if step.thread:
             workers.add(step.thread)
+    for index, worker in overlaps(script.steps):
+        found.append((f".steps[{index}]", f"'{worker}' may still be operating a container; join it first"))
     return found
+
+
+def overlaps(steps: tuple[Step, ...]) -> Iterator[tuple[int, str]]:
+    """Steps that operate a container while a worker may still do so."""
+    busy: set[str] = set()
+    for index, step in enumerate(steps):
+        if isinstance(step, s.ContainerCall):
+            if busy:
+                yield index, min(busy)
+            busy.update([step.thread] if step.thread else [])
+        elif isinstance(step, s.Join):
+            busy.discard(step.worker)
 
 
 def uses(step: Step) -> tuple[tuple[str, str], ...]:

@@ -8,7 +8,7 @@ import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario, Step
-from ucm_cts.harness.scripts import bound_by, used_by
+from ucm_cts.harness.scripts import bound_by, overlaps, used_by
 
 ROUNDS = 12
 """How often the candidates of a shorter scenario are tried; each round leaves out at least one thing."""
@@ -26,7 +26,11 @@ def shortest(scenario: Scenario, first_failing: Callable[[Sequence[Scenario]], i
 
 
 def _shorter(scenario: Scenario) -> Iterator[Scenario]:
-    """Scenarios with less in them, the boldest first."""
+    """Scenarios with less in them, the boldest first, that keep one thread at a time on the containers."""
+    return (shorter for shorter in _with_less(scenario) if not any(overlaps(shorter.steps)))
+
+
+def _with_less(scenario: Scenario) -> Iterator[Scenario]:
     steps = scenario.steps
     for half in (steps[: len(steps) // 2], steps[: -len(steps) // 4 or None]):
         if 0 < len(half) < len(steps):

@@ -7,14 +7,14 @@ from collections.abc import Iterable, Sequence
 
 import msgspec
 
-from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Call, Raise, Return
 from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.incidents import finding_of_incident
 from ucm_cts.harness.known_failures import KnownFailure, waiver_for
 from ucm_cts.harness.results import (
     FRAMEWORK_INCIDENTS,
     Execution,
     FailedExecution,
+    Incident,
     IncidentReport,
     Overall,
     RequirementResult,
@@ -23,7 +23,6 @@ from ucm_cts.harness.results import (
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.ledger import Ledger, RowTally
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
-from ucm_cts.reference_models.rules_operations import DECLARED
 
 Cause = tuple[str, str, str]
 """Requirement, rule and cause: findings that agree in these are one failure."""
@@ -41,8 +40,10 @@ class Tally:
         self.exercised: Counter[str] = Counter()
         self.failures: dict[Cause, FailedExecution] = {}
         self.rows: dict[str, RowTally] = {}
-        self.incidents: list[IncidentReport] = []
         self.lost: dict[str, str] = {}
+        self._incidents: list[IncidentReport] = []
+        self._untried: dict[str, list[Execution]] = {}
+        self._left_out: dict[str, str] = {}
         self.scenarios = 0
         self.events = 0
 
@@ -75,20 +76,35 @@ class Tally:
 
     def add_incident(self, execution: Execution, requirements: Iterable[str]) -> None:
         """An execution that ended in an incident; ``requirements`` are those it meant to exercise."""
-        assert execution.incident is not None
+        incident = execution.incident
+        assert incident is not None
+        if incident.kind == "untried":
+            self._untried.setdefault(incident.detail, []).append(execution)
+            for requirement in requirements:
+                self._left_out.setdefault(requirement, incident.detail)
+            return
         self.scenarios += 1
         self.events += len(execution.trace)
-        not_run = execution.incident.kind == "unreachable"
-        if not (not_run and any(i.incident == execution.incident for i in self.incidents)):
-            self.incidents.append(IncidentReport(execution.incident, execution))
-        if execution.incident.kind not in FRAMEWORK_INCIDENTS:
+        not_run = incident.kind == "unreachable"
+        if not (not_run and any(i.incident == incident for i in self._incidents)):
+            self._incidents.append(IncidentReport(incident, execution))
+        if incident.kind not in FRAMEWORK_INCIDENTS:
             for requirement in requirements:
-                self.lost.setdefault(requirement, f"{execution.incident.kind}: {execution.incident.detail}")
+                self.lost.setdefault(requirement, f"{incident.kind}: {incident.detail}")
             return
         finding = finding_of_incident(execution)
         if finding is not None:
             self.exercised[finding.requirement] += 1
             self.add_failure(finding, execution)
+
+    @property
+    def incidents(self) -> tuple[IncidentReport, ...]:
+        """All of them; scenarios that were not tried for the same reason are one."""
+        left_out = (
+            IncidentReport(Incident("untried", f"{len(executions)} scenarios {reason}"), executions[0])
+            for reason, executions in self._untried.items()
+        )
+        return (*self._incidents, *left_out)
 
     def results(
         self, requirements: Sequence[Requirement], known_failures: Sequence[KnownFailure]
@@ -118,6 +134,8 @@ class Tally:
             )
         if not exercised:
             reason = "its condition never arose in this run"
+            if requirement.id in self._left_out:
+                reason += f"; scenarios that were to exercise it were {self._left_out[requirement.id]}"
             return RequirementResult(
                 requirement.id, requirement.clause, requirement.title, "inconclusive", 0, (), reason
             )
@@ -137,37 +155,6 @@ def overall(results: Sequence[RequirementResult], incidents: Sequence[IncidentRe
     if incidents or any(r.verdict in ("inconclusive", "error") for r in results) or not results:
         return "inconclusive"
     return "conformant"
-
-
-def finding_of_incident(execution: Execution) -> Finding | None:
-    """A crash, exit, hang or memory blow-up inside an operation: it did not end as declared (12.10)."""
-    call = last_open_call(execution)
-    if call is None or execution.incident is None:
-        return None
-    step = execution.scenario.steps[call.step]
-    operation = s.operation(step)
-    if operation not in DECLARED:
-        return None
-    requirement, declared = DECLARED[operation]
-    incident = execution.incident
-    return Finding(
-        requirement,
-        "declared_errors",
-        f"{operation} {incident.kind}",
-        f"{operation} returns or raises {' or '.join(declared)}",
-        f"{operation} did not end: {incident.kind}, {incident.detail}",
-        (call.n,),
-        call.step,
-    )
-
-
-def last_open_call(execution: Execution) -> Call | None:
-    """The operation that was in progress when the trace broke off."""
-    calls = {e.step: e for e in execution.trace if isinstance(e, Call)}
-    for event in execution.trace:
-        if isinstance(event, Return | Raise):
-            calls.pop(event.step, None)
-    return calls[max(calls)] if calls else None
 
 
 def _length(execution: Execution) -> tuple[int, int]:

@@ -69,7 +69,7 @@ def _verdict(case: etree._Element, result: RequirementResult, report: Report) ->
         case "not applicable":
             _child(case, "skipped", f"not applicable: {result.reason}".rstrip(": "))
         case "error":
-            _child(case, "error", result.reason or "the harness failed", "error", result.reason)
+            _child(case, "error", result.reason or "lost to the adapter", "error", result.reason)
 
 
 def _story(result: RequirementResult, report: Report) -> str:

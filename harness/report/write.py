@@ -9,7 +9,8 @@ from pathlib import Path
 
 import msgspec
 
-from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_life_cycle, load_requirements
+from ucm_cts.harness.locate import WrongUse
 from ucm_cts.harness.report.failures import FOLDER, all_files
 from ucm_cts.harness.report.foreign import clean_report
 from ucm_cts.harness.report.html import to_html
@@ -17,6 +18,21 @@ from ucm_cts.harness.report.json_report import to_json
 from ucm_cts.harness.report.junit import to_junit
 from ucm_cts.harness.results import Report
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
+
+
+def prepare_folder(out: Path) -> None:
+    """The report's folder, before time is spent on what goes into it. Raises ``WrongUse``."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        tempfile.TemporaryFile(dir=out).close()
+    except OSError as error:
+        raise WrongUse(f"the report cannot be written to '{out}': {error.strerror}; choose another folder") from None
+
+
+def save_report(report: Report, out: Path) -> None:
+    """Write all files of ``report`` into ``out``, with the suite's own catalogue."""
+    decisions = {i.id: i.text for i in load_interpretations()}
+    write_report(report, load_requirements(), load_life_cycle(), decisions, out)
 
 
 def write_report(

@@ -1,0 +1,38 @@
+"""Adapters whose framework fails in some operation, always or now and then; each says how."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+
+from ucm_cts.adapters.contract.adapter import ContainerHandle
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+
+
+class HangsInStop(ReferenceAdapter):
+    """Never comes back from a stop."""
+
+    def stop(self, container: ContainerHandle) -> None:
+        threading.Event().wait()
+
+
+class CrashesInRemove(ReferenceAdapter):
+    """Dies when a component is removed."""
+
+    def remove_component(self, container: ContainerHandle, comp_instance: int) -> None:
+        os.kill(os.getpid(), signal.SIGSEGV)
+
+
+class IsSlow(ReferenceAdapter):
+    """Takes its time for a start, and never comes back from the removal of no container."""
+
+    def start(self, container: ContainerHandle) -> None:
+        time.sleep(0.4)
+        super().start(container)
+
+    def remove_container(self, manager: ContainerHandle, sub_container: ContainerHandle) -> None:
+        if sub_container is None:
+            threading.Event().wait()
+        super().remove_container(manager, sub_container)
