@@ -2,33 +2,32 @@
 
 from __future__ import annotations
 
-import datetime
-import os
+import math
 import random
 import sys
-import tempfile
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any, NoReturn
 
 import click
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 import ucm_cts
 from ucm_cts.harness.campaign import Campaign
-from ucm_cts.harness.catalogue import load_interpretations, load_life_cycle, load_requirements
+from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.documents import DocumentError
 from ucm_cts.harness.driver import Driver, Limits
 from ucm_cts.harness.explanation import explanation, overview
 from ucm_cts.harness.hosts import HostUnavailable
-from ucm_cts.harness.known_failures import KnownFailure, load_known_failures, stale
+from ucm_cts.harness.known_failures import known_today, stale, succeeded
 from ucm_cts.harness.locate import WrongUse, locate
 from ucm_cts.harness.purposes import PROFILES, load_purposes, select
 from ucm_cts.harness.report.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.summary import summary
-from ucm_cts.harness.report.write import write_report
-from ucm_cts.harness.results import Report
-from ucm_cts.harness.scripts import read_scripts, to_scenario
+from ucm_cts.harness.report.write import prepare_folder, save_report
+from ucm_cts.harness.scripts import TestPurpose, read_scripts, to_scenario
+from ucm_cts.harness.terminal import Output, ends_like_interrupts
 from ucm_cts.reference_models.judgement import Judge
 
 CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
@@ -37,17 +36,30 @@ DEFAULT_ADAPTER = "reference-cpp"
 adapter_argument = click.argument("adapter", default=DEFAULT_ADAPTER, required=False)
 in_process_option = click.option("--in-process", is_flag=True, help="No host process: for debuggers and sanitizers.")
 seed_option = click.option("--seed", type=int, help="Repeat a run: names and payloads are drawn from it.")
+
+
+class _Seconds(click.FloatRange):
+    """A time that passes."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        seconds = super().convert(value, param, ctx)
+        if not math.isfinite(seconds):
+            self.fail(f"'{value}' is no number of seconds.", param, ctx)
+        return seconds
+
+
+class _Folder(click.Path):
+    """A folder that has a name."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value == "":
+            self.fail("name a folder for the report.", param, ctx)
+        return super().convert(value, param, ctx)
+
+
 timeout_option = click.option(
-    "--timeout", type=click.FloatRange(min=0.1), default=5.0, show_default=True, help="Seconds a scenario may take."
+    "--timeout", type=_Seconds(min=0.1), default=Limits.seconds, show_default=True, help="Seconds a scenario may take."
 )
-
-
-class _Output(Console):
-    """The terminal; if nobody reads any more, the work goes on all the same."""
-
-    def on_broken_pipe(self) -> None:
-        self.quiet = True
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
@@ -62,12 +74,22 @@ def cli() -> None:
 @click.option("-k", "expression", default="", help="Only test purposes whose id, clause or requirement contains this.")
 @seed_option
 @click.option(
-    "--out", type=click.Path(file_okay=False, path_type=Path), default=Path("ucm-cts-report"), show_default=True
+    "--out",
+    type=_Folder(file_okay=False, path_type=Path),
+    default=Path("ucm-cts-report"),
+    show_default=True,
 )
 @click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
 @in_process_option
 @timeout_option
 @click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
+@click.option(
+    "--incident-time",
+    type=_Seconds(min=0),
+    default=Limits.incident_seconds,
+    show_default=True,
+    help="Seconds that crashes and hangs may take in all before scenarios that would meet more of them are left out.",
+)
 def run(
     adapter: str,
     profile: str,
@@ -78,6 +100,7 @@ def run(
     in_process: bool,
     timeout: float,
     memory: int,
+    incident_time: float,
 ) -> None:
     """Run a profile on ADAPTER and write report.html, report.json and junit.xml.
 
@@ -85,40 +108,33 @@ def run(
     executable, tcp://host:port or unix:/path. Exit status: 0 conformant, 1 not conformant or inconclusive, 2 wrong
     use, 3 the harness failed.
     """
-    console = _Output()
-    known = _known_failures(known_failures)
+    console = Output()
+    known = known_today(known_failures)
     purposes = load_purposes(profile)
     if expression:
         purposes = select(purposes, expression)
         if not purposes:
             raise WrongUse(f"no test purpose matches -k '{expression}'; try a requirement, a clause or an operation")
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
-    with Driver(locate(adapter, in_process), drawn, Limits(timeout, memory)) as driver:
-        campaign = Campaign(driver, profile, known)
-        identity = driver.identity
-        name = one_line(f"{identity.product} {identity.version}", 80)
-        console.print(
-            f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}, seed {drawn}",
-            markup=False,
-            soft_wrap=True,
-        )
-        make_folder(out)
-        interrupted = False
-        try:
-            with _progress(console) as progress:
-                task = progress.add_task("checking", total=len(purposes))
-                failing = 0
-                for checked in campaign.check(purposes):
-                    failing += bool(checked.failures)
-                    progress.update(task, advance=1, description=f"{failing} failing, {_short(checked.purpose.id)}")
-                if failing:
-                    progress.update(task, description="looking for the shortest scenarios")
-                    for _ in campaign.shorten():
-                        pass
-        except KeyboardInterrupt:
-            interrupted = True
-        report = campaign.report()
-    write(report, out)
+    limits = Limits(timeout, memory, incident_seconds=incident_time)
+    with ends_like_interrupts():
+        with Driver(locate(adapter, in_process), drawn, limits) as driver:
+            campaign = Campaign(driver, profile, known)
+            identity = driver.identity
+            name = one_line(f"{identity.product} {identity.version}", 80)
+            console.print(
+                f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}, seed {drawn}",
+                markup=False,
+                soft_wrap=True,
+            )
+            prepare_folder(out)
+            interrupted = False
+            try:
+                _check(campaign, purposes, console)
+            except KeyboardInterrupt:
+                interrupted = True
+            report = campaign.report()
+        save_report(report, out)
     console.print(summary(report, out))
     outdated = stale(known, report.requirements) if not expression and not interrupted else []
     for entry in outdated:
@@ -129,18 +145,42 @@ def run(
         )
     if interrupted:
         console.print("interrupted: the report holds what was measured so far")
-    sys.exit(_status(report, bool(outdated) or interrupted))
+    status = NOT_CONFORMANT if outdated or interrupted or not succeeded(report) else CONFORMANT
+    _leave(console, status, f"; the report is in {out}")
+
+
+def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output) -> None:
+    with _progress(console) as progress:
+        task = progress.add_task("checking", total=len(purposes))
+        failing = 0
+        for checked in campaign.check(purposes):
+            failing += bool(checked.failures)
+            progress.update(task, advance=1, description=f"{failing} failing, {_short(checked.purpose.id)}")
+        if failing:
+            progress.update(task, description="looking for the shortest scenarios")
+            for _ in campaign.shorten():
+                pass
+
+
+def _leave(console: Output, status: int, remainder: str = "") -> NoReturn:
+    """End with ``status``, unless something of what was to be read is lost."""
+    console.file.flush()
+    if console.error:
+        click.echo(f"ucm-cts: standard output cannot be written: {console.error}{remainder}", err=True)
+        sys.exit(HARNESS_FAILED)
+    sys.exit(status)
 
 
 @cli.command()
 @click.argument("requirement", default="", required=False)
 def explain(requirement: str) -> None:
     """Show REQUIREMENT: clause, meaning, interpretation, scenarios. Without it, list the catalogue."""
-    console = _Output()
+    console = Output()
     if not requirement:
         console.print(overview())
-        return
-    console.print(explanation(requirement))
+    else:
+        console.print(explanation(requirement))
+    _leave(console, CONFORMANT)
 
 
 @cli.command()
@@ -156,24 +196,27 @@ def replay(file: Path, adapter: str, in_process: bool, seed: int | None, timeout
     """
     scripts = read_scripts(file)
     judge = Judge(load_life_cycle())
+    console = Output()
     failed = False
-    with Driver(locate(adapter, in_process), seed or 0, Limits(timeout)) as driver:
+    with ends_like_interrupts(), Driver(locate(adapter, in_process), seed or 0, Limits(timeout)) as driver:
         for answer in driver.run((script.scenario, to_scenario(script)) for script in scripts):
             execution = driver.revealed(answer)
             product = one_line(f"{driver.identity.product} {driver.identity.version}", 80)
-            click.echo(f"{execution.name} on {product}\n")
-            click.echo(replay_text(execution))
+            console.out(f"{execution.name} on {product}\n", highlight=False)
+            console.out(replay_text(execution), highlight=False)
             if execution.incident is not None:
                 failed = True
                 told = f"{clean(execution.incident.detail)}\n{clean(execution.incident.stacks, LONGEST_STACKS)}"
-                click.echo(f"\n{execution.incident.kind}: {told}")
+                console.out(f"\n{execution.incident.kind}: {told}", highlight=False)
                 continue
             findings = [driver.reveal(f) for f in judge.judge(answer.disguised, answer.trace).findings]
             for finding in findings:
-                click.echo("\n" + failure_text(finding, execution))
+                console.out("\n" + failure_text(finding, execution), highlight=False)
             failed = failed or bool(findings)
-            click.echo("\nno rule was broken" if not findings else f"\n{len(findings)} rule(s) broken")
-    sys.exit(NOT_CONFORMANT if failed else CONFORMANT)
+            console.out(
+                "\nno rule was broken" if not findings else f"\n{len(findings)} rule(s) broken", highlight=False
+            )
+    _leave(console, NOT_CONFORMANT if failed else CONFORMANT)
 
 
 def main() -> None:
@@ -191,51 +234,16 @@ def main() -> None:
     except (click.exceptions.Abort, KeyboardInterrupt):
         click.echo("ucm-cts: interrupted", err=True)
         sys.exit(HARNESS_FAILED)
-    except Exception as error:
-        if "--debug" in sys.argv:
-            raise
+    except Exception as error:  # noqa: BLE001 - the last resort; nobody shall read a traceback
         click.echo(f"ucm-cts: the harness failed: {type(error).__name__}: {error}", err=True)
         sys.exit(HARNESS_FAILED)
-
-
-def _known_failures(path: Path | None) -> tuple[KnownFailure, ...]:
-    if path is None:
-        return ()
-    return load_known_failures(path, [r.id for r in load_requirements()], datetime.date.today())
-
-
-def make_folder(out: Path) -> None:
-    """The report's folder, before time is spent on what goes into it."""
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=out).close()
-    except OSError as error:
-        raise WrongUse(
-            f"the report cannot be written to '{out}': {error.strerror}; choose another folder with --out"
-        ) from None
-
-
-def write(report: Report, out: Path) -> None:
-    """Write all files of ``report`` into ``out``."""
-    decisions = {i.id: i.text for i in load_interpretations()}
-    write_report(report, load_requirements(), load_life_cycle(), decisions, out)
-
-
-def _status(report: Report, spoiled: bool) -> int:
-    if report.verdict == "conformant":
-        return NOT_CONFORMANT if spoiled else CONFORMANT
-    excused = not report.incidents and all(
-        r.verdict in ("pass", "not applicable") or (r.verdict == "fail" and all(f.waived for f in r.findings))
-        for r in report.requirements
-    )
-    return CONFORMANT if excused and not spoiled else NOT_CONFORMANT
 
 
 def _short(text: str) -> str:
     return text if len(text) <= 50 else text[:47] + "..."
 
 
-def _progress(console: Console) -> Progress:
+def _progress(console: Output) -> Progress:
     return Progress(
         TextColumn("{task.description}", markup=False),
         BarColumn(),

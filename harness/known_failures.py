@@ -12,8 +12,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ucm_cts.adapters.contract.scenario import Value
+from ucm_cts.harness.catalogue import load_requirements
 from ucm_cts.harness.documents import DocumentError, read, read_lines
-from ucm_cts.harness.results import RequirementResult
+from ucm_cts.harness.results import Report, RequirementResult
 from ucm_cts.reference_models.findings import Finding
 
 
@@ -28,6 +29,13 @@ class KnownFailure(Value, frozen=True):
     reason: str
     expires: str
     url: str = ""
+
+
+def known_today(path: Path | None) -> tuple[KnownFailure, ...]:
+    """The entries of the file at ``path``, if there is one, as of today. Raises ``DocumentError``."""
+    if path is None:
+        return ()
+    return load_known_failures(path, [r.id for r in load_requirements()], datetime.date.today())
 
 
 def load_known_failures(path: Path, requirements: Sequence[str], today: datetime.date) -> tuple[KnownFailure, ...]:
@@ -58,6 +66,23 @@ def waiver_for(finding: Finding, known: Sequence[KnownFailure]) -> str:
 def _matches(pattern: str, text: str) -> bool:
     """Nothing but ``*`` is special: observations are full of brackets and question marks."""
     return re.fullmatch(".*".join(map(re.escape, pattern.split("*"))), text, re.DOTALL) is not None
+
+
+def all_known(report: Report) -> bool:
+    """Is nothing but known failures in the way of ``report`` being conformant?"""
+    return (
+        report.verdict == "not conformant"
+        and not report.incidents
+        and all(
+            r.verdict in ("pass", "not applicable") or (r.verdict == "fail" and all(f.waived for f in r.findings))
+            for r in report.requirements
+        )
+    )
+
+
+def succeeded(report: Report) -> bool:
+    """Does a build that expects the known failures pass?"""
+    return report.verdict == "conformant" or all_known(report)
 
 
 def stale(known: Sequence[KnownFailure], results: Sequence[RequirementResult]) -> list[KnownFailure]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import select
+import shlex
 import signal
 import subprocess
 import sys
@@ -83,6 +84,29 @@ def test_nobody_has_to_read_what_is_printed(here: Path) -> None:
     assert report_of(here / "out")["verdict"] == "inconclusive"
 
 
+def test_terminal_that_knows_no_symbols(here: Path) -> None:
+    environment = {**os.environ, "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "LC_ALL": "POSIX"}
+    (here / "script.yaml").write_text(SCRIPT)
+    for arguments in f"run {SUBJECT} --out out", "replay script.yaml reference-py", f"explain {REQUIREMENT}":
+        done = subprocess.run(
+            [sys.executable, "-m", "ucm_cts", *arguments.split()], capture_output=True, check=False, env=environment
+        )
+        assert (done.returncode, done.stderr) == (int(SUBJECT in arguments), b"")
+        assert done.stdout.isascii()
+        assert (b"x NOT CONFORMANT" in done.stdout) == (SUBJECT in arguments)
+
+
+def test_output_that_is_lost_is_told_and_the_report_is_not(here: Path) -> None:
+    command = [sys.executable, "-m", "ucm_cts", "run", "reference-py", "--out", "out"]
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 3
+    assert done.stderr == (
+        "ucm-cts: standard output cannot be written: No space left on device; the report is in out\n"
+    )
+    assert report_of(here / "out")["verdict"] == "conformant"
+
+
 def test_not_conformant(failed: tuple[Outcome, Path]) -> None:
     outcome, out = failed
     assert (outcome.status, outcome.err) == (1, "")
@@ -104,6 +128,11 @@ WRONG_USES: dict[str, tuple[str, str]] = {
     "selection": ("run reference-py -k nothing-like-it", "no test purpose matches -k 'nothing-like-it'"),
     "seed": ("run reference-py --seed x", "'x' is not a valid integer"),
     "timeout": ("run reference-py --timeout 0", "0.0 is not in the range"),
+    "timeout below nothing": ("run reference-py --timeout -1", "-1.0 is not in the range"),
+    "timeout without end": ("run reference-py --timeout inf", "'inf' is no number of seconds"),
+    "timeout that is none": ("replay script.yaml --timeout nan", "'nan' is no number of seconds"),
+    "time for incidents": ("run reference-py --incident-time nan", "'nan' is no number of seconds"),
+    "out is nothing": ("run reference-py --out ''", "name a folder for the report"),
     "option": ("run reference-py --frobnicate", "No such option"),
     "no list": ("run reference-py --known-failures none.yaml", "none.yaml: cannot be read"),
     "out is a file": ("run reference-py --out script.yaml", "Directory 'script.yaml' is a file"),
@@ -124,7 +153,7 @@ def test_wrong_use_is_status_2_and_says_what_is_wrong(here: Path, command: str, 
     (here / "script.yaml").write_text(SCRIPT)
     (here / "bad.yaml").write_text(BAD_SCRIPT)
     (here / "empty.json").write_text("[]")
-    outcome = ucm_cts(*command.split())
+    outcome = ucm_cts(*shlex.split(command))
     assert outcome.status == 2
     assert message in " ".join(outcome.err.split())
     assert "CONFORMANT" not in outcome.out
@@ -139,7 +168,10 @@ def test_harness_that_fails_is_status_3_in_one_line(here: Path, monkeypatch: pyt
     assert len(outcome.err.splitlines()) == 1
 
 
-def test_interrupted_run_reports_what_it_has_and_is_no_success(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_interrupted_run_reports_what_it_has_and_is_no_success(
+    here: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
+) -> None:
     heard = here / "heard"
     os.mkfifo(heard)
     pipe = os.open(heard, os.O_RDWR)
@@ -147,10 +179,12 @@ def test_interrupted_run_reports_what_it_has_and_is_no_success(here: Path, monke
     command = [sys.executable, "-m", "ucm_cts", "run", "subjects:Waiting", "--timeout", "60", "--out", "out"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert select.select([pipe], [], [], 30)[0], "the subject was never called"
-        process.send_signal(signal.SIGINT)
+        (template,) = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        process.send_signal(number)
         out, err = process.communicate()
     os.close(pipe)
     assert (process.returncode, err) == (1, "")
+    assert not Path(f"/proc/{template}").exists()
     assert "interrupted: the report holds what was measured so far" in out
     assert report_of(here / "out")["verdict"] == "inconclusive"
 
@@ -199,7 +233,8 @@ def run_with_known(entries: object, *options: str) -> Outcome:
 def test_known_failures_change_the_status_and_not_the_verdict(here: Path) -> None:
     outcome = run_with_known(KNOWN)
     assert outcome.status == 0
-    assert "NOT CONFORMANT" in outcome.out
+    assert "✗ NOT CONFORMANT (all failures known)" in outcome.out
+    assert "\n  known     known to us\n" in outcome.out
     report = report_of(here / "out")
     assert report["verdict"] == "not conformant"
     (result,) = [r for r in report["requirements"] if r["verdict"] == "fail"]

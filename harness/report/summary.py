@@ -7,6 +7,7 @@ from pathlib import Path
 from rich.console import Group, RenderableType
 from rich.text import Text
 
+from ucm_cts.harness.known_failures import all_known
 from ucm_cts.harness.report.failures import shortest_first
 from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.order import SYMBOLS, count, to_fix
@@ -34,9 +35,10 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
     """What to print at the end of a run; ``out`` is the folder the report was written to."""
     symbol, style = _BANNER[report.verdict]
     name = one_line(f"{report.product} {report.version}", 80)
+    known = " (all failures known)" if all_known(report) else ""
     lines = [
         Text.assemble(
-            (f"{symbol} {report.verdict.upper()}", style), f"  {name}, profile {one_line(report.profile, 40)}"
+            (f"{symbol} {report.verdict.upper()}{known}", style), f"  {name}, profile {one_line(report.profile, 40)}"
         ),
         _counts(report),
     ]
@@ -72,10 +74,12 @@ def _failure(result: RequirementResult) -> list[Text]:
     if not result.findings:
         return [_cut(head), _cut(Text(f"  {one_line(result.reason)}"))]
     finding = shortest_first(result.findings)[0].finding
+    waived = result.findings[:1] if all(f.waived for f in result.findings) else ()
     return [
         _cut(head),
         _cut(Text.assemble(("  expected  ", "green"), one_line(finding.expected, 300))),
         _cut(Text.assemble(("  observed  ", "red"), one_line(finding.observed, 300))),
+        *(_cut(Text.assemble(("  known     ", "yellow"), one_line(f.waived, 300))) for f in waived),
     ]
 
 

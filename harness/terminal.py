@@ -1,0 +1,100 @@
+"""The terminal: what it cannot show is shown otherwise, and when nobody listens any more the work goes on all the same."""
+
+from __future__ import annotations
+
+import io
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from types import FrameType
+from typing import IO, NoReturn, cast
+
+from rich.console import Console
+
+_PLAIN = {
+    ord(fine): plain
+    for fine, plain in zip("✓✗⚡…–•●○→▶▷⇒◀×µ─╌═│┊┐┘┌└├┤┼┬┴", "+x!.-**o>>>=<xu--=||+++++++++", strict=True)
+}
+
+
+class Output(Console):
+    """Standard output."""
+
+    def __init__(self) -> None:
+        self._stream = _Stream()
+        super().__init__(file=cast(IO[str], self._stream))
+
+    @property
+    def error(self) -> str:
+        """Why something was lost; empty if nothing was, or if the reader went away."""
+        return self._stream.error
+
+
+class _Stream(io.TextIOBase):
+    """Writes to standard output until that fails, and to nowhere from then on."""
+
+    error = ""
+
+    def __init__(self) -> None:
+        self._target = sys.stdout
+        self._encoding = self._target.encoding or "utf-8"
+
+    @property
+    def encoding(self) -> str:  # type: ignore[override]
+        return self._encoding
+
+    def isatty(self) -> bool:
+        return self._target.isatty()
+
+    def fileno(self) -> int:
+        return self._target.fileno()
+
+    def write(self, text: str) -> int:
+        try:
+            text.encode(self._encoding)
+        except UnicodeEncodeError:
+            text = text.translate(_PLAIN).encode(self._encoding, "replace").decode(self._encoding)
+        with self._guarded():
+            self._target.write(text)
+        return len(text)
+
+    def flush(self) -> None:
+        with self._guarded():
+            self._target.flush()
+
+    @contextmanager
+    def _guarded(self) -> Iterator[None]:
+        try:
+            yield
+        except BrokenPipeError:
+            self._give_up()
+        except OSError as error:
+            self.error = self.error or error.strerror or str(error)
+            self._give_up()
+
+    def _give_up(self) -> None:
+        """What is buffered must not fail again when the interpreter ends."""
+        with suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), self._target.fileno())
+
+
+@contextmanager
+def ends_like_interrupts() -> Iterator[None]:
+    """A request to end, or a terminal that closes, is as good as an interrupt, once; nobody is asked twice."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}
+    ours = [number for number, handler in before.items() if handler is not signal.SIG_IGN]
+
+    def interrupt(number: int, frame: FrameType | None) -> NoReturn:
+        for each in ours:
+            signal.signal(each, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    for number in ours:
+        signal.signal(number, interrupt)
+    try:
+        yield
+    finally:
+        for number in ours:
+            signal.signal(number, before[number])

@@ -1,0 +1,107 @@
+"""A framework that crashes or hangs: everything else is still tried, in time, and nobody is blamed for being slow."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import pytest
+from command_line import report_of, ucm_cts, within
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Call
+from ucm_cts.harness.driver import Driver, Limits
+from ucm_cts.harness.incidents import Patience
+from ucm_cts.harness.locate import locate
+from ucm_cts.harness.purposes import load_purposes, select
+from ucm_cts.harness.results import Incident
+
+STARTS = Scenario({}, (s.Start(),))
+STOPS = Scenario({}, (s.Start(), s.Stop()))
+LISTS = Scenario({}, (s.GetComponents(),))
+REMOVES_NOTHING = Scenario({}, (s.RemoveContainer("nil"),))
+REMOVES = Scenario({}, (s.CreateContainer("c"), s.RemoveContainer("c"), s.Start()))
+CRASH = Incident("crash", "SIGSEGV")
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    within(tmp_path, monkeypatch)
+
+
+def kinds(adapter: str, limits: Limits, *scenarios: Scenario) -> list[str]:
+    with Driver(locate(f"hostile.failing:{adapter}"), seed=1, limits=limits) as driver:
+        answers = list(driver.run((f"{n}", scenario) for n, scenario in enumerate(scenarios)))
+    assert [answer.name for answer in answers] == [f"{n}" for n in range(len(scenarios))]
+    return [answer.incident.kind if answer.incident else "" for answer in answers]
+
+
+def test_slow_framework_is_never_taken_for_one_that_hangs() -> None:
+    limits = Limits(seconds=0.6)
+    scenarios = [REMOVES_NOTHING, STARTS, REMOVES_NOTHING, REMOVES, REMOVES_NOTHING, STARTS]
+    assert kinds("IsSlow", limits, *scenarios) == ["hang", "", "hang", "", "hang", ""]
+
+
+def test_what_hangs_too_long_is_left_out_and_all_else_is_tried() -> None:
+    began = time.monotonic()
+    found = kinds("HangsInStop", Limits(seconds=0.2, incident_seconds=1.0), *[LISTS, STOPS, STARTS] * 40)
+    assert time.monotonic() - began < 10
+    assert {*found[0::3], *found[2::3]} == {""}, "no stop, no trouble"
+    hangs = found[1::3].count("hang")
+    assert 2 <= hangs <= 6
+    assert found[1::3] == ["hang"] * hangs + ["untried"] * (40 - hangs)
+
+
+def test_time_for_incidents_is_an_option_and_what_it_costs_is_inconclusive() -> None:
+    options = ["-k", "stop", "--incident-time", "0", "--timeout", "0.5", "--out", "out"]
+    outcome = ucm_cts("run", "hostile.failing:HangsInStop", *options)
+    assert outcome.status == 1
+    assert "scenarios not tried: stop had met a hang before" in " ".join(outcome.out.split())
+    report = report_of(Path("out"))
+    verdicts = {r["id"]: r for r in report["requirements"]}
+    assert "error" not in {r["verdict"] for r in verdicts.values()}
+    assert verdicts["R-12.10-10"]["verdict"] == "fail", "stop does not end"
+    (hang, untried) = report["incidents"]
+    assert (hang["kind"], untried["kind"]) == ("hang", "untried")
+    asked = sum(len(p.scenarios) for p in select(load_purposes("container"), "stop"))
+    left_out = int(untried["detail"].split()[0])
+    assert 0 < left_out == asked - report["scenarios"], "what was not tried is not counted"
+    reasons = [r["reason"] for r in verdicts.values() if r["verdict"] == "inconclusive"]
+    assert any("were not tried: stop had met a hang before" in reason for reason in reasons)
+
+
+def test_crash_in_a_common_operation_leaves_every_scenario_its_try() -> None:
+    cases = [case for purpose in load_purposes("container") for case in purpose.scenarios][::3]
+    began = time.monotonic()
+    with Driver(locate("hostile.failing:CrashesInRemove"), seed=1) as driver:
+        answers = list(driver.run(cases))
+    assert time.monotonic() - began < 20  # 3 s when the machine has nothing else to do
+    for answer in answers:
+        removes = any(isinstance(step, s.RemoveComponent) for step in answer.scenario.steps)
+        assert answer.incident is None or (answer.incident.kind == "crash" and removes)
+    assert sum(answer.incident is not None for answer in answers) > 50
+    assert sum(bool(answer.incident and answer.trace) for answer in answers) > 10, "many are looked at again"
+
+
+def test_patience_is_for_all_incidents_together() -> None:
+    patience = Patience(10)
+    call = (Call(1, 0, 0, 0),)
+    patience.spend(9, STOPS, CRASH, call)
+    assert patience.not_tried(STARTS) is None
+    patience.spend(1, STOPS, CRASH, call)
+    assert patience.not_tried(STARTS)
+    assert patience.not_tried(LISTS) is None, "nothing is known against get_components"
+    patience.spend(1, LISTS, CRASH, ())
+    assert patience.not_tried(LISTS), "nobody knows what to leave out"
+
+
+def test_second_looks_are_for_what_is_not_explained() -> None:
+    patience = Patience(10)
+    patience.looked(5)
+    for _ in range(2):
+        assert patience.is_worth_a_look(STARTS, "crash")
+        patience.spend(1, STARTS, CRASH, (Call(1, 0, 0, 0),))
+    assert not patience.is_worth_a_look(STOPS, "crash")
+    assert patience.is_worth_a_look(STOPS, "hang")
+    assert patience.is_worth_a_look(LISTS, "crash")
