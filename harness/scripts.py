@@ -119,8 +119,9 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
         where = f".steps[{index}]"
         for variable, kind in uses(step):
             if variable in (s.UNKNOWN, s.NIL):
-                continue
-            if variable not in bound:
+                if not _may_stand_for(variable, kind, step):
+                    found.append((where, f"'{variable}' is no {kind} here; name one that an earlier step binds"))
+            elif variable not in bound:
                 there = ", ".join(sorted(bound))
                 found.append((where, f"'{variable}' is not bound by an earlier step; there are {there}"))
             elif bound[variable] != kind:
@@ -142,6 +143,13 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
     for index, worker in overlaps(script.steps):
         found.append((f".steps[{index}]", f"'{worker}' may still be operating a container; join it first"))
     return found
+
+
+def _may_stand_for(variable: str, kind: str, step: Step) -> bool:
+    """Nobody operates a container that is nil; only to remove it can be asked for."""
+    if variable == s.UNKNOWN:
+        return kind in ("component", "connection")
+    return kind == "reference" or isinstance(step, s.RemoveContainer)
 
 
 def overlaps(steps: tuple[Step, ...]) -> Iterator[tuple[int, str]]:

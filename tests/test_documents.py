@@ -25,6 +25,8 @@ BAD = {
     "missing field": (GOOD.replace(", component: server", ""), 5, "component"),
     "unknown probe": (GOOD.replace("sink", "sonk"), 3, "sonk"),
     "unbound variable": (GOOD + "  - {op: remove_component, id: client}\n", 7, "client"),
+    "no container": (GOOD.replace("{op: start}", "{op: start, container: nil}"), 6, "nil"),
+    "no component": (GOOD + "  - {op: remove_component, id: nil}\n", 7, "nil"),
     "unknown gate": (GOOD + "  - {op: open, gate: g}\n", 7, "gate"),
     "reserved name": (GOOD.replace("server:", "manager:"), 3, "reserved"),
     "duplicate key": (GOOD + "steps: []\n", 7, "twice"),
