@@ -115,7 +115,7 @@ def main() -> None:
 
 def _limit(limit: float, *measured: float) -> str:
     """The limit, and whether it is kept."""
-    return f"{limit:g} [green]✓[/]" if max(measured) <= limit else f"{limit:g} [bold red]✗ missed[/]"
+    return f"{limit:g} [green]✓[/]" if round(max(measured), 1) <= limit else f"{limit:g} [bold red]✗ missed[/]"
 
 
 def _life_cycle_table(costs: dict[str, float]) -> Table:
