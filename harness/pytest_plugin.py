@@ -21,11 +21,14 @@ if TYPE_CHECKING:
     from ucm_cts.reference_models.findings import Finding
 
 
+_PROFILE = "container"
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Options of the suite."""
     group = parser.getgroup("ucm-cts", "UCM conformance")
     group.addoption("--iut", metavar="ADAPTER", help="implementation under test, as for 'ucm-cts run'")
-    group.addoption("--iut-profile", default="container", help="conformance profile (default: container)")
+    group.addoption("--iut-profile", default=_PROFILE, help="conformance profile (default: container)")
     group.addoption("--iut-seed", type=int, help="repeat a run: names and payloads are drawn from it")
     group.addoption("--iut-out", metavar="DIR", help="write report.html, report.json and junit.xml there")
     group.addoption("--iut-known-failures", metavar="FILE", help="failures expected for now; they count as xfailed")
@@ -47,15 +50,23 @@ def _seconds(text: str) -> float:
     return seconds
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Wrong use is told before anything runs."""
+    profile = config.getoption("--iut-profile")
+    if profile != _PROFILE:
+        from ucm_cts.harness.purposes import PROFILES
+
+        if profile not in PROFILES:
+            raise pytest.UsageError(f"there is no profile '{profile}'; there is {', '.join(PROFILES)}")
+
+
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Each suite module asks for the purposes of its clauses: ``CLAUSES`` is a tuple of prefixes."""
-    if "purpose" not in metafunc.fixturenames or not hasattr(metafunc.module, "CLAUSES"):
+    if not metafunc.module.__name__.startswith("ucm_cts.suite."):
         return
-    from ucm_cts.harness.purposes import PROFILES, load_purposes
+    from ucm_cts.harness.purposes import load_purposes
 
     profile = metafunc.config.getoption("--iut-profile")
-    if profile not in PROFILES:
-        raise pytest.UsageError(f"there is no profile '{profile}'; there is {', '.join(PROFILES)}")
     chosen = [p for p in load_purposes(profile) if _belongs(p, metafunc.module.CLAUSES)]
     metafunc.parametrize("purpose", chosen, ids=[p.id.replace(" ", "-") for p in chosen])
 
@@ -176,7 +187,7 @@ def _story(finding: Finding | None, execution: Execution) -> str:
 
     if finding is not None:
         head = f"{finding.requirement}: expected {finding.expected}; observed {finding.observed}"
-        return f"{head}\n{failure_text(finding, execution)}"
+        return f"{head}\nscenario {execution.name}\n{failure_text(finding, execution)}"
     incident = execution.incident
     assert incident is not None
     blame = "" if incident.kind in FRAMEWORK_INCIDENTS else "\nThis says nothing about the framework."

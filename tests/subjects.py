@@ -9,7 +9,8 @@ import threading
 from collections.abc import Sequence
 from pathlib import Path
 
-from wrong_subjects import SUBJECTS, Base, bind
+from derived import SUBJECTS
+from derived.registry import Base, bind
 
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter

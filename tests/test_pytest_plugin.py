@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 
 import pytest
 from command_line import report_of, within
-from wrong_subjects import SUBJECTS
+from derived import SUBJECTS
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
@@ -191,7 +191,6 @@ def test_failure_says_requirement_expected_observed_and_shows_both(wrong: tuple[
         assert heads == 3 or not more
 
 
-@pytest.mark.xfail(strict=True, reason="of a purpose with several scenarios the message does not say which one failed")
 def test_failure_says_which_scenario(wrong: tuple[Session, Path]) -> None:
     for name, message in wrong[0].failed.items():
         assert any(scenario in message or scenario == name for scenario, _ in PURPOSES[name].scenarios), name
@@ -300,7 +299,6 @@ def test_wrong_use_ends_the_session_with_one_clear_line(arguments: str, message:
     assert len(session.out.splitlines()) <= 5
 
 
-@pytest.mark.xfail(strict=True, reason="the mistake is told once for each module, with the inside of pytest")
 def test_unknown_profile_is_one_clear_line_too() -> None:
     session = suite("--iut", "reference-py", "--iut-profile", "pim")
     assert session.status in (2, 4)
@@ -341,7 +339,6 @@ def test_foreign_tests_keep_their_fixtures(here: Path) -> None:
     assert (session.status, session.nodes) == (0, {"test_own_fixtures": ""})
 
 
-@pytest.mark.xfail(strict=True, reason="any module with CLAUSES and a purpose is taken for one of the suite")
 def test_foreign_tests_may_have_clauses(here: Path) -> None:
     (here / "test_foreign.py").write_text(FOREIGN.format(more="CLAUSES = ('11.1',)"))
     session = run_pytest("test_foreign.py")

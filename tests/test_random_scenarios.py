@@ -6,17 +6,12 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 
-import more_variants  # noqa: F401 - registers its variants
 import msgspec
-import phase_variants  # noqa: F401 - registers its variants
 import pytest
-import rare_variants  # noqa: F401 - registers its variants
-import subtle_subjects  # noqa: F401 - registers its subjects
+from derived import SUBJECTS, VARIANTS
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from random_scenarios import scenarios
-from variants import VARIANTS
-from wrong_subjects import SUBJECTS
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.scenario import Scenario

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import more_variants  # noqa: F401 - registers its variants
-import phase_variants  # noqa: F401 - registers its variants
 import pytest
-import rare_variants  # noqa: F401 - registers its variants
+from derived import VARIANTS
 from pipeline import failing_requirements
-from variants import VARIANTS
 
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import pytest
-import subtle_subjects  # noqa: F401 - registers its subjects
+from derived import SUBJECTS, WrongSubject
 from pipeline import failing_requirements
-from wrong_subjects import SUBJECTS, WrongSubject
 
 from ucm_cts.harness.catalogue import load_requirements
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Mapping
 
-from variants import variant
-from wrong_subjects import Base, GivesOutProxies, Proxy
-
+from derived.registry import Base, GivesOutProxies, Proxy, variant
 from ucm_cts.adapters.contract.programming_model import PortElementObject, UcmError
 from ucm_cts.adapters.reference_py.framework import Container, Failures, State
 

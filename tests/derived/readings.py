@@ -1,11 +1,10 @@
-"""Conformant variants of the Python reference framework: each uses a freedom the text gives; none may be failed."""
+"""Conformant variants, one for each reading that the interpretations permit."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from wrong_subjects import Base, GivesOutProxies, Proxy, bind
-
+from derived.registry import Base, GivesOutProxies, Proxy, variant
 from ucm_cts.adapters.contract.programming_model import (
     BadParameter,
     Connectable,
@@ -15,16 +14,7 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
     UcmError,
 )
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference_py.framework import Connection, Container, ContainerManager, Failures, Member, State
-
-VARIANTS: dict[str, type[ReferenceAdapter]] = {}
-
-
-def variant(mixin: type) -> type:
-    """Register the decorated mixin."""
-    VARIANTS[mixin.__name__] = bind(mixin.__name__, mixin, mixin.__doc__)
-    return mixin
 
 
 @variant
@@ -266,23 +256,18 @@ class starts_in_reverse(Base):
         return list(reversed(list(super()._start_order())))
 
 
-class _Plain(Proxy):
-    def exchange(self, value: int) -> int:
-        return self.target.exchange(value)
-
-
 @variant
 class hands_out_proxies(GivesOutProxies):
     """No reference that anybody gets is the body's own object."""
 
-    proxy = _Plain
+    proxy = Proxy
 
     def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
         return super(GivesOutProxies, self).connect(instance, port_name, to_port)
 
     def _connections_to(self, member: Member) -> list[Connection]:
         return [
-            c for c in self.manager.connections.values() if isinstance(c.target, _Plain) and c.target.member is member
+            c for c in self.manager.connections.values() if isinstance(c.target, Proxy) and c.target.member is member
         ]
 
 

@@ -1,10 +1,9 @@
-"""Conformant variants that take operational components down, or restart them, when their connections change."""
+"""Conformant variants that use freedoms few would think of."""
 
 from __future__ import annotations
 
-from variants import appends_connections, cascades, manager_reaches_down, starts_the_unconfigured, variant
-from wrong_subjects import Base
-
+from derived.readings import appends_connections, cascades, manager_reaches_down, starts_the_unconfigured
+from derived.registry import Base, variant
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.reference_py.framework import Connection, Container, Failures, Member, State
 
@@ -105,9 +104,6 @@ class manager_knows_everyone(Base):
         found = self.manager.connections.get(connection)
         container = found.client.container if found is not None and self is self.manager else self
         Container.disconnect(container, connection)
-
-
-# what is left half-way when something fails
 
 
 @variant
