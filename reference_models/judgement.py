@@ -10,7 +10,6 @@ from ucm_cts.adapters.contract.trace import (
     Call,
     Create,
     Enter,
-    Event,
     Exit,
     Raise,
     Reply,
@@ -52,7 +51,7 @@ class Judge:
         """
         reading = _Reading(self, scenario)
         for event in trace:
-            if reading.overlaps(event):
+            if reading.window is not None and isinstance(event, Call) and reading.overlaps(event):
                 break
             take = _TAKE.get(type(event))
             if take is not None:
@@ -74,13 +73,9 @@ class _Reading:
         self.hooks: dict[int, list[s.Hook]] = {}
         self.served: dict[int, list[BusinessCall | None]] = {}
 
-    def overlaps(self, event: Event) -> bool:
-        """Does another operation begin while one is in progress?"""
-        return (
-            self.window is not None
-            and isinstance(event, Call)
-            and not isinstance(self.ledger.scenario.steps[event.step], s.Invoke)
-        )
+    def overlaps(self, event: Call) -> bool:
+        """Does another operation begin with ``event``, while one is in progress?"""
+        return not isinstance(self.ledger.scenario.steps[event.step], s.Invoke)
 
     def call(self, event: Call) -> None:
         step = self.ledger.scenario.steps[event.step]

@@ -53,6 +53,8 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
         names = ", ".join(member.declaration.requires) or "nothing"
         return "R-11.2.1.2-09", "name", f"dependencies named {names}", f"a dependency named {foreign[0]}"
     for port in member.declaration.requires:
+        if given.get(port) == [c.reference for c in member.connections if c.port == port]:
+            continue  # the common case: what was connected, and what of it was undone is no_dangling_reference's matter
         connections = [c for c in member.connections if c.port == port and c.live is not False]
         certain = [c for c in connections if c.live]
         undone = {c.reference for c in member.connections if c.port == port and c.live is False}

@@ -50,7 +50,8 @@ class Situations:
         self._looks[operation](runtime, window, step)
         if window.subject is not None and window.subject.container is not container:
             window.judged = False
-        self._other_phases(runtime, window)
+        if len(runtime.containers) > 1:
+            self._other_phases(runtime, window)
         for member, _ in window.roles:
             if member is not None and member.suspended:
                 window.judged = False
