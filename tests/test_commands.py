@@ -86,6 +86,7 @@ def test_nobody_has_to_read_what_is_printed(here: Path) -> None:
 
 def test_terminal_that_knows_no_symbols(here: Path) -> None:
     environment = {**os.environ, "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "LC_ALL": "POSIX"}
+    environment.pop("PYTHONIOENCODING", None)
     (here / "script.yaml").write_text(SCRIPT)
     for arguments in f"run {SUBJECT} --out out", "replay script.yaml reference-py", f"explain {REQUIREMENT}":
         done = subprocess.run(
