@@ -69,8 +69,25 @@ Hook = Literal[
     "on_disconnect",
     "set_container_interface",
     "exchange",
+    "run",
 ]
-"""Where a probe is entered: the callbacks of clause 11.2.1, and ``exchange``, the probes' one business method."""
+"""Where a probe is entered: the callbacks of clause 11.2.1, ``exchange``, the probes' one business method, and ``run``
+of a self-executing component (10.1.3).
+"""
+
+
+class Policy(Value, frozen=True):
+    """A technical policy of a component implementation (9.5.4.3): the ``definition`` and, of some, the ``port``.
+
+    ``provides`` and ``requires`` are the policy's port elements in the framework's spelling: what the container calls on
+    the body, and what it hands over to the body at ``on_startup``.
+    """
+
+    definition: str
+    port: str | None = None
+    parameters: dict[str, str] = {}
+    provides: tuple[PortElementName, ...] = ()
+    requires: tuple[PortElementName, ...] = ()
 
 
 class Declaration(Value, frozen=True):
@@ -78,7 +95,7 @@ class Declaration(Value, frozen=True):
 
     ``provides`` and ``requires`` list port element names; ``attributes`` maps attribute names to configured values;
     ``connectable`` bodies implement Connectable (11.2.1.3), ``fragment`` bodies FragmentObject (11.2.1.4).
-    ``plan`` lists, per hook, the actions the probe performs each time it is entered there. No port element twice.
+    ``policies`` are its technical policies. ``plan`` lists, per hook, the actions the probe performs each time it is entered there. No port element twice.
     """
 
     provides: tuple[PortElementName, ...] = ()
@@ -87,6 +104,7 @@ class Declaration(Value, frozen=True):
     connectable: bool = False
     fragment: bool = False
     plan: dict[Hook, tuple[Action, ...]] = {}
+    policies: tuple[Policy, ...] = ()
 
     def __post_init__(self) -> None:
         if len({*self.provides, *self.requires}) < len(self.provides) + len(self.requires):
@@ -196,6 +214,12 @@ class ReachGate(StepBase, frozen=True, tag_field="op", tag="reach"):
     gate: str
 
 
+class Settle(StepBase, frozen=True, tag_field="op", tag="settle"):
+    """Wait until worker ``worker`` is done, held at a gate or seen to be blocked, at most the scenario's patience."""
+
+    worker: str
+
+
 class Join(StepBase, frozen=True, tag_field="op", tag="join"):
     """Wait until worker ``worker`` has done all its steps, for at most the scenario's patience."""
 
@@ -217,6 +241,7 @@ Step = (
     | Invoke
     | OpenGate
     | ReachGate
+    | Settle
     | Join
 )
 

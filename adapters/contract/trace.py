@@ -148,6 +148,15 @@ class Opened(EventBase, frozen=True, tag="opened"):
     gate: str
 
 
-Event = Call | Return | Raise | Skip | Timeout | Create | Enter | Exit | Request | Reply | Siblings | Held | Opened
+class Settled(EventBase, frozen=True, tag="settled"):
+    """Where a worker was found: its steps ``done``, its body ``held`` at a gate, the thread ``blocked`` by the operating
+    system, or still ``running`` when patience ran out.
+    """
+
+    worker: str
+    where: Literal["done", "held", "blocked", "running"]
+
+
+Event = Call | Return | Raise | Skip | Timeout | Create | Enter | Exit | Request | Reply | Siblings | Held | Opened | Settled
 
 Trace = tuple[Event, ...]
