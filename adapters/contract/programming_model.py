@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from ucm_cts.adapters.contract.scenario import Policy
+
 
 class NotFound(Exception):
     """NOT_FOUND of 12.10."""
@@ -39,6 +41,14 @@ class PortConnection:
     to_port: Sequence[PortElementObject | None]
 
 
+class ComponentExecution(ABC):
+    """What a self-executing component provides to its container (10.1.3): ``self-execution_api``."""
+
+    @abstractmethod
+    def run(self) -> None:
+        """Execute once."""
+
+
 class ComponentObject(ABC):
     """A component body (11.2.1.2)."""
 
@@ -61,6 +71,10 @@ class ComponentObject(ABC):
     @abstractmethod
     def get_portElement(self, provided: str) -> PortElementObject | None:
         """The body's own object for the provided port element of that name, or None if it has none."""
+
+    def get_policy_element(self, policy: str, element: str) -> ComponentExecution | None:
+        """The body's own object for the port element that its technical policy makes it provide, or None (12.8.5)."""
+        return None
 
     @abstractmethod
     def set_attribute(self, name: str, value: str) -> None:
@@ -98,7 +112,8 @@ class FragmentObject(ABC):
 class Implementation:
     """A component implementation a framework can instantiate: what its model says, and a factory for bodies.
 
-    ``connectable`` bodies also implement Connectable, ``fragment`` bodies also FragmentObject.
+    ``connectable`` bodies also implement Connectable, ``fragment`` bodies also FragmentObject. ``policies`` are the
+    technical policies that the container has to apply (10.1.3).
     """
 
     name: str
@@ -108,3 +123,4 @@ class Implementation:
     connectable: bool
     fragment: bool
     create: Callable[[], ComponentObject]
+    policies: Sequence[Policy] = ()

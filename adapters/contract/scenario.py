@@ -76,18 +76,22 @@ of a self-executing component (10.1.3).
 """
 
 
-class Policy(Value, frozen=True):
-    """A technical policy of a component implementation (9.5.4.3): the ``definition`` and, of some, the ``port``.
+SELF_EXECUTING = "protected_self-executing_component"
+ACTIVE = "protected_active_component"
+PROTECTED_PASSIVE = "protected_passive_component"
+UNPROTECTED_PASSIVE = "unprotected_passive_component"
+"""The four execution policies of 10.1.3."""
 
-    ``provides`` and ``requires`` are the policy's port elements in the framework's spelling: what the container calls on
-    the body, and what it hands over to the body at ``on_startup``.
-    """
+SELF_EXECUTION_API = "self-execution_api"
+"""The port element that a self-executing component provides to its container."""
+
+
+class Policy(Value, frozen=True):
+    """A technical policy of a component implementation (9.5.4.3): its ``definition`` and, of some, the ``port`` element."""
 
     definition: str
-    port: str | None = None
+    port: PortElementName | None = None
     parameters: dict[str, str] = {}
-    provides: tuple[PortElementName, ...] = ()
-    requires: tuple[PortElementName, ...] = ()
 
 
 class Declaration(Value, frozen=True):

@@ -157,6 +157,21 @@ class Settled(EventBase, frozen=True, tag="settled"):
     where: Literal["done", "held", "blocked", "running"]
 
 
-Event = Call | Return | Raise | Skip | Timeout | Create | Enter | Exit | Request | Reply | Siblings | Held | Opened | Settled
+Event = (
+    Call
+    | Return
+    | Raise
+    | Skip
+    | Timeout
+    | Create
+    | Enter
+    | Exit
+    | Request
+    | Reply
+    | Siblings
+    | Held
+    | Opened
+    | Settled
+)
 
 Trace = tuple[Event, ...]
