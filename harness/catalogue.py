@@ -17,8 +17,9 @@ Level = Literal["shall", "should", "may", "statement"]
 class Requirement(Value, frozen=True):
     """One statement of the specification, in the project's own words.
 
-    ``observed`` says how a trace shows that it was kept or broken, ``rules`` which rules stand for it. A requirement
-    that no run can show has ``untestable`` instead: the reason. ``interpretations`` are ids of ``interpretations.yaml``.
+    ``observed`` says how a trace or a model shows that it was kept or broken. It has exactly one of ``rules``, the rules
+    that stand for it; ``pending``, what the rule that is to stand for it still needs; and ``untestable``, why no run can
+    show it. ``interpretations`` are ids of ``interpretations*.yaml``.
     """
 
     id: str
@@ -28,6 +29,7 @@ class Requirement(Value, frozen=True):
     meaning: str
     observed: str = ""
     rules: tuple[str, ...] = ()
+    pending: str = ""
     untestable: str = ""
     interpretations: tuple[str, ...] = ()
     profile: str = "container"
@@ -51,10 +53,22 @@ def load_requirements() -> tuple[Requirement, ...]:
     return tuple(r for path in sorted((SUITE / "requirements").glob("*.yaml")) for r in read(path, list[Requirement]))
 
 
+def in_the_making(profile: str) -> str:
+    """Why a run cannot choose ``profile`` yet; nothing for a profile that is complete or that nobody knows."""
+    requirements = [r for r in load_requirements() if r.profile == profile]
+    pending = sum(bool(r.pending) for r in requirements)
+    if not pending:
+        return ""
+    return (
+        f"profile '{profile}' is in the making: {pending} of its {len(requirements)} requirements are not checked yet; "
+        "'ucm-cts explain' lists them"
+    )
+
+
 @functools.cache
 def load_interpretations() -> tuple[Interpretation, ...]:
     """All decisions about unclear places. Raises ``DocumentError``."""
-    return tuple(read(SUITE / "interpretations.yaml", list[Interpretation]))
+    return tuple(i for path in sorted(SUITE.glob("interpretations*.yaml")) for i in read(path, list[Interpretation]))
 
 
 @functools.cache

@@ -14,7 +14,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 import ucm_cts
 from ucm_cts.harness.campaign import Campaign
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.catalogue import in_the_making, load_life_cycle
 from ucm_cts.harness.documents import DocumentError
 from ucm_cts.harness.driver import Driver, Limits
 from ucm_cts.harness.explanation import explanation, overview
@@ -57,6 +57,16 @@ class _Folder(click.Path):
         return super().convert(value, param, ctx)
 
 
+class _Profile(click.Choice):  # type: ignore[type-arg] # generic since click 8.2
+    """What a run can check."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        unfinished = in_the_making(value)
+        if unfinished:
+            self.fail(f"{unfinished}; there is {', '.join(self.choices)}.", param, ctx)
+        return super().convert(value, param, ctx)
+
+
 timeout_option = click.option(
     "--timeout", type=_Seconds(min=0.1), default=Limits.seconds, show_default=True, help="Seconds a scenario may take."
 )
@@ -70,7 +80,7 @@ def cli() -> None:
 
 @cli.command()
 @adapter_argument
-@click.option("--profile", type=click.Choice(PROFILES), default="container", show_default=True)
+@click.option("--profile", type=_Profile(PROFILES), default="container", show_default=True)
 @click.option("-k", "expression", default="", help="Only test purposes whose id, clause or requirement contains this.")
 @seed_option
 @click.option(

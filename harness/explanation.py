@@ -10,7 +10,7 @@ from rich.text import Text
 
 from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_requirements
 from ucm_cts.harness.locate import WrongUse
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.purposes import PROFILES, load_purposes
 from ucm_cts.reference_models.ledger import RULES
 
 
@@ -24,10 +24,13 @@ def explanation(identifier: str) -> RenderableType:
         Text(),
         Text(requirement.meaning),
     ]
-    if requirement.untestable:
-        lines += [Text(), Text("Not tested: ", style="bold") + Text(requirement.untestable)]
-    else:
-        lines += [Text(), Text("Observed: ", style="bold") + Text(requirement.observed)]
+    for label, text in (
+        ("Not tested", requirement.untestable),
+        ("Not checked yet", requirement.pending),
+        ("Observed", requirement.observed),
+    ):
+        if text:
+            lines += [Text(), Text(f"{label}: ", style="bold") + Text(text)]
     for name in requirement.interpretations:
         entry = interpretations[name]
         lines += [Text(), Text(f"Interpretation {name}: ", style="bold") + Text(entry.text)]
@@ -35,7 +38,8 @@ def explanation(identifier: str) -> RenderableType:
     for rule in requirement.rules:
         doc = (RULES[rule].check.__doc__ or "").strip().splitlines()[0]
         lines += [Text(), Text(f"Rule {rule}: ", style="bold") + Text(doc)]
-    purposes = [p for p in load_purposes(requirement.profile) if requirement.id in p.requirements]
+    offered = load_purposes(requirement.profile) if requirement.profile in PROFILES else ()
+    purposes = [p for p in offered if requirement.id in p.requirements]
     if purposes:
         lines += [Text(), Text("Scenarios that exercise it:", style="bold")]
         lines += [Text(f"  {p.id}: {p.text} ({_count(len(p.scenarios))})") for p in purposes]
@@ -48,7 +52,8 @@ def overview() -> RenderableType:
     for column in ("requirement", "clause", "level", "title"):
         table.add_column(column)
     for r in load_requirements():
-        table.add_row(r.id, r.clause, r.level, r.title + (" (not testable)" if r.untestable else ""))
+        remark = " (not testable)" if r.untestable else " (not checked yet)" if r.pending else ""
+        table.add_row(r.id, r.clause, r.level, r.title + remark)
     return table
 
 

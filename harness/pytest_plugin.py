@@ -54,10 +54,12 @@ def pytest_configure(config: pytest.Config) -> None:
     """Wrong use is told before anything runs."""
     profile = config.getoption("--iut-profile")
     if profile != _PROFILE:
+        from ucm_cts.harness.catalogue import in_the_making
         from ucm_cts.harness.purposes import PROFILES
 
         if profile not in PROFILES:
-            raise pytest.UsageError(f"there is no profile '{profile}'; there is {', '.join(PROFILES)}")
+            problem = in_the_making(profile) or f"there is no profile '{profile}'"
+            raise pytest.UsageError(f"{problem}; there is {', '.join(PROFILES)}")
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:

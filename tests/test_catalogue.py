@@ -5,9 +5,15 @@ from __future__ import annotations
 import pytest
 
 import ucm_cts.reference_models.judgement  # noqa: F401 - registers the rules
-from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_life_cycle, load_requirements
+from ucm_cts.harness.catalogue import (
+    Requirement,
+    in_the_making,
+    load_interpretations,
+    load_life_cycle,
+    load_requirements,
+)
 from ucm_cts.harness.generate import generated_purposes
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.purposes import PROFILES, load_purposes
 from ucm_cts.reference_models.ledger import RULES
 
 REQUIREMENTS = {r.id: r for r in load_requirements()}
@@ -32,12 +38,29 @@ def test_ids_are_unique_and_follow_their_clause() -> None:
 
 @pytest.mark.parametrize("requirement", REQUIREMENTS.values(), ids=REQUIREMENTS.keys())
 def test_requirement_is_tested_or_says_why_not(requirement: Requirement) -> None:
-    assert bool(requirement.untestable) != bool(requirement.rules)
-    assert bool(requirement.observed) == bool(requirement.rules)
+    assert [bool(requirement.rules), bool(requirement.pending), bool(requirement.untestable)].count(True) == 1
+    assert bool(requirement.observed) != bool(requirement.untestable)
     for rule in requirement.rules:
         assert requirement.id in RULES[rule].stands_for, f"{rule} does not stand for {requirement.id}"
     for interpretation in requirement.interpretations:
         assert interpretation in INTERPRETATIONS
+
+
+def test_interpretations_are_unique_and_each_value_is_named_once() -> None:
+    assert len(INTERPRETATIONS) == len(load_interpretations())
+    for interpretation in INTERPRETATIONS.values():
+        for option, values in interpretation.options.items():
+            assert len(set(values)) == len(values) > 1, option
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_what_is_offered_has_nothing_pending(profile: str) -> None:
+    assert any(r.profile == profile for r in REQUIREMENTS.values())
+    assert in_the_making(profile) == ""
+
+
+def test_container_is_complete() -> None:
+    assert sum(bool(r.rules) for r in REQUIREMENTS.values() if r.profile == "container") == 86
 
 
 def test_rules_stand_for_known_requirements_that_name_them() -> None:

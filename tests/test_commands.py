@@ -126,6 +126,7 @@ WRONG_USES: dict[str, tuple[str, str]] = {
     "spelling": ("run subjects:Misspelled", "'{gate}'; that must hold {port} and {element}"),
     "executable in process": ("run reference-cpp --in-process", "cannot run in the harness process"),
     "profile": ("run reference-py --profile pim", "'pim' is not 'container'"),
+    "profile in the making": ("run --profile core", "profile 'core' is in the making"),
     "selection": ("run reference-py -k nothing-like-it", "no test purpose matches -k 'nothing-like-it'"),
     "seed": ("run reference-py --seed x", "'x' is not a valid integer"),
     "timeout": ("run reference-py --timeout 0", "0.0 is not in the range"),
@@ -290,11 +291,13 @@ def test_each_requirement_explains_itself(requirement: Requirement) -> None:
     assert (outcome.status, outcome.err) == (0, "")
     text = " ".join(outcome.out.split())
     expected = [requirement.id, requirement.title, f"clause {requirement.clause},", requirement.meaning]
-    expected += [requirement.untestable or requirement.observed, *(f"Rule {name}:" for name in requirement.rules)]
+    expected += [requirement.untestable, requirement.pending, requirement.observed]
+    expected += [f"Rule {name}:" for name in requirement.rules]
     expected += [i.text for i in load_interpretations() if i.id in requirement.interpretations]
     for words in expected:
         assert " ".join(words.split()) in text
     assert ("Not tested:" in text) == bool(requirement.untestable)
+    assert ("Not checked yet:" in text) == bool(requirement.pending)
 
 
 def test_explain_takes_short_spellings_and_lists_the_catalogue() -> None:

@@ -30,9 +30,10 @@ def prepare_folder(out: Path) -> None:
 
 
 def save_report(report: Report, out: Path) -> None:
-    """Write all files of ``report`` into ``out``, with the suite's own catalogue."""
+    """Write all files of ``report`` into ``out``, with what the suite's own catalogue has for its profile."""
     decisions = {i.id: i.text for i in load_interpretations()}
-    write_report(report, load_requirements(), load_life_cycle(), decisions, out)
+    catalogue = [r for r in load_requirements() if r.profile == report.profile]
+    write_report(report, catalogue, load_life_cycle(), decisions, out)
 
 
 def write_report(
