@@ -15,6 +15,7 @@ from ucm_cts.harness.driver import Answer, Driver
 from ucm_cts.harness.incidents import finding_of_incident
 from ucm_cts.harness.known_failures import KnownFailure
 from ucm_cts.harness.payloads import Payloads
+from ucm_cts.harness.purposes import PARTS
 from ucm_cts.harness.results import Execution, IncidentKind, Report
 from ucm_cts.harness.scripts import TestPurpose
 from ucm_cts.harness.tally import Cause, Tally, cause_of, overall
@@ -143,7 +144,7 @@ class Campaign:
 
     def report(self) -> Report:
         """All verdicts of the run so far."""
-        requirements = [r for r in load_requirements() if r.profile == self._profile]
+        requirements = [r for r in load_requirements() if r.profile in PARTS[self._profile]]
         results = self._tally.results(requirements, self.known)
         incidents = self._tally.incidents
         identity = self._driver.identity

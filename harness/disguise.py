@@ -14,7 +14,7 @@ from typing import TypeVar
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Action, Declaration, Scenario, Step
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
 from ucm_cts.harness.locate import WrongUse
 from ucm_cts.harness.payloads import EDGES, LARGEST
 
@@ -101,7 +101,12 @@ class Disguise:
             d.connectable,
             d.fragment,
             {hook: tuple(map(self._action, actions)) for hook, actions in d.plan.items()},
+            tuple(map(self._policy, d.policies)),
         )
+
+    def _policy(self, policy: Policy) -> Policy:
+        """Definitions have standard names, which are no secret."""
+        return msgspec.structs.replace(policy, port=self._port(policy.port) if policy.port is not None else None)
 
     def _action(self, action: Action) -> Action:
         match action:

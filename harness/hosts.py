@@ -228,7 +228,7 @@ def waits(scenario: s.Scenario) -> float:
     return (waiting + threads) * scenario.patience / 1000
 
 
-_WAITING_STEPS = (s.ReachGate, s.Join)
+_WAITING_STEPS = (s.ReachGate, s.Settle, s.Join)
 
 
 def _decode(host: Host, line: bytes) -> FromHost:

@@ -20,6 +20,7 @@ from ucm_cts.adapters.contract.trace import (
     Reply,
     Request,
     Return,
+    Settled,
     Siblings,
     Skip,
     Timeout,
@@ -28,7 +29,7 @@ from ucm_cts.harness.scripts import bound_by, used_by
 from ucm_cts.harness.turns import Turns
 
 _WAITS = (s.ReachGate, s.Join)
-_OF_SCENARIO = (*_WAITS, s.OpenGate)
+_OF_SCENARIO = (*_WAITS, s.OpenGate, s.Settle)
 _ID_GIVING = (s.AddComponent, s.Connect, s.Invoke)
 
 _PUNCTUALITY, _GRAIN = 0.9, 5_000_000
@@ -111,6 +112,8 @@ class _Check:
             return self.check_timeout(event, before)
         if isinstance(event, Opened):
             return self.check_opened(event)
+        if isinstance(event, Settled):
+            return self.check_settled(event)
         return self.check_body(event)
 
     def check_gate(self, event: Event) -> str | None:
@@ -183,6 +186,17 @@ class _Check:
         problem = self.check_turn(number, event.thread)
         self.done[number] = True
         self.opened.add(event.gate)
+        return problem
+
+    def check_settled(self, event: Settled) -> str | None:
+        number = self.turns.next_settle(event.worker, event.thread)
+        if number is None:
+            return f"'{event.worker}' is looked for where no step does so"
+        problem = self.check_turn(number, event.thread)
+        self.done[number] = True
+        before = [n for n in self.turns.steps.get(event.worker, ()) if n < number and not self.is_wait(n)]
+        if event.where == "done" and not all(self.done.get(n) for n in before):
+            return f"'{event.worker}' is said to be done and is not"
         return problem
 
     def check_end(self, event: Return | Raise) -> str | None:
@@ -273,6 +287,8 @@ class _Check:
     def check_enter(self, declaration: s.Declaration, event: Enter) -> str | None:
         if event.hook == "exchange" and (event.value is None or event.port not in declaration.provides):
             return f"exchange on {event.port!r} with {event.value!r}"
+        if event.hook == "run" and all(policy.definition != s.SELF_EXECUTING for policy in declaration.policies):
+            return "run of a component that does not execute by itself"
         if event.hook in ("on_connect", "on_disconnect") and not declaration.connectable:
             return f"{event.hook} on a body that is not Connectable"
         if event.hook == "set_container_interface" and not declaration.fragment:

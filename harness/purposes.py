@@ -7,15 +7,20 @@ import functools
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.generate import generated_purposes
 from ucm_cts.harness.probes import load_probe_types
+from ucm_cts.harness.schedules import overlap_purposes
 from ucm_cts.harness.scripts import TestPurpose, load_scripts, to_scenario
 
 PROFILES = ("container",)
+"""What a run can choose: profiles that are complete."""
+
+PARTS = {"container": ("container",), "core": ("container", "core")}
+"""The requirements that belong to a profile, by what the catalogue files them under."""
 
 
 @functools.cache
 def load_purposes(profile: str) -> tuple[TestPurpose, ...]:
     """All test purposes of ``profile``: scripts first, because they read best when they fail."""
-    clauses = {r.id: r.clause for r in load_requirements() if r.profile == profile}
+    clauses = {r.id: r.clause for r in load_requirements() if r.profile in PARTS[profile]}
     probes = load_probe_types()
     scripted = [
         TestPurpose(
@@ -26,8 +31,10 @@ def load_purposes(profile: str) -> tuple[TestPurpose, ...]:
             ((script.scenario, to_scenario(script, probes)),),
         )
         for script in load_scripts()
+        if script.exercises[0] in clauses
     ]
-    return (*scripted, *generated_purposes(load_life_cycle()))
+    schedules = overlap_purposes() if "core" in PARTS[profile] else ()
+    return (*scripted, *generated_purposes(load_life_cycle()), *schedules)
 
 
 def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:

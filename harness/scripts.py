@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Scenario, Step, Value
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step, Value
 from ucm_cts.harness.documents import DocumentError, read, read_lines
 from ucm_cts.harness.probes import ProbeType, load_probe_types
 
@@ -24,6 +24,7 @@ class Part(Value, frozen=True):
     connectable: bool = False
     fragment: bool = False
     plan: dict[Hook, tuple[Action, ...]] = {}
+    policies: tuple[Policy, ...] = ()
 
 
 class Script(Value, frozen=True):
@@ -93,6 +94,7 @@ def to_scenario(script: Script, probes: dict[str, ProbeType] | None = None) -> S
             connectable=part.connectable,
             fragment=part.fragment,
             plan=part.plan,
+            policies=part.policies,
         )
     return Scenario(components, script.steps, script.patience)
 
@@ -136,7 +138,7 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             found.append(
                 (where, f"no plan holds at gate '{step.gate}'; there are {', '.join(sorted(gates)) or 'none'}")
             )
-        if isinstance(step, s.Join) and step.worker not in workers:
+        if isinstance(step, s.Join | s.Settle) and step.worker not in workers:
             found.append((where, f"no earlier step runs on thread '{step.worker}'"))
         if step.thread:
             workers.add(step.thread)

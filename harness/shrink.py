@@ -63,7 +63,7 @@ def _without(steps: tuple[Step, ...], index: int) -> tuple[Step, ...]:
 def _tidy(scenario: Scenario, steps: tuple[Step, ...]) -> Scenario:
     """The scenario with these steps, less waits for nothing, gates that hold nobody and components that nobody adds."""
     workers = {step.thread for step in steps if step.thread}
-    steps = tuple(x for x in steps if not isinstance(x, s.Join) or x.worker in workers)
+    steps = tuple(x for x in steps if not isinstance(x, s.Join | s.Settle) or x.worker in workers)
     added = {step.component for step in steps if isinstance(step, s.AddComponent)}
     components = {name: d for name, d in scenario.components.items() if name in added}
     plans = (actions for d in components.values() for actions in d.plan.values())

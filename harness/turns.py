@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 
@@ -43,12 +45,19 @@ class Turns:
 
     def next_open(self, gate: str, thread: int) -> int | None:
         """The step that can have opened ``gate`` on ``thread``, waits apart the next one there."""
+        return self._next_step(lambda step: isinstance(step, s.OpenGate) and step.gate == gate, thread)
+
+    def next_settle(self, worker: str, thread: int) -> int | None:
+        """The step that can have looked for ``worker`` on ``thread``, waits apart the next one there."""
+        return self._next_step(lambda step: isinstance(step, s.Settle) and step.worker == worker, thread)
+
+    def _next_step(self, wanted: Callable[[s.Step], bool], thread: int) -> int | None:
         for worker in self.steps:
             if self._threads.get(worker, thread) != thread or (worker not in self._threads and thread == 0):
                 continue
             for number in self.steps[worker][self._next.get(worker, 0) :]:
                 step = self._scenario.steps[number]
-                if isinstance(step, s.OpenGate) and step.gate == gate:
+                if wanted(step):
                     return number
                 if not isinstance(step, s.ReachGate | s.Join):
                     break

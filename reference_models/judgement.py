@@ -11,23 +11,33 @@ from ucm_cts.adapters.contract.trace import (
     Create,
     Enter,
     Exit,
+    Held,
+    Opened,
     Raise,
     Reply,
     Request,
     Return,
+    Settled,
     Siblings,
+    Timeout,
     Trace,
 )
-from ucm_cts.reference_models import rules_callbacks, rules_dependencies, rules_interactions, rules_operations
+from ucm_cts.reference_models import (
+    rules_callbacks,
+    rules_dependencies,
+    rules_execution,
+    rules_interactions,
+    rules_operations,
+)
 from ucm_cts.reference_models.adoption import adopt
 from ucm_cts.reference_models.duties import Duties
+from ucm_cts.reference_models.executions import BusinessCall, Executions
 from ucm_cts.reference_models.ledger import Ledger, checks
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
-from ucm_cts.reference_models.rules_interactions import BusinessCall
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
 from ucm_cts.reference_models.situations import Situations
 
-RULE_MODULES = (rules_operations, rules_dependencies, rules_interactions, rules_callbacks)
+RULE_MODULES = (rules_operations, rules_dependencies, rules_interactions, rules_callbacks, rules_execution)
 """Importing these registers all rules; rules of one moment look in this order."""
 
 
@@ -43,6 +53,10 @@ class Judge:
         self.answered = checks("answered", "exchange")
         self.replied = checks("replied", "exchange")
         self.noted = checks("noted", "siblings")
+        self.began = checks("began", "")
+        self.over = checks("over", "")
+        self.served = checks("served", "")
+        self.waited = checks("waited", "")
 
     def judge(self, scenario: s.Scenario, trace: Trace) -> Ledger:
         """Everything the rules say about ``trace``, which may break off anywhere.
@@ -56,7 +70,7 @@ class Judge:
             take = _TAKE.get(type(event))
             if take is not None:
                 take(reading, event)
-        reading.ledger.close()
+        reading.close()
         return reading.ledger
 
 
@@ -72,6 +86,8 @@ class _Reading:
         self.calls: dict[int, list[BusinessCall]] = {}
         self.hooks: dict[int, list[s.Hook]] = {}
         self.served: dict[int, list[BusinessCall | None]] = {}
+        policies = any(declaration.policies for declaration in scenario.components.values())
+        self.executions = Executions(self.runtime) if policies else None
 
     def overlaps(self, event: Call) -> bool:
         """Does another operation begin with ``event``, while one is in progress?"""
@@ -91,6 +107,7 @@ class _Reading:
             for check in self.judge.ended[window.operation]:
                 check(ledger, runtime, window, event)
             adopt(runtime, window, event)
+            runtime.starting.clear()
             self.window = None
             return
         calls = self.calls.get(event.thread)
@@ -98,6 +115,7 @@ class _Reading:
             call = calls.pop()
             for check in self.judge.answered:
                 check(ledger, runtime, call, event)
+            self.come_back(call, event.n)
 
     def create(self, event: Create) -> None:
         if self.window is not None:
@@ -105,7 +123,7 @@ class _Reading:
 
     def enter(self, event: Enter) -> None:
         self.hooks.setdefault(event.thread, []).append(event.hook)
-        if event.hook == "exchange":
+        if event.hook in ("exchange", "run"):
             self.enter_business(event)
             return
         body = (event.component, event.instance)
@@ -134,8 +152,14 @@ class _Reading:
             member.closing = True
 
     def enter_business(self, event: Enter) -> None:
-        call = self.call_behind(event)
+        call = self.call_behind(event) if event.hook == "exchange" else None
         self.served.setdefault(event.thread, []).append(call)
+        if self.executions is not None:
+            execution, met = self.executions.begin(event, call)
+            for check in self.judge.began:
+                check(self.ledger, self.runtime, execution, met)
+        if event.hook == "run":
+            return
         if call is not None:
             call.entries.append((event, None))
         for check in self.judge.called:
@@ -148,11 +172,18 @@ class _Reading:
         hooks = self.hooks.get(event.thread)
         if hooks:
             hooks.pop()
+        if event.hook == "on_startup":
+            self.runtime.starting.add((event.component, event.instance))
         served = self.served.get(event.thread)
-        if event.hook == "exchange" and served:
-            call = served.pop()
-            if call is not None:
-                call.close(event)
+        if event.hook not in ("exchange", "run") or not served:
+            return
+        call = served.pop()
+        if call is not None:
+            call.close(event)
+        execution = self.executions.end(event) if self.executions is not None else None
+        if execution is not None:
+            for check in self.judge.over:
+                check(self.ledger, self.runtime, execution, event.n)
 
     def call_behind(self, event: Enter) -> BusinessCall | None:
         calls = self.calls.get(event.thread)
@@ -164,11 +195,16 @@ class _Reading:
     def request(self, event: Request) -> None:
         inside = self.hooks.get(event.thread)
         hook = inside[-1] if inside else ""
-        self.begin(event.thread, BusinessCall(event.value, event.n, event, caller_hook=hook))
+        call = BusinessCall(event.value, event.n, event, caller_hook=hook)
+        if self.executions is not None:
+            call.caller = self.executions.innermost(event.thread)
+        self.begin(event.thread, call)
 
     def begin(self, thread: int, call: BusinessCall) -> None:
         call.look(self.runtime)
         self.calls.setdefault(thread, []).append(call)
+        if self.executions is not None:
+            self.executions.made(call)
 
     def reply(self, event: Reply) -> None:
         calls = self.calls.get(event.thread)
@@ -176,6 +212,34 @@ class _Reading:
             call = calls.pop()
             for check in self.judge.replied:
                 check(self.ledger, self.runtime, call, event)
+            self.come_back(call, event.n)
+
+    def come_back(self, call: BusinessCall, end: int) -> None:
+        waited = self.executions.answered(call) if self.executions is not None else None
+        for check in self.judge.served if waited is not None else ():
+            check(self.ledger, self.runtime, call, waited, end)
+
+    def held(self, event: Held) -> None:
+        if self.executions is not None:
+            self.executions.hold(event)
+
+    def opened(self, event: Opened) -> None:
+        if self.executions is not None:
+            self.executions.open(event)
+
+    def settled(self, event: Settled) -> None:
+        if self.executions is not None:
+            self.executions.settle()
+
+    def timeout(self, event: Timeout) -> None:
+        for check in self.judge.waited if self.executions is not None else ():
+            check(self.ledger, self.runtime, event)
+
+    def close(self) -> None:
+        for call, waited in tuple(self.executions.waiting.values()) if self.executions is not None else ():
+            for check in self.judge.served:
+                check(self.ledger, self.runtime, call, waited, 0)
+        self.ledger.close()
 
     def siblings(self, event: Siblings) -> None:
         for check in self.judge.noted:
@@ -192,5 +256,9 @@ _TAKE: dict[type[Any], Callable[[_Reading, Any], None]] = {
     Request: _Reading.request,
     Reply: _Reading.reply,
     Siblings: _Reading.siblings,
+    Held: _Reading.held,
+    Opened: _Reading.opened,
+    Settled: _Reading.settled,
+    Timeout: _Reading.timeout,
 }
 """What to do with each kind of event; the other kinds say nothing to the rules."""

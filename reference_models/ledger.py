@@ -11,9 +11,10 @@ from ucm_cts.reference_models.duties import Duties, Fit
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.life_cycle import Row
 
-Moment = Literal["ended", "entered", "called", "answered", "replied", "noted"]
+Moment = Literal["ended", "entered", "called", "answered", "replied", "noted", "began", "over", "served", "waited"]
 """When a rule looks: an operation ended; a body was entered by a callback, or by a business call; a stimulus of the test
-came back; a body's own call came back; a fragment's query came back."""
+came back; a body's own call came back; a fragment's query came back. Where components have policies: an execution began,
+or was over; a call that had to wait came back, or never did; a wait of the scenario ran out of patience."""
 
 
 @dataclass(frozen=True)

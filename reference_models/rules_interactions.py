@@ -2,49 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Enter, Exit, Raise, Reply, Request, Return
+from ucm_cts.adapters.contract.trace import Enter, Raise, Reply, Return
+from ucm_cts.reference_models.executions import BusinessCall, connections_behind, providers_of
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.ledger import Ledger, rule
-from ucm_cts.reference_models.runtime import Connection, Member, Runtime, Window, lane
-
-
-@dataclass(slots=True, eq=False)
-class BusinessCall:
-    """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
-
-    ``entries`` are the bodies it entered, with how they were left. ``callee`` is whose port element ``port`` the test
-    called; ``possible`` says that all who could be called were operational when the call was made.
-    """
-
-    value: int
-    n: int
-    request: Request | None = None
-    step: s.Invoke | None = None
-    caller_hook: str = ""
-    entries: list[tuple[Enter, Exit | None]] = field(default_factory=list)
-    callee: Member | None = None
-    port: str | None = None
-    possible: bool = False
-
-    def look(self, runtime: Runtime) -> None:
-        """Note who is called, and whether a call is possible."""
-        if self.step is not None:
-            _, self.callee = runtime.reference(self.step.ref)
-            self.port = runtime.ports.get(self.step.ref)
-            self.possible = self.callee is not None and self.callee.serving
-        else:
-            self.possible = all(p.serving for p in _providers(runtime, self))
-
-    def close(self, end: Exit) -> None:
-        """The innermost entry of that body came to its end."""
-        for index in range(len(self.entries) - 1, -1, -1):
-            enter, exit_ = self.entries[index]
-            if exit_ is None and (enter.component, enter.instance) == (end.component, end.instance):
-                self.entries[index] = (enter, end)
-                return
+from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
 
 
 @rule("answered", "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06")
@@ -80,7 +43,7 @@ def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return |
 @rule("replied", "R-11.1.3-01", "R-11.1.2-02")
 def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
     """A call through a connection enters a connected body with the value sent; its result comes back."""
-    providers = _providers(runtime, call)
+    providers = providers_of(runtime, call)
     if not providers or reply.raised:
         return
     fragment = all(p.declaration.fragment for p in providers)
@@ -107,7 +70,7 @@ def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Repl
 def interactions(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
     """In the operational phase a call between two components comes back."""
     caller = runtime.member_of(reply.component, reply.instance)
-    providers = _providers(runtime, call)
+    providers = providers_of(runtime, call)
     if caller is None or not caller.serving or not providers or not call.possible:
         return
     if not all(p.serving for p in providers) or any(p.raises("exchange") for p in providers):
@@ -210,32 +173,12 @@ def quiet_after_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Retu
         ledger.exercised("R-11.2.3-17")
 
 
-def _providers(runtime: Runtime, call: BusinessCall) -> list[Member]:
-    """The instances that the port element a body called through is connected to; empty if that is not known."""
-    request = call.request
-    if request is None:
-        return []
-    caller = runtime.member_of(request.component, request.instance)
-    if caller is None or caller.suspended or caller.handed_over is None:
-        return []
-    connections = _connections(caller, request.port)
-    providers = [c.provider for c in connections if c.provider is not None]
-    return providers if len(providers) == len(connections) else []
-
-
-def _connections(caller: Member, port: str) -> list[Connection]:
-    """What may be behind ``port``: connections that stand, or stood when the caller was started."""
-    return [
-        c for c in caller.connections if c.port == port and (c.live is not False or c in (caller.handed_over or ()))
-    ]
-
-
 def _targets(runtime: Runtime, call: BusinessCall) -> set[tuple[str, int | None, str]]:
     request = call.request
     caller = runtime.member_of(request.component, request.instance) if request else None
     return {
         (c.provider.component, c.provider.instance, c.provided)
-        for c in (_connections(caller, request.port) if caller and request else ())
+        for c in (connections_behind(caller, request.port) if caller and request else ())
         if c.provider is not None
     }
 

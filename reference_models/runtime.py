@@ -172,7 +172,8 @@ class Runtime:
     """All containers, instances, connections and references of one scenario.
 
     ``members``, ``connections`` and ``references`` are what variables hold now; ``everyone`` is every instance ever added.
-    ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread.
+    ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
+    whose on_startup has returned during the operation in progress.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -183,6 +184,7 @@ class Runtime:
         self.bodies: dict[tuple[str, int], Member] = {}
         self.discarded: set[tuple[str, int]] = set()
         self.startups: dict[tuple[str, int], tuple[int, int]] = {}
+        self.starting: set[tuple[str, int]] = set()
         self.connections: dict[str, Connection] = {}
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
         self.ports: dict[str, str] = {}
@@ -201,6 +203,10 @@ class Runtime:
         first = self.startups.get((one.component, one.instance or 0))
         second = self.startups.get((other.component, other.instance or 0))
         return first is not None and second is not None and first[1] == second[1] and first[0] < second[0]
+
+    def may_run(self, member: Member) -> bool:
+        """Has its last on_startup returned, and the stop that follows not?"""
+        return member.operational or (member.component, member.instance or 0) in self.starting
 
     def find_member(self, container: Container, variable: str) -> tuple[Member | None, str]:
         """The live instance that the id in ``variable`` designates in ``container``, else None and why.

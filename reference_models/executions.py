@@ -1,0 +1,193 @@
+"""Business calls and executions of bodies: who is inside whom, and who was seen waiting to get in (11.1.3, 10.1.3).
+
+Overlap is proved, not guessed: a call *waited* for an execution if it had been made, and the worker that made it was looked
+for and found waiting, while the execution was held at a gate that had not been opened.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration
+from ucm_cts.adapters.contract.trace import Enter, Exit, Held, Opened, Request
+from ucm_cts.reference_models.runtime import Connection, Member, Runtime
+
+Protection = Literal["", "self-executing", "active", "passive", "unprotected"]
+
+_PROTECTIONS: dict[str, Protection] = {
+    s.SELF_EXECUTING: "self-executing",
+    s.ACTIVE: "active",
+    s.PROTECTED_PASSIVE: "passive",
+    s.UNPROTECTED_PASSIVE: "unprotected",
+}
+
+
+@dataclass(slots=True, eq=False)
+class BusinessCall:
+    """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
+
+    ``entries`` are the bodies it entered, with how they were left. ``callee`` is whose port element ``port`` the test
+    called; ``possible`` says that all who could be called were operational when the call was made. ``caller`` is the
+    execution that makes the call.
+    """
+
+    value: int
+    n: int
+    request: Request | None = None
+    step: s.Invoke | None = None
+    caller_hook: str = ""
+    entries: list[tuple[Enter, Exit | None]] = field(default_factory=list)
+    callee: Member | None = None
+    port: str | None = None
+    possible: bool = False
+    caller: Execution | None = None
+
+    def look(self, runtime: Runtime) -> None:
+        """Note who is called, and whether a call is possible."""
+        if self.step is not None:
+            _, self.callee = runtime.reference(self.step.ref)
+            self.port = runtime.ports.get(self.step.ref)
+            self.possible = self.callee is not None and self.callee.serving
+        else:
+            self.possible = all(p.serving for p in providers_of(runtime, self))
+
+    def close(self, end: Exit) -> None:
+        """The innermost entry of that body came to its end."""
+        for index in range(len(self.entries) - 1, -1, -1):
+            enter, exit_ = self.entries[index]
+            if exit_ is None and (enter.component, enter.instance) == (end.component, end.instance):
+                self.entries[index] = (enter, end)
+                return
+
+
+@dataclass(slots=True, eq=False)
+class Execution:
+    """A body inside ``exchange`` or ``run``: how it was entered, by which call, and at which gate it is held."""
+
+    enter: Enter
+    call: BusinessCall | None
+    gate: str | None = None
+    waited: list[BusinessCall] = field(default_factory=list)
+
+    @property
+    def way(self) -> str:
+        """The port element it came through, or ``run``."""
+        return self.enter.port or "run"
+
+
+class Executions:
+    """All executions in progress in one trace, by body, and the calls that have been made and not entered a body yet."""
+
+    def __init__(self, runtime: Runtime) -> None:
+        self._runtime = runtime
+        self._inside: dict[tuple[str, int], list[Execution]] = {}
+        self._opened: set[str] = set()
+        self._pending: list[BusinessCall] = []
+        self.waiting: dict[int, tuple[BusinessCall, Execution]] = {}
+
+    def made(self, call: BusinessCall) -> None:
+        """A call has been made."""
+        self._pending.append(call)
+
+    def answered(self, call: BusinessCall) -> Execution | None:
+        """A call is over; returns the execution it had waited for."""
+        if call in self._pending:
+            self._pending.remove(call)
+        waited = self.waiting.pop(call.n, None)
+        return waited[1] if waited is not None else None
+
+    def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
+        """A body is entered: the execution, and those it meets there that are not its own callers."""
+        inside = self._inside.setdefault((enter.component, enter.instance), [])
+        execution = Execution(enter, call)
+        callers = set()
+        cause = call
+        while cause is not None and cause.caller is not None:
+            callers.add(id(cause.caller))
+            cause = cause.caller.call
+        met = [other for other in inside if id(other) not in callers and other.enter.thread != enter.thread]
+        inside.append(execution)
+        if call in self._pending:
+            self._pending.remove(call)
+        return execution, met
+
+    def innermost(self, thread: int) -> Execution | None:
+        """The execution in progress on ``thread``."""
+        own = [e for inside in self._inside.values() for e in inside if e.enter.thread == thread]
+        return max(own, key=lambda e: e.enter.n, default=None)
+
+    def end(self, exit_: Exit) -> Execution | None:
+        """A body is left."""
+        inside = self._inside.get((exit_.component, exit_.instance), [])
+        for execution in reversed(inside):
+            if execution.enter.thread == exit_.thread and execution.enter.hook == exit_.hook:
+                inside.remove(execution)
+                return execution
+        return None
+
+    def hold(self, event: Held) -> None:
+        """An execution is held at a gate."""
+        for execution in self._inside.get((event.component, event.instance), ()):
+            if execution.enter.thread == event.thread and event.gate not in self._opened:
+                execution.gate = event.gate
+
+    def open(self, event: Opened) -> None:
+        """A gate was opened: nobody is held there any more."""
+        self._opened.add(event.gate)
+        for inside in self._inside.values():
+            for execution in inside:
+                if execution.gate == event.gate:
+                    execution.gate = None
+
+    def settle(self) -> None:
+        """A worker was looked for: calls that are still on their way wait for whoever is held inside where they go."""
+        for call in self._pending:
+            for member, _ in goals_of(self._runtime, call):
+                for execution in self._inside.get((member.component, member.instance or 0), ()):
+                    if execution.gate is not None and call not in execution.waited:
+                        execution.waited.append(call)
+                        self.waiting[call.n] = call, execution
+
+
+def protection_of(declaration: Declaration | None) -> Protection:
+    """How its execution policy protects a component; empty without a policy of 10.1.3."""
+    known = (_PROTECTIONS.get(p.definition) for p in (declaration.policies if declaration is not None else ()))
+    return next((protection for protection in known if protection is not None), "")
+
+
+def managed_ports(declaration: Declaration) -> set[str]:
+    """The port elements that an active policy applies to."""
+    return {p.port for p in declaration.policies if p.definition == s.ACTIVE and p.port is not None}
+
+
+def goals_of(runtime: Runtime, call: BusinessCall) -> list[tuple[Member, str]]:
+    """Whose provided port elements a call is meant for; empty if that is not known."""
+    if call.request is None:
+        return [(call.callee, call.port)] if call.callee is not None and call.port is not None else []
+    caller = runtime.member_of(call.request.component, call.request.instance)
+    if caller is None or not providers_of(runtime, call):
+        return []
+    behind = connections_behind(caller, call.request.port)
+    return [(c.provider, c.provided) for c in behind if c.provider is not None]
+
+
+def providers_of(runtime: Runtime, call: BusinessCall) -> list[Member]:
+    """The instances that the port element a body called through is connected to; empty if that is not known."""
+    request = call.request
+    if request is None:
+        return []
+    caller = runtime.member_of(request.component, request.instance)
+    if caller is None or caller.suspended or caller.handed_over is None:
+        return []
+    connections = connections_behind(caller, request.port)
+    providers = [c.provider for c in connections if c.provider is not None]
+    return providers if len(providers) == len(connections) else []
+
+
+def connections_behind(caller: Member, port: str) -> list[Connection]:
+    """What may be behind ``port``: connections that stand, or stood when the caller was started."""
+    return [
+        c for c in caller.connections if c.port == port and (c.live is not False or c in (caller.handed_over or ()))
+    ]

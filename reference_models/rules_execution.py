@@ -1,0 +1,180 @@
+"""Rules about execution policies: exclusion where overlap was provoked, run, and calls that had to wait (10.1.3)."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration, HoldAtGate
+from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
+from ucm_cts.reference_models.executions import (
+    BusinessCall,
+    Execution,
+    goals_of,
+    managed_ports,
+    protection_of,
+)
+from ucm_cts.reference_models.ledger import Ledger, rule
+from ucm_cts.reference_models.runtime import Runtime, Window, lane
+
+_SUPPORT = {
+    "self-executing": "R-10.1.3.1-12",
+    "active": "R-10.1.3.1-13",
+    "passive": "R-10.1.3.1-14",
+    "unprotected": "R-10.1.3.1-15",
+}
+_BY_ITSELF = {"passive": "R-10.1.3.2-14", "unprotected": "R-10.1.3.2-19"}
+_EXCLUSIONS = (
+    "R-10.1.3.2-05",
+    "R-10.1.3.2-06",
+    "R-10.1.3.2-09",
+    "R-10.1.3.2-10",
+    "R-10.1.3.2-13",
+    "R-10.1.3.2-16",
+)
+
+
+def _exclusion(declaration: Declaration, one: str, other: str) -> str:
+    """The requirement that keeps two ways into a component apart; empty if none does."""
+    protection = protection_of(declaration)
+    if protection == "self-executing":
+        return "R-10.1.3.2-05" if one == other == "run" else "R-10.1.3.2-06"
+    if protection == "active":
+        return "R-10.1.3.2-09" if {one, other} <= managed_ports(declaration) else "R-10.1.3.2-10"
+    if protection == "passive":
+        return "R-10.1.3.2-13" if one == other else "R-10.1.3.2-16"
+    return ""
+
+
+@rule("began", *_EXCLUSIONS)
+def no_reentry(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+    """A protected component is not entered while it is executed, unless the execution's own calls lead back into it."""
+    enter = execution.enter
+    declaration = runtime.scenario.components[enter.component]
+    for other in met:
+        requirement = _exclusion(declaration, execution.way, other.way)
+        if requirement:
+            ledger.violated(
+                requirement,
+                "no_reentry",
+                f"{other.way} {execution.way}",
+                f"nothing else executes '{lane(enter.component, enter.instance)}' while its {other.way} is executed",
+                f"its {execution.way} was entered by another thread meanwhile",
+                (other.enter.n, enter.n),
+            )
+            return
+
+
+@rule("began", "R-10.1.3.2-20")
+def overlap_possible(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+    """Two callers may be inside an unprotected passive component, which is told and never demanded."""
+    if met and protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
+        ledger.exercised("R-10.1.3.2-20")
+
+
+@rule("over", *_EXCLUSIONS)
+def kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, end: int) -> None:
+    """An execution was held, a call that was to execute the same body had been made, and did not until the first ended."""
+    enter = execution.enter
+    for call in execution.waited:
+        for member, port in goals_of(runtime, call):
+            own = (member.component, member.instance) == (enter.component, enter.instance)
+            requirement = _exclusion(member.declaration, execution.way, port) if own else ""
+            inside = any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries)
+            if requirement and not inside:
+                ledger.exercised(requirement)
+
+
+@rule("served", "R-10.1.3.2-17")
+def waiting_calls_served(ledger: Ledger, runtime: Runtime, call: BusinessCall, waited: Execution, end: int) -> None:
+    """Who had to wait for an execution is served when it has ended; ``end`` is 0 if the call never came back."""
+    enter = waited.enter
+    if protection_of(runtime.scenario.components[enter.component]) in ("", "unprotected"):
+        return
+    if end and any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries):
+        ledger.exercised("R-10.1.3.2-17")
+        return
+    ledger.violated(
+        "R-10.1.3.2-17",
+        "waiting_calls_served",
+        "refused" if end else "never",
+        f"the call that waits while '{lane(enter.component, enter.instance)}' is executed is carried out afterwards",
+        "it ended without having been carried out" if end else "it did not end",
+        (enter.n, call.n, *((end,) if end else ())),
+    )
+
+
+@rule("called", "R-10.1.3.2-14", "R-10.1.3.2-19")
+def no_self_execution(
+    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
+) -> None:
+    """A passive component is executed because somebody calls it."""
+    member = runtime.member_of(event.component, event.instance)
+    requirement = _BY_ITSELF.get(protection_of(member.declaration), "") if member is not None else ""
+    if member is None or not requirement or member.suspended:
+        return
+    if call is not None:
+        ledger.exercised(requirement)
+        return
+    ledger.violated(
+        requirement,
+        "no_self_execution",
+        "no caller",
+        f"'{member.lane}' is executed because it is called",
+        f"its {event.port} was entered with {event.value}, and nobody had called",
+        (event.n,),
+    )
+
+
+@rule("ended", *_SUPPORT.values(), at=("start",))
+def policy_supported(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """A component with an execution policy is started like any other."""
+    if not isinstance(end, Return) or not window.judged:
+        return
+    for member in window.container.live_members():
+        heard = [c.hook for c in window.by_body.get((member.component, member.instance), ())]
+        requirement = _SUPPORT.get(protection_of(member.declaration), "")
+        if requirement and "on_startup" in heard:
+            ledger.exercised(requirement)
+
+
+@rule("began", "R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03")
+def run_phases(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+    """run is called on an operational component, and needs neither connections nor callers."""
+    enter = execution.enter
+    member = runtime.member_of(enter.component, enter.instance)
+    if enter.hook != "run" or (member is not None and member.suspended):
+        return
+    if member is not None and runtime.may_run(member):
+        ledger.exercised("R-10.1.3.2-01")
+        ledger.exercised("R-10.1.3.2-02")
+        if not member.connections and not member.served:
+            ledger.exercised("R-10.1.3.2-03")
+        return
+    who = lane(enter.component, enter.instance)
+    ledger.violated(
+        "R-10.1.3.2-02",
+        "run_phases",
+        "not operational",
+        f"run of '{who}' begins after its on_startup returned and before stop returned",
+        "run began outside the operational phase",
+        (enter.n,),
+    )
+
+
+@rule("waited", "R-10.1.3.2-01")
+def run_triggered(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
+    """Once started, a self-executing component is executed within the scenario's patience."""
+    step = runtime.scenario.steps[event.step]
+    if not isinstance(step, s.ReachGate):
+        return
+    for member in runtime.everyone:
+        if member.serving and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
+            ledger.violated(
+                "R-10.1.3.2-01",
+                "run_triggered",
+                "never",
+                f"run of '{member.lane}', which is ready, is called",
+                f"it was not within {runtime.scenario.patience} ms",
+                (event.n,),
+                event.step,
+            )
+            return
