@@ -25,7 +25,7 @@ from ucm_cts.adapters.contract.messages import (
 )
 from ucm_cts.adapters.contract.programming_model import BadParameter, NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import Scenario, Step
-from ucm_cts.adapters.contract.trace import Call, ErrorName, Event, Opened, Raise, Return, Skip, Timeout
+from ucm_cts.adapters.contract.trace import Call, ErrorName, Event, Opened, Raise, Return, Settled, Skip, Timeout
 from ucm_cts.adapters.python.probe import Stage, is_integer
 from ucm_cts.adapters.python.recorder import Recorder
 from ucm_cts.adapters.python.variables import Unbound, Variables
@@ -136,6 +136,8 @@ class Performance:
         elif isinstance(step, s.Join):
             if not self._workers.join(step.worker):
                 record(Timeout, step=number)
+        elif isinstance(step, s.Settle):
+            record(Settled, worker=step.worker, where=self._workers.settle(step.worker, self._stage.gates.is_held))
         else:
             self._call(number, step)
 

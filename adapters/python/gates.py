@@ -15,6 +15,7 @@ class Gates:
         self._reached: set[str] = set()
         self._opened: set[str] = set()
         self._all_open = False
+        self._holding: dict[int | None, str] = {}
 
     def hold(self, gate: str, record: Callable[[], None]) -> None:
         """A probe arrives: wait until ``gate`` is open. ``record`` is called before anybody can learn of the arrival."""
@@ -22,7 +23,16 @@ class Gates:
             record()
             self._reached.add(gate)
             self._changed.notify_all()
-            self._changed.wait_for(lambda: self._all_open or gate in self._opened, self._patience)
+            thread = threading.get_ident()
+            self._holding[thread] = gate
+            self._changed.wait_for(lambda: self._is_open(gate), self._patience)
+            del self._holding[thread]
+
+    def is_held(self, thread: threading.Thread) -> bool:
+        """Is ``thread`` in a probe that waits at a closed gate?"""
+        with self._changed:
+            gate = self._holding.get(thread.ident)
+            return gate is not None and not self._is_open(gate)
 
     def reach(self, gate: str) -> bool:
         """Wait until some probe has arrived at ``gate``; False when patience runs out."""
@@ -41,3 +51,6 @@ class Gates:
         with self._changed:
             self._all_open = True
             self._changed.notify_all()
+
+    def _is_open(self, gate: str) -> bool:
+        return self._all_open or gate in self._opened

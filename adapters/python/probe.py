@@ -8,6 +8,7 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.programming_model import (
+    ComponentExecution,
     ComponentObject,
     Connectable,
     ContainerInterface,
@@ -62,6 +63,7 @@ class Stage:
             declaration.connectable,
             declaration.fragment,
             lambda: kind(self, name, declaration),
+            declaration.policies,
         )
 
     def count(self, component: str) -> int:
@@ -91,6 +93,16 @@ class ProbePort(PortElementObject):
         return self.probe.exchange(self.identity.port, value)
 
 
+class ProbeExecution(ComponentExecution):
+    """What a self-executing probe provides to its container."""
+
+    def __init__(self, probe: Probe) -> None:
+        self.probe = probe
+
+    def run(self) -> None:
+        self.probe.run()
+
+
 class Probe(ComponentObject):
     """The ``instance``-th body made for ``component``. Silent, and without a plan, once the recording has stopped."""
 
@@ -100,6 +112,8 @@ class Probe(ComponentObject):
         self.instance = stage.count(component)
         self._plan = declaration.plan
         self._ports = {port: ProbePort(self, port) for port in declaration.provides}
+        executes_itself = any(policy.definition == s.SELF_EXECUTING for policy in declaration.policies)
+        self._execution = ProbeExecution(self) if executes_itself else None
         self._attributes: dict[str, str] = {}
         self._references: dict[str, list[PortElementObject]] = {}
         self._container: ContainerInterface | None = None
@@ -136,6 +150,13 @@ class Probe(ComponentObject):
 
     def get_portElement(self, provided: str) -> PortElementObject | None:
         return self._ports.get(provided)
+
+    def get_policy_element(self, policy: str, element: str) -> ComponentExecution | None:
+        return self._execution if (policy, element) == (s.SELF_EXECUTING, s.SELF_EXECUTION_API) else None
+
+    def run(self) -> None:
+        """What the container of a self-executing probe calls."""
+        self._visit("run")
 
     def exchange(self, port: str, value: int) -> int:
         """The business method of provided port element ``port``."""

@@ -1,13 +1,24 @@
-"""Workers: the threads that a scenario names."""
+"""Workers: the threads that a scenario names, and where they are."""
 
 from __future__ import annotations
 
+import re
 import threading
 import time
 from collections import deque
 from collections.abc import Callable
+from pathlib import Path
+from typing import Literal
 
 Task = Callable[[], None]
+
+Where = Literal["done", "held", "blocked", "running"]
+
+_LOOKS = 5
+"""How often a thread must be found asleep, without having been awake in between, to count as blocked."""
+
+_BETWEEN_LOOKS = 0.0005
+"""Seconds. Nobody holds the interpreter for the looking thread meanwhile: who only waits for that, wakes up."""
 
 
 class _Worker:
@@ -16,7 +27,8 @@ class _Worker:
         self._changed = threading.Condition()
         self._busy = False
         self._quitting = False
-        threading.Thread(target=self._work, name=f"worker {name}", daemon=True).start()
+        self.thread = threading.Thread(target=self._work, name=f"worker {name}", daemon=True)
+        self.thread.start()
 
     def _work(self) -> None:
         while True:
@@ -70,6 +82,28 @@ class Workers:
             worker = self._workers.get(name)
         return worker is None or worker.wait_until_idle(self._patience)
 
+    def settle(self, name: str, is_held: Callable[[threading.Thread], bool]) -> Where:
+        """Wait until worker ``name`` is done, held or blocked by the operating system; ``running`` when patience runs out.
+
+        Where the operating system does not tell, nobody is seen to be blocked.
+        """
+        with self._lock:
+            worker = self._workers.get(name)
+        deadline = time.monotonic() + self._patience
+        before, looks = None, 0
+        while worker and not worker.wait_until_idle(0):
+            if is_held(worker.thread):
+                return "held"
+            sleeps = _sleeps(worker.thread)
+            looks = looks + 1 if sleeps is not None and sleeps == before else 1
+            before = sleeps
+            if before is not None and looks >= _LOOKS:
+                return "blocked"
+            if time.monotonic() >= deadline:
+                return "running"
+            time.sleep(_BETWEEN_LOOKS)
+        return "done"
+
     def finish(self) -> tuple[str, ...]:
         """End all workers; returns the names of those that did not come back in time. Queue nothing afterwards."""
         deadline = time.monotonic() + self._patience
@@ -79,3 +113,13 @@ class Workers:
             if not worker.wait_until_idle(deadline - time.monotonic()):
                 stuck.append(name)
         return tuple(stuck)
+
+
+def _sleeps(thread: threading.Thread) -> int | None:
+    """How often ``thread`` has gone to sleep, if it sleeps now; None if it does not, or nobody knows."""
+    try:
+        status = Path(f"/proc/self/task/{thread.native_id}/status").read_text()
+    except OSError:
+        return None
+    found = re.search(r"^State:\s+S.*^voluntary_ctxt_switches:\s+(\d+)", status, re.MULTILINE | re.DOTALL)
+    return int(found[1]) if found else None

@@ -27,6 +27,7 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
     UcmError,
 )
+from ucm_cts.adapters.reference_py.policies import ExecutesComponents, Execution
 
 
 class State(Enum):
@@ -47,6 +48,7 @@ class Member:
         self.body = body
         self.container = container
         self.state = State.CONFIGURING
+        self.execution = Execution(implementation.policies)
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,7 @@ class Failures:
             raise UcmError(self.first)
 
 
-class Container:
+class Container(ExecutesComponents):
     """Members with a common life cycle (11.2.2.1)."""
 
     def __init__(self, manager: ContainerManager | None) -> None:
@@ -118,7 +120,7 @@ class Container:
         member = self._find_member(comp_instance)
         if port_name not in member.implementation.provides:
             raise NotFound(f"no provided port element {port_name!r}")
-        element = member.body.get_portElement(port_name)
+        element = self._reference_to(member, port_name)
         if element is None:
             raise NotFound(f"the body gives no port element {port_name!r}")
         return element
@@ -157,7 +159,7 @@ class Container:
                 if not self._start_up(member, failures):
                     self._shut_down_started(failures)
                     failures.report()
-            self.is_started = True
+            self._begin_operation()
 
     def stop(self) -> None:
         with self._operation():
@@ -182,6 +184,7 @@ class Container:
         unknown = set(attributes).difference(implementation.attributes)
         if unknown:
             raise UcmError(f"{name!r} has no attribute {min(unknown)!r}")
+        self._check_policies(implementation)
         return implementation
 
     def _find_member(self, number: int) -> Member:
@@ -221,6 +224,7 @@ class Container:
         self._set_attributes(member, attributes)
         if isinstance(member.body, FragmentObject):
             member.body.set_container_interface(self)
+        self._check_body(member)
         self._initialise(member)
 
     def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
@@ -257,18 +261,28 @@ class Container:
     def _dependencies_of(self, member: Member) -> list[PortConnection]:
         return [PortConnection(connection.port, (connection.target,)) for connection in self._connections_from(member)]
 
+    def _begin_operation(self) -> None:
+        """All members have been started."""
+        self.is_started = True
+        for member in self.started:
+            self._begin_execution(member)
+
     def _shut_down_started(self, failures: Failures) -> None:
         """Shut down, last started first, what has been started."""
+        for member in self.started:
+            self._end_execution(member)
         while self.started:
             self._shut_down(self.started.pop(), failures)
         self.is_started = False
 
     def _shut_down(self, member: Member, failures: Failures) -> None:
+        self._end_execution(member)
         member.state = State.CONFIGURING
         failures.attempt(member.body.on_shutdown)
 
     def _remove(self, member: Member, failures: Failures) -> None:
         failures.attempt(member.body.on_remove)
+        member.execution.executor.close()
         del self.members[member.id]
 
     def _take_down(self, containers: Sequence[Container], failures: Failures) -> None:
@@ -298,7 +312,7 @@ class Container:
         return [c for c in self.manager.connections.values() if c.client is member]
 
     def _connections_to(self, member: Member) -> list[Connection]:
-        elements = [member.body.get_portElement(port) for port in member.implementation.provides]
+        elements = [self._reference_to(member, port) for port in member.implementation.provides]
         return [c for c in self.manager.connections.values() if any(c.target is element for element in elements)]
 
     def _connections_of_members(self) -> list[Connection]:

@@ -124,7 +124,7 @@ class starts_all_at_a_time(Base):
             order = list(self.members.values())
             if not any(own.first for own in failures):
                 self.started.sort(key=order.index)
-                self.is_started = True
+                self._begin_operation()
                 return
             self._shut_down_started(Failures())
             next(own for own in failures if own.first).report()

@@ -121,7 +121,7 @@ class leaves_started_what_was_started(Base):
                 else:
                     failures.first = failures.first or "not connected"
             failures.report()
-            self.is_started = True
+            self._begin_operation()
 
 
 @variant

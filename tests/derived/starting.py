@@ -241,7 +241,7 @@ class starts_late_additions_at_start(adds_later):
             for member in self._start_order():
                 if member.state is not State.READY:
                     self._start_up(member, failures)
-            self.is_started = True
+            self._begin_operation()
             failures.report()
 
 
@@ -257,7 +257,7 @@ class starts_the_others(Base):
             failures = Failures()
             for member in self._start_order():
                 self._start_up(member, failures)
-            self.is_started = True
+            self._begin_operation()
             failures.report()
 
 
