@@ -70,6 +70,7 @@ class Execution:
     call: BusinessCall | None
     gate: str | None = None
     waited: list[BusinessCall] = field(default_factory=list)
+    over: bool = False
 
     @property
     def way(self) -> str:
@@ -98,6 +99,13 @@ class Executions:
         waited = self.waiting.pop(call.n, None)
         return waited[1] if waited is not None else None
 
+    def lost(self) -> list[tuple[BusinessCall, Execution]]:
+        """Calls that nobody has answered although what they waited for is over, each told once."""
+        lost = {n: waiting for n, waiting in self.waiting.items() if waiting[1].over}
+        for n in lost:
+            del self.waiting[n]
+        return list(lost.values())
+
     def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
         """A body is entered: the execution, and those it meets there that are not its own callers."""
         inside = self._inside.setdefault((enter.component, enter.instance), [])
@@ -124,6 +132,7 @@ class Executions:
         for execution in reversed(inside):
             if execution.enter.thread == exit_.thread and execution.enter.hook == exit_.hook:
                 inside.remove(execution)
+                execution.over = True
                 return execution
         return None
 

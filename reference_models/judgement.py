@@ -70,7 +70,7 @@ class Judge:
             take = _TAKE.get(type(event))
             if take is not None:
                 take(reading, event)
-        reading.close()
+        reading.ledger.close()
         return reading.ledger
 
 
@@ -187,10 +187,11 @@ class _Reading:
 
     def call_behind(self, event: Enter) -> BusinessCall | None:
         calls = self.calls.get(event.thread)
-        if calls:
-            return calls[-1]
+        own = calls[-1] if calls else None
+        if own is not None and own.value == event.value:
+            return own
         waiting = [c[-1] for c in self.calls.values() if c and c[-1].value == event.value]
-        return waiting[-1] if waiting else None
+        return waiting[-1] if waiting else own
 
     def request(self, event: Request) -> None:
         inside = self.hooks.get(event.thread)
@@ -232,14 +233,14 @@ class _Reading:
             self.executions.settle()
 
     def timeout(self, event: Timeout) -> None:
-        for check in self.judge.waited if self.executions is not None else ():
+        if self.executions is None:
+            return
+        for check in self.judge.waited:
             check(self.ledger, self.runtime, event)
-
-    def close(self) -> None:
-        for call, waited in tuple(self.executions.waiting.values()) if self.executions is not None else ():
-            for check in self.judge.served:
-                check(self.ledger, self.runtime, call, waited, 0)
-        self.ledger.close()
+        if isinstance(self.ledger.scenario.steps[event.step], s.Join):
+            for call, waited in self.executions.lost():
+                for check in self.judge.served:
+                    check(self.ledger, self.runtime, call, waited, 0)
 
     def siblings(self, event: Siblings) -> None:
         for check in self.judge.noted:

@@ -92,6 +92,8 @@ def waiting_calls_served(ledger: Ledger, runtime: Runtime, call: BusinessCall, w
     if end and any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries):
         ledger.exercised("R-10.1.3.2-17")
         return
+    if not all(member.serving for member, _ in goals_of(runtime, call)):
+        return  # who is being stopped serves nobody
     ledger.violated(
         "R-10.1.3.2-17",
         "waiting_calls_served",

@@ -1,0 +1,57 @@
+"""Execution policies (10.1.3): gate schedules prove exclusion, and a framework without it is caught each time."""
+
+from __future__ import annotations
+
+import functools
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from command_line import within
+
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.driver import Driver
+from ucm_cts.harness.locate import locate
+from ucm_cts.harness.schedules import overlap_purposes
+from ucm_cts.reference_models.judgement import Judge
+
+EXCLUSION = {f"R-10.1.3.2-{number}" for number in ("06", "09", "10", "13", "16")}
+
+
+@functools.cache
+def judged(adapter: str, times: int = 1) -> tuple[Counter[str], dict[str, set[str]]]:
+    """What ``times`` runs of all schedules exercised, and the scenarios that broke each requirement."""
+    judge = Judge(load_life_cycle())
+    exercised: Counter[str] = Counter()
+    broken: dict[str, set[str]] = {}
+    cases = [case for purpose in overlap_purposes() for case in purpose.scenarios]
+    for seed in range(times):
+        with Driver(locate(adapter), seed=seed) as driver:
+            for answer in driver.run(cases):
+                assert answer.incident is None, (answer.name, answer.incident)
+                ledger = judge.judge(answer.disguised, answer.trace)
+                exercised.update(ledger.exercises)
+                for finding in ledger.findings:
+                    broken.setdefault(finding.requirement, set()).add(answer.name)
+    return exercised, broken
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    within(tmp_path, monkeypatch)
+
+
+@pytest.mark.parametrize("adapter", ["reference-py", "reference-cpp"])
+def test_reference_framework_keeps_callers_apart_and_that_is_proved(adapter: str) -> None:
+    exercised, broken = judged(adapter, 5)
+    assert broken == {}
+    assert set(exercised) >= EXCLUSION | {"R-10.1.3.2-17", "R-10.1.3.2-20"}
+
+
+def test_every_schedule_proves_something() -> None:
+    judge = Judge(load_life_cycle())
+    wanted = EXCLUSION | {"R-10.1.3.2-20"}
+    with Driver(locate("reference-py"), seed=1) as driver:
+        for purpose in overlap_purposes():
+            for answer in driver.run(purpose.scenarios):
+                assert wanted & judge.judge(answer.disguised, answer.trace).exercises.keys(), answer.name
