@@ -39,6 +39,7 @@ class Rude : public ucm_cts::Adapter {
 
   public:
     Handle create_runtime(const std::vector<ucm_cts::Implementation>& all) override {
+        all_ = all;
         if (!all.empty() && all[0].name == "refuse") throw std::runtime_error("no licence");
         return std::make_shared<int>(0);
     }
@@ -47,6 +48,7 @@ class Rude : public ucm_cts::Adapter {
         if (what == "crash") crash_here();
         if (what == "abort") std::abort();
         if (what == "hang") for (;;) pause();
+        if (what == "spin") for (volatile bool on = true; on;) {}
         if (what == "throw int") throw 42;
         if (what == "throw long") throw std::length_error(std::string(300, 'x') + "\\xff");
         if (what == "throw text") throw ucm_cts::NotFound("\\"quoted\\" \\xc3\\xa4 \\xff");
@@ -56,7 +58,14 @@ class Rude : public ucm_cts::Adapter {
     ucm_cts::Reference get_port_element(const Handle&, ucm_cts::Id, const std::string&) override { return nullptr; }
     ucm_cts::Id connect(const Handle&, ucm_cts::Id, const std::string&, const ucm_cts::Reference&) override { return 0; }
     void disconnect(const Handle&, ucm_cts::Id) override {}
-    void start(const Handle&) override {}
+    void start(const Handle&) override {
+        for (const auto& one : all_) {
+            for (const auto& policy : one.policies) {
+                const auto execution = one.create()->get_policy_element(policy.definition, "self-execution_api");
+                if (execution) execution->run();
+            }
+        }
+    }
     void stop(const Handle&) override {}
     std::vector<ucm_cts::Id> get_components(const Handle&) override { return {2147483646}; }
     Handle create_container(const Handle&) override { return nullptr; }
@@ -64,6 +73,9 @@ class Rude : public ucm_cts::Adapter {
     void destroy(const Handle&) override { throw ucm_cts::UcmError("never"); }
 
     __attribute__((noinline)) static void crash_here() { *static_cast<volatile int*>(nullptr) = 1; }
+
+  private:
+    std::vector<ucm_cts::Implementation> all_;
 };
 
 UCM_CTS_ADAPTER(Rude, "rude", "0");
@@ -306,4 +318,19 @@ def concurrent_scenarios() -> list[s.Scenario]:
         ),
     )
     left = s.Scenario(PAIR, (*CONNECTED, s.Start(), s.CreateContainer("sub"), s.AddComponent("P", container="sub")))
-    return [gates, crowd, left, s.Scenario(PAIR, (*LIFE, s.Destroy()))]
+    settled = s.Scenario(
+        {"H": s.Declaration(("p_e",), plan={"on_startup": (s.HoldAtGate("g"),)})},
+        (
+            s.AddComponent("H", thread="a"),
+            s.Settle("a"),
+            s.Start(thread="b"),
+            s.Settle("b"),
+            s.Stop(thread="c"),
+            s.Settle("c"),
+            s.Settle("d"),
+            s.OpenGate("g"),
+            s.Settle("b", thread="e"),
+            *(s.Join(w) for w in "abce"),
+        ),
+    )
+    return [gates, crowd, left, settled, s.Scenario(PAIR, (*LIFE, s.Destroy()))]

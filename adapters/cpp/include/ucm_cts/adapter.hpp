@@ -68,6 +68,15 @@ class ContainerInterface {
     virtual std::vector<Id> get_components() = 0;
 };
 
+/// What a self-executing component provides to its container (10.1.3): `self-execution_api`.
+class ComponentExecution {
+  public:
+    virtual ~ComponentExecution() = default;
+
+    /// Executes the component once.
+    virtual void run() = 0;
+};
+
 /// A component body (11.2.1), independent of any framework: the adapter passes on what the framework does to it.
 /// `on_connect` and `on_disconnect` are for bodies whose implementation is connectable, `set_container_interface` is
 /// for fragments.
@@ -85,9 +94,16 @@ class Body {
 
     /// The body's own object for the provided port element of that name, or null if it has none.
     virtual Reference get_portElement(const std::string& provided) = 0;
+
+    /// The body's own object for the port element that its technical policy makes it provide, or null (12.8.5).
+    virtual std::shared_ptr<ComponentExecution> get_policy_element(const std::string& /*policy*/,
+                                                                   const std::string& /*element*/) {
+        return nullptr;
+    }
 };
 
 /// A component implementation the framework shall be able to instantiate. Its bodies may outlive the scenario.
+/// `policies` are the technical policies that the container has to apply (10.1.3).
 struct Implementation {
     std::string name;
     std::vector<std::string> provided;
@@ -96,6 +112,7 @@ struct Implementation {
     bool connectable;
     bool fragment;
     std::function<std::shared_ptr<Body>()> create;
+    std::vector<Policy> policies;
 };
 
 /// Whatever the adapter uses for a container.

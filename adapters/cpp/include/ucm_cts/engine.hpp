@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <typeinfo>
 #include <utility>
 #include <vector>
@@ -80,7 +81,8 @@ class Engine : public std::enable_shared_from_this<Engine> {
             const std::shared_ptr<Cast> cast = cast_;
             all.push_back(Implementation{declaration.name, declaration.provided, declaration.required,
                                          std::move(attributes), declaration.connectable, declaration.fragment,
-                                         [what, stage, scenario, cast] { return make(*what, stage, scenario, *cast); }});
+                                         [what, stage, scenario, cast] { return make(*what, stage, scenario, *cast); },
+                                         declaration.policies});
         }
         return all;
     }
@@ -109,6 +111,9 @@ class Engine : public std::enable_shared_from_this<Engine> {
             case Operation::reach:
                 check_patience(number, stage_->gates.reach(step.subject));
                 return;
+            case Operation::settle:
+                settle(step.subject);
+                return;
             case Operation::join:
                 check_patience(number, workers_.join(step.subject));
                 return;
@@ -117,6 +122,17 @@ class Engine : public std::enable_shared_from_this<Engine> {
                     call(number, step, arguments);
                 }
         }
+    }
+
+    void settle(const std::string& worker) {
+        const char* const where =
+            workers_.settle(worker, [this](std::thread::id thread) { return stage_->gates.holds(thread); });
+        stage_->recorder.record("settled", [&worker, where](std::string& out) {
+            json::append_name(out, "worker");
+            json::append_text(out, worker);
+            json::append_name(out, "where");
+            json::append_text(out, where);
+        });
     }
 
     void check_patience(std::size_t number, bool in_time) {
@@ -258,6 +274,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
             }
             case Operation::open:
             case Operation::reach:
+            case Operation::settle:
             case Operation::join:
                 break;
         }

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <thread>
 
 namespace ucm_cts {
 
@@ -28,8 +29,17 @@ class Gates {
         Gate& gate = gates_[name];
         record_held();
         gate.reached = true;
+        held_[std::this_thread::get_id()] = &gate;
         changed_.notify_all();
         changed_.wait_for(lock, patience_, [this, &gate] { return gate.open || all_open_; });
+        held_.erase(std::this_thread::get_id());
+    }
+
+    /// Is the thread itself held at a gate that is still shut?
+    bool holds(std::thread::id thread) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        const auto found = held_.find(thread);
+        return found != held_.end() && !found->second->open && !all_open_;
     }
 
     /// Waits until some probe has arrived at the gate; false when patience runs out.
@@ -64,6 +74,7 @@ class Gates {
     std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::string, Gate> gates_;
+    std::map<std::thread::id, const Gate*> held_;
     bool all_open_ = false;
 };
 

@@ -270,6 +270,18 @@ class ProbePort final : public PortElement {
     const Identity identity_;
 };
 
+/// What a self-executing probe provides to its container.
+class ProbeExecution final : public ComponentExecution {
+  public:
+    explicit ProbeExecution(std::shared_ptr<Probe> probe) : probe_(std::move(probe)) {}
+    void run() override {
+        probe_->visit(Hook::run, [](std::string&) {});
+    }
+
+  private:
+    const std::shared_ptr<Probe> probe_;
+};
+
 /// The probe as a component body.
 class ProbeBody final : public Body {
   public:
@@ -345,6 +357,16 @@ class ProbeBody final : public Body {
         for (const std::shared_ptr<ProbePort>& port : ports_) {
             if (port->port() == provided) {
                 return port;
+            }
+        }
+        return nullptr;
+    }
+
+    std::shared_ptr<ComponentExecution> get_policy_element(const std::string& policy,
+                                                           const std::string& element) override {
+        for (const Policy& own : probe_->declaration().policies) {
+            if (own.definition == policy && policy == SELF_EXECUTING && element == SELF_EXECUTION_API) {
+                return std::make_shared<ProbeExecution>(probe_);
             }
         }
         return nullptr;

@@ -14,7 +14,8 @@
 
 namespace ucm_cts {
 
-/// Where a probe is entered: the callbacks of 11.2.1, and the probes' one business method.
+/// Where a probe is entered: the callbacks of 11.2.1, the probes' one business method, and `run` of a self-executing
+/// component (10.1.3).
 enum class Hook : std::size_t {
     on_init,
     on_startup,
@@ -23,14 +24,16 @@ enum class Hook : std::size_t {
     on_connect,
     on_disconnect,
     set_container_interface,
-    exchange
+    exchange,
+    run
 };
 
-const std::size_t HOOKS = 8;
+const std::size_t HOOKS = 9;
 
 inline const char* name_of(Hook hook) {
     static const char* const names[HOOKS] = {"on_init",    "on_startup",    "on_shutdown",             "on_remove",
-                                             "on_connect", "on_disconnect", "set_container_interface", "exchange"};
+                                             "on_connect", "on_disconnect", "set_container_interface", "exchange",
+                                             "run"};
     return names[static_cast<std::size_t>(hook)];
 }
 
@@ -44,6 +47,17 @@ struct Action {
 
 typedef std::map<std::string, std::string> Attributes;
 
+/// A technical policy of a component implementation (9.5.4.3). `port` is empty unless the policy is that of a port element.
+struct Policy {
+    std::string definition;
+    std::string port;
+    std::map<std::string, std::string> parameters;
+};
+
+/// The execution policy (10.1.3) that makes a component provide a port element to its container, and that port element.
+const char* const SELF_EXECUTING = "protected_self-executing_component";
+const char* const SELF_EXECUTION_API = "self-execution_api";
+
 /// One component implementation: a probe body and its plan.
 struct Declaration {
     std::string name;
@@ -53,6 +67,7 @@ struct Declaration {
     bool connectable = false;
     bool fragment = false;
     std::array<std::vector<Action>, HOOKS> plan;
+    std::vector<Policy> policies;
 };
 
 enum class Operation {
@@ -70,6 +85,7 @@ enum class Operation {
     invoke,
     open,
     reach,
+    settle,
     join
 };
 
@@ -104,6 +120,12 @@ struct Scenario {
 };
 
 namespace detail {
+
+inline std::map<std::string, std::string> read_texts(const json::Value& value) {
+    std::map<std::string, std::string> texts;
+    value.for_each_member([&texts](const json::Value& member) { texts[member.key()] = member.text(); });
+    return texts;
+}
 
 inline std::vector<std::string> read_names(const json::Value& value) {
     std::vector<std::string> names;
@@ -154,15 +176,28 @@ inline Hook read_hook(const json::Value& member) {
     member.fail("Invalid enum value '" + member.key() + "'");
 }
 
+inline Policy read_policy(const json::Value& value) {
+    Policy policy;
+    json::Fields fields(value);
+    fields.text("definition", policy.definition);
+    fields.optional("port", [&policy](const json::Value& port) {
+        if (port.kind() != json::Kind::null) {
+            policy.port = port.text();
+        }
+    });
+    fields.optional("parameters", [&policy](const json::Value& values) { policy.parameters = read_texts(values); });
+    fields.end();
+    return policy;
+}
+
 inline Declaration read_declaration(const json::Value& value) {
     Declaration declaration;
     declaration.name = value.key();
     json::Fields fields(value);
     fields.optional("provides", [&](const json::Value& names) { declaration.provided = read_names(names); });
     fields.optional("requires", [&](const json::Value& names) { declaration.required = read_names(names); });
-    fields.optional("attributes", [&](const json::Value& attributes) {
-        attributes.for_each_member([&](const json::Value& a) { declaration.attributes[a.key()] = a.text(); });
-    });
+    fields.optional("attributes",
+                    [&](const json::Value& attributes) { declaration.attributes = read_texts(attributes); });
     fields.optional("connectable", [&](const json::Value& flag) { declaration.connectable = flag.boolean(); });
     fields.optional("fragment", [&](const json::Value& flag) { declaration.fragment = flag.boolean(); });
     fields.optional("plan", [&](const json::Value& plan) {
@@ -171,6 +206,9 @@ inline Declaration read_declaration(const json::Value& value) {
             planned.clear();
             actions.for_each_element([&](const json::Value& action) { planned.push_back(read_action(action)); });
         });
+    });
+    fields.optional("policies", [&](const json::Value& policies) {
+        policies.for_each_element([&](const json::Value& p) { declaration.policies.push_back(read_policy(p)); });
     });
     fields.end();
     std::set<std::string> names(declaration.provided.begin(), declaration.provided.end());
@@ -199,6 +237,7 @@ inline Operation read_operation(const json::Value& tag) {
                       {"invoke", Operation::invoke},
                       {"open", Operation::open},
                       {"reach", Operation::reach},
+                      {"settle", Operation::settle},
                       {"join", Operation::join}};
     for (const auto& known : operations) {
         if (tag.is(known.name)) {
@@ -269,6 +308,7 @@ inline Step read_step(const json::Value& value) {
         case Operation::reach:
             fields.text("gate", step.subject);
             break;
+        case Operation::settle:
         case Operation::join:
             fields.text("worker", step.subject);
             break;

@@ -83,6 +83,12 @@ auto references_of(const Connection& connection, long) -> decltype((connection.r
     return connection.ref;
 }
 
+/// The framework's component_execution_intf (12.11.1) if the Traits name it as ComponentExecution, else the SDK's.
+template <class Traits>
+typename Traits::ComponentExecution* execution_of(int);
+template <class Traits>
+ComponentExecution* execution_of(long);
+
 }  // namespace detail
 
 /// The probes' interface as a port element of the framework: what a code generator would have made of the model.
@@ -139,16 +145,30 @@ class ShapedReference final : public PortElement {
     ShapedExchange<Traits>* const exchange_;
 };
 
-/// Bodies whose attributes can be set; every body in the framework's shape is one.
-class AttributeHolder {
+/// What a self-executing probe provides, in the framework's own interface.
+template <class Interface>
+class ShapedExecution final : public Interface {
   public:
-    virtual ~AttributeHolder() = default;
+    explicit ShapedExecution(std::shared_ptr<ComponentExecution> execution) : execution_(std::move(execution)) {}
+    void run() override { execution_->run(); }
+
+  private:
+    const std::shared_ptr<ComponentExecution> execution_;
+};
+
+/// What generated bodies have operations for by name: their attributes (13.5) and what their policies make them provide
+/// (12.8.5). Every body in the framework's shape is one.
+class NamedFeatures {
+  public:
+    virtual ~NamedFeatures() = default;
     virtual void set_attribute(const std::string& name, const std::string& value) = 0;
+    virtual std::shared_ptr<ComponentExecution> get_policy_element(const std::string& policy,
+                                                                   const std::string& element) = 0;
 };
 
 /// A body in the framework's shape: a ComponentObject (`Base` is it, or derives from it).
 template <class Traits, class Base>
-class ShapedBody : public Base, public AttributeHolder {
+class ShapedBody : public Base, public NamedFeatures {
     typedef typename Traits::ComponentObject Object;
 
   public:
@@ -156,6 +176,11 @@ class ShapedBody : public Base, public AttributeHolder {
 
     void set_attribute(const std::string& name, const std::string& value) override {
         body_->set_attribute(name, value);
+    }
+
+    std::shared_ptr<ComponentExecution> get_policy_element(const std::string& policy,
+                                                           const std::string& element) override {
+        return body_->get_policy_element(policy, element);
     }
 
     void on_init() override { body_->on_init(); }
@@ -258,6 +283,7 @@ class ShapedConnectable final : public Base, public Traits::Connectable {
 template <class Traits>
 struct ShapedImplementation {
     typedef typename Traits::ComponentObject ComponentObject;
+    typedef typename std::remove_pointer<decltype(detail::execution_of<Traits>(0))>::type Execution;
 
     std::string name;
     std::vector<std::string> provided;
@@ -268,6 +294,12 @@ struct ShapedImplementation {
     std::function<std::shared_ptr<ComponentObject>()> create;
     std::function<void(ComponentObject&, const std::string&, const std::string&)> set_attribute;
 
+    /// For frameworks that apply technical policies: those of the implementation, and what stands for the operation
+    /// get_tp_<policy>_<element> of a body (12.8.5), which gives null if the body has no such port element.
+    std::vector<Policy> policies;
+    std::function<std::shared_ptr<Execution>(ComponentObject&, const std::string&, const std::string&)>
+        get_policy_element;
+
     explicit ShapedImplementation(const Implementation& from)
         : name(from.name),
           provided(from.provided),
@@ -277,7 +309,12 @@ struct ShapedImplementation {
           fragment(from.fragment),
           create(maker(from)),
           set_attribute([](ComponentObject& body, const std::string& attribute, const std::string& value) {
-              dynamic_cast<AttributeHolder&>(body).set_attribute(attribute, value);
+              dynamic_cast<NamedFeatures&>(body).set_attribute(attribute, value);
+          }),
+          policies(from.policies),
+          get_policy_element([](ComponentObject& body, const std::string& policy, const std::string& element) {
+              const auto execution = dynamic_cast<NamedFeatures&>(body).get_policy_element(policy, element);
+              return execution ? std::make_shared<ShapedExecution<Execution>>(execution) : nullptr;
           }) {}
 
   private:

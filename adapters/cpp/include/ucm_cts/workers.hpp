@@ -2,6 +2,8 @@
 #ifndef UCM_CTS_WORKERS_HPP
 #define UCM_CTS_WORKERS_HPP
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "ucm_cts/signals.hpp"
+#include "ucm_cts/thread_state.hpp"
 
 namespace ucm_cts {
 
@@ -48,16 +51,35 @@ class Workers {
 
     /// Waits until the worker, if there is one, has done all it was given; false when patience runs out.
     bool join(const std::string& name) {
-        std::shared_ptr<Worker> worker;
-        {
-            std::lock_guard<std::mutex> lock(mutex_);
-            const auto found = workers_.find(name);
-            if (found == workers_.end()) {
-                return true;
-            }
-            worker = found->second;
+        const std::shared_ptr<Worker> worker = find(name);
+        return !worker || worker->wait_until_idle(std::chrono::steady_clock::now() + patience_);
+    }
+
+    /// Waits until it is clear where the worker is: `done` with all it was given, or `held`, as `holds(thread)` says, or
+    /// `blocked` by the operating system; `running` when patience runs out.
+    template <class Holds>
+    const char* settle(const std::string& name, Holds holds) {
+        const std::shared_ptr<Worker> worker = find(name);
+        if (!worker) {
+            return "done";
         }
-        return worker->wait_until_idle(std::chrono::steady_clock::now() + patience_);
+        const auto deadline = std::chrono::steady_clock::now() + patience_;
+        SleepWatch watch;
+        while (true) {
+            if (holds(worker->id)) {
+                return "held";
+            }
+            if (watch.is_asleep(worker->system_id)) {
+                return "blocked";
+            }
+            const auto now = std::chrono::steady_clock::now();
+            if (worker->wait_until_idle(std::min(deadline, now + SleepWatch::pause()))) {
+                return "done";
+            }
+            if (now >= deadline) {
+                return "running";
+            }
+        }
     }
 
     /// Lets all workers end; returns the names of those that do not in time. Queue nothing afterwards.
@@ -85,10 +107,17 @@ class Workers {
   private:
     struct Worker;
 
+    std::shared_ptr<Worker> find(const std::string& name) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        const auto found = workers_.find(name);
+        return found != workers_.end() ? found->second : nullptr;
+    }
+
     std::shared_ptr<Worker> make(const std::string& name) {
         const std::shared_ptr<Worker> worker = std::make_shared<Worker>();
         const std::string label = "worker " + name;
         worker->thread = std::thread([worker, label] { worker->work(label); });
+        worker->id = worker->thread.get_id();
         workers_[name] = worker;
         return worker;
     }
@@ -96,6 +125,7 @@ class Workers {
     struct Worker {
         void work(const std::string& label) {
             const KnownThread known(label);
+            system_id = system_id_of_this_thread();
             std::unique_lock<std::mutex> lock(mutex);
             while (true) {
                 changed.wait(lock, [this] { return quitting || !tasks.empty(); });
@@ -133,6 +163,8 @@ class Workers {
         }
 
         std::thread thread;
+        std::thread::id id;  // stays when the thread is left behind
+        std::atomic<long> system_id{0};
         std::mutex mutex;
         std::condition_variable changed;
         std::deque<std::function<void()>> tasks;
