@@ -51,6 +51,8 @@ def test_reference_models_are_pure() -> None:
 
 
 def test_the_reference_framework_does_not_know_the_sdk() -> None:
-    path = PACKAGE / "adapters" / "reference_py" / "framework.py"
-    inner = {m for m in imported(path) if m.startswith("ucm_cts")}
-    assert inner <= {"ucm_cts.adapters.contract.programming_model"}
+    own = "ucm_cts.adapters.reference_py"
+    for name in ("framework", "policies"):
+        path = PACKAGE / "adapters" / "reference_py" / f"{name}.py"
+        inner = {m for m in imported(path) if m.startswith("ucm_cts") and not m.startswith(own)}
+        assert inner <= {"ucm_cts.adapters.contract.programming_model", "ucm_cts.adapters.contract.scenario"}

@@ -1,20 +1,19 @@
-"""The Python SDK does what docs/design.md says, and the Python reference framework behaves as its text says."""
+"""The Python SDK does what docs/design.md says."""
 
 from __future__ import annotations
 
 import re
 import threading
+import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import pytest
+from performing import SINK, SOURCE, answer, play, scenario, told
 
-from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import (
     PROTOCOL,
-    FromHost,
     Happened,
     Hello,
     Refused,
@@ -24,71 +23,15 @@ from ucm_cts.adapters.contract.messages import (
     encode,
     from_host_decoder,
 )
-from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
-from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject
+from ucm_cts.adapters.contract.scenario import SELF_EXECUTING, SELF_EXECUTION_API
+from ucm_cts.adapters.python import workers
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.hosts import Hosts
-from ucm_cts.harness.integrity import contradiction
 from ucm_cts.harness.locate import locate
 
-SINK = {"provides": ["in"]}
-SOURCE = {"requires": ["out"], "connectable": True}
 GUIDE = Path(__file__).parent.parent / "docs" / "adapter-python.md"
-
-
-def scenario(components: dict[str, Any], steps: list[str], patience: int = 2000) -> Scenario:
-    """Steps are written ``operation key=value ...``."""
-    read = []
-    for step in steps:
-        op, *fields = step.split()
-        pairs = [field.split("=") for field in fields]
-        values: dict[str, int | str] = {key: int(value) if key == "value" else value for key, value in pairs}
-        read.append({"op": op, **values})
-    return msgspec.convert({"components": components, "steps": read, "patience": patience}, Scenario)
-
-
-def answer(asked: Scenario, adapter: type[Adapter] = ReferenceAdapter) -> FromHost:
-    return from_host_decoder().decode(Engine(adapter).answer(encode(Run(7, asked))))
-
-
-def play(
-    components: dict[str, Any], steps: list[str], adapter: type[Adapter] = ReferenceAdapter, patience: int = 2000
-) -> list[str]:
-    asked = scenario(components, steps, patience)
-    traced = answer(asked, adapter)
-    assert isinstance(traced, Traced), traced
-    assert contradiction(asked, traced.events, bool(traced.stuck)) is None
-    return [told(event) for event in traced.events] + [f"stuck {name}" for name in traced.stuck]
-
-
-def told(event: Event) -> str:
-    fields = msgspec.to_builtins(event)
-    kind = fields.pop("kind")
-    thread = fields.pop("thread")
-    for name in ("n", "t", "detail"):
-        fields.pop(name, None)
-    words = [kind if not thread else f"{thread}:{kind}"]
-    if "component" in fields:
-        words.append(f"{fields.pop('component')}#{fields.pop('instance')}")
-    return " ".join([*words, *(f"{name}={_told(value)}" for name, value in fields.items())])
-
-
-def _told(value: Any) -> str:
-    if isinstance(value, dict) and "component" in value:
-        return f"{value['component']}#{value['instance']}.{value['port']}"
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(_told(v["references"]) + "@" + v["port"] if isinstance(v, dict) and "references" in v else _told(v) for v in value) + "]"  # fmt: skip
-    return str(value)
-
-
-def outcomes(trace: list[str]) -> list[str]:
-    return [line for line in trace if re.match(r"return|raise|skip", line)]
-
-
-def hooks(trace: list[str]) -> list[str]:
-    return [m[1] + "." + m[2] for line in trace if (m := re.match(r"enter (\w+)#\d+ hook=(\w+)", line))]
 
 
 class Spy(ReferenceAdapter):
@@ -266,6 +209,89 @@ def test_workers_gates_and_joins() -> None:
     ]  # fmt: skip
 
 
+class Waits(ReferenceAdapter):
+    """start sleeps until stop, stop is slow, create_container spins, destroy polls; all for patience at most."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+        self.stopped = threading.Event()
+        return super().create_runtime(implementations)
+
+    def start(self, container: Any) -> None:
+        self.stopped.wait()
+
+    def stop(self, container: Any) -> None:
+        self.stopped.set()
+
+    def create_container(self, manager: Any) -> Any:
+        end = time.monotonic() + 0.3
+        while time.monotonic() < end:
+            pass
+
+    def remove_container(self, manager: Any, sub_container: Any) -> None:
+        end = time.monotonic() + 0.3
+        while time.monotonic() < end:
+            time.sleep(0.0002)
+
+
+BLOCKS = ["start thread=w", "settle worker=w", "stop", "join worker=w"]
+
+
+@pytest.mark.parametrize(
+    ("steps", "where"),
+    [
+        (BLOCKS, "blocked"),
+        (["settle worker=nobody"], "done"),
+        (["get_components thread=w", "settle worker=w"], "done"),
+        (["create_container bind=box thread=w", "settle worker=w", "join worker=w"], "running"),
+        (["create_container bind=box thread=w", "create_container bind=tub thread=v", "settle worker=w",
+          "join worker=w", "join worker=v"], "running"),
+        (["remove_container container=nil thread=w", "settle worker=w", "join worker=w"], "running"),
+    ],
+)  # fmt: skip
+def test_settle_tells_where_a_worker_is(steps: list[str], where: str) -> None:
+    trace = play({}, steps, Waits, patience=100)
+    assert [line.rpartition("=")[2] for line in trace if line.startswith("settled")] == [where]
+
+
+def test_settle_finds_workers_that_are_held() -> None:
+    held = SINK | {"plan": {"exchange": [{"do": "hold", "gate": "g"}, {"do": "hold", "gate": "h"}]}}
+    trace = play(
+        {"s": held},
+        ["add_component component=s", "get_port_element id=s port=in bind=api", "invoke ref=api value=1 thread=w",
+         "settle worker=w", "open gate=g", "settle worker=w", "open gate=h", "settle worker=w"],
+    )  # fmt: skip
+    assert [line for line in trace if "settled" in line or "held" in line] == [
+        "1:held s#1 gate=g", "settled worker=w where=held",
+        "1:held s#1 gate=h", "settled worker=w where=held", "settled worker=w where=done",
+    ]  # fmt: skip
+
+
+def test_nobody_is_seen_to_be_blocked_where_the_operating_system_does_not_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workers, "_sleeps", lambda thread: None)
+    assert "settled worker=w where=running" in play({}, BLOCKS, Waits, patience=50)
+
+
+def test_probes_that_execute_themselves_can_be_run() -> None:
+    given: list[Any] = []
+
+    class Runs(ReferenceAdapter):
+        def start(self, container: Any) -> None:
+            for member in container.members.values():
+                get = member.body.get_policy_element
+                given.extend([get(SELF_EXECUTING, SELF_EXECUTION_API), get(SELF_EXECUTING, "x"), get("x", "x")])
+                if given[0]:
+                    given[0].run()
+
+    plan = {"run": [{"do": "call", "port": "out", "value": 3}, {"do": "raise"}]}
+    steps = ["add_component component=s", "start"]
+    trace = play({"s": {"policies": [{"definition": SELF_EXECUTING}], "plan": plan}}, steps, Runs)
+    assert trace[-3:] == ["enter s#1 hook=run", "exit s#1 hook=run raised=True", "raise step=1 error=UNDECLARED"]
+    assert given[1:] == [None, None]
+    given.clear()
+    assert play({"s": {}}, steps, Runs)[-1] == "return step=1"
+    assert given == [None] * 3
+
+
 def test_waits_take_no_longer_than_patience_and_all_gates_open_at_the_end() -> None:
     held = SINK | {"plan": {"exchange": [{"do": "hold", "gate": "g"}]}}
     trace = play(
@@ -365,98 +391,6 @@ def test_streamed_events_come_before_the_answer() -> None:
     assert isinstance(reply, Traced)
     assert all(line.endswith(b"\n") for line in lines)
     assert [from_host_decoder().decode(line) for line in lines] == [Happened(3, event) for event in reply.events]
-
-
-PAIR = ["add_component component=server", "add_component component=client", "get_port_element id=server port=in bind=api",
-        "connect id=client port=out to=api bind=link"]  # fmt: skip
-FAILS = [{"do": "raise"}]
-REFERENCE = [
-    ("unknown things", [*PAIR, "get_port_element id=server port=out bind=x", "get_port_element id=client port=out bind=x",
-                               "connect id=client port=in to=api bind=x", "connect id=client port=out to=nil bind=x",
-                               "connect id=client port=out to=api bind=x", "add_component component=stranger"],
-     ["NOT_FOUND", "NOT_FOUND", "BAD_PARAMETER", "BAD_PARAMETER", "UCM_ERROR", "UCM_ERROR"], None),
-    ("late configuration", [*PAIR, "start", "add_component component=server", "connect id=client port=out to=api bind=x",
-                                   "disconnect connection=link", "remove_component id=client", "start"],
-     ["", "UCM_ERROR", "UCM_ERROR", "UCM_ERROR", "UCM_ERROR", ""], ["server.on_startup", "client.on_startup"]),
-    ("removal cascades or is refused", [*PAIR, "remove_component id=server", "remove_component id=client",
-                                               "remove_component id=server", "get_components"],
-     ["UCM_ERROR", "", "", "[]"], ["client.on_disconnect", "client.on_remove", "server.on_remove"]),
-    ("unconfigured member", [*PAIR, "disconnect connection=link", "start", "stop", "disconnect connection=link"],
-     ["", "UCM_ERROR", "", "NOT_FOUND"], ["client.on_disconnect"]),
-    ("restart keeps connections", [*PAIR, "start", "stop", "start", "destroy", "get_components", "destroy"],
-     ["", "", "", "", "UCM_ERROR", "UCM_ERROR"],
-     ["server.on_startup", "client.on_startup", "client.on_shutdown", "server.on_shutdown", "server.on_startup",
-      "client.on_startup", "client.on_shutdown", "server.on_shutdown", "client.on_disconnect", "client.on_remove",
-      "server.on_remove"]),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("steps", "expected", "called"), [case[1:] for case in REFERENCE], ids=[c[0] for c in REFERENCE]
-)
-def test_reference_framework(steps: list[str], expected: list[str], called: list[str] | None) -> None:
-    trace = play({"server": SINK, "client": SOURCE}, steps)
-    results = [line.split("error=")[-1].split("value=")[-1] for line in outcomes(trace)][len(PAIR) :]
-    assert [result if not result.startswith("return") else "" for result in results] == expected
-    assert called is None or hooks(trace)[3:] == called
-
-
-@pytest.mark.parametrize(
-    ("hook", "steps", "expected", "called"),
-    [
-        ("on_init", ["get_components"], ["raise", "return step=2 value=[1]"], ["good.on_init", "bad.on_init"]),
-        ("on_startup", ["start"], ["return", "raise"],
-         ["good.on_startup", "bad.on_startup", "good.on_shutdown"]),
-        ("on_shutdown", ["start", "stop"], ["return", "return", "raise"],
-         ["good.on_startup", "bad.on_startup", "bad.on_shutdown", "good.on_shutdown"]),
-        ("on_remove", ["remove_component id=bad", "get_components"], ["return", "raise", "return step=3 value=[1]"],
-         ["bad.on_remove"]),
-    ],
-)  # fmt: skip
-def test_reference_framework_when_a_body_fails(
-    hook: str, steps: list[str], expected: list[str], called: list[str]
-) -> None:
-    trace = play(
-        {"good": SINK, "bad": {"plan": {hook: FAILS}}},
-        ["add_component component=good", "add_component component=bad", *steps],
-    )
-    assert all(line.startswith(due) for line, due in zip(outcomes(trace)[1:], expected, strict=True))
-    assert not any("UNDECLARED" in line for line in trace)
-    assert hooks(trace)[-len(called) :] == called
-
-
-def test_reference_framework_takes_containers_down_in_order() -> None:
-    trace = play(
-        {"server": SINK, "client": SOURCE, "own": SOURCE},
-        ["create_container bind=box", "add_component component=server container=box",
-         "add_component component=own container=box", "add_component component=client",
-         "get_port_element id=server port=in container=box bind=api", "connect id=client port=out to=api bind=l1",
-         "connect id=own port=out to=api container=box bind=l2", "start container=box", "remove_container container=box",
-         "remove_container container=box", "start container=box", "start", "disconnect connection=l1"],
-    )  # fmt: skip
-    at = hooks(trace).index("own.on_shutdown")
-    assert hooks(trace)[at:] == ["own.on_shutdown", "server.on_shutdown", "own.on_disconnect", "client.on_disconnect",
-                                 "own.on_remove", "server.on_remove"]  # fmt: skip
-    assert [line.partition("error=")[2] for line in outcomes(trace)[-5:]] == ["", "NOT_FOUND", "UCM_ERROR", "UCM_ERROR", "NOT_FOUND"]  # fmt: skip
-
-
-def test_reference_framework_refuses_calls_from_its_own_callbacks() -> None:
-    refused: list[UcmError] = []
-
-    class Restless(ReferenceAdapter):
-        def start(self, container: Any) -> None:
-            def on_shutdown() -> None:
-                try:
-                    container.start()
-                except UcmError as error:
-                    refused.append(error)
-
-            for member in container.members.values():
-                member.body.on_shutdown = on_shutdown
-            super().start(container)
-
-    assert play({"s": SINK}, ["add_component component=s", "start", "stop"], Restless)[-1] == "return step=2"
-    assert len(refused) == 1
 
 
 def test_the_guide_for_adapter_authors_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
