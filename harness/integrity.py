@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
@@ -76,7 +77,7 @@ class _Check:
         self.acts: dict[int, list[list[Action]]] = {}
         self.turns = Turns(scenario)
         self.waiting: dict[int, Held] = {}
-        self.reached: set[str] = set()
+        self.arrivals: Counter[str] = Counter()
         self.opened: set[str] = set()
         patience = min(max(scenario.patience, 0), _LONGEST_PATIENCE) * _NANOSECONDS
         self.shortest_wait = patience * _PUNCTUALITY - _GRAIN
@@ -97,7 +98,7 @@ class _Check:
         """What is wrong if nothing follows."""
         for number, step in enumerate(self.scenario.steps):
             if isinstance(step, s.ReachGate):
-                if number not in self.done and step.gate not in self.reached:
+                if number not in self.done and self.arrivals[step.gate] < max(step.more, 1):
                     return f"step {number} (reach) has met nobody at {step.gate!r} and not run out of patience"
             elif not isinstance(step, s.Join) and not self.done.get(number):
                 return f"step {number} ({s.operation(step)}) is missing or not ended"
@@ -138,7 +139,7 @@ class _Check:
         for passed in self.turns.passed:
             step = self.scenario.steps[passed]
             if isinstance(step, s.ReachGate):
-                if passed not in self.done and step.gate not in self.reached:
+                if passed not in self.done and self.arrivals[step.gate] < max(step.more, 1):
                     return f"step {number} comes after step {passed} (reach), which has met nobody at {step.gate!r}"
             elif isinstance(step, s.Join):
                 before = [n for n in self.turns.steps.get(step.worker, ()) if n < passed and not self.is_wait(n)]
@@ -278,7 +279,7 @@ class _Check:
             acts[-1].append(s.QuerySiblings())
         if isinstance(event, Held):
             acts[-1].append(s.HoldAtGate(event.gate))
-            self.reached.add(event.gate)
+            self.arrivals[event.gate] += 1
             self.waiting[event.thread] = event
             gates = {a.gate for a in declaration.plan.get(top.hook, ()) if isinstance(a, s.HoldAtGate)}
             return None if event.gate in gates else f"held at {event.gate!r}, which the plan does not name"

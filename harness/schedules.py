@@ -72,6 +72,9 @@ def overlap_purposes() -> list[TestPurpose]:
                 TestPurpose(f"{kind.name}/{ports}", _CLAUSE, text, (*requirements, *_served(kind)), scenarios)
             )
     runs = tuple((f"self-executing/{way.name}", _meeting_with_run(way)) for way in _WAYS)
+    text = "A self-executing component runs, once started and once started again, and one run at a time."
+    alone = ("R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03", "R-10.1.3.2-05")
+    purposes.append(TestPurpose("self-executing/alone", _CLAUSE, text, alone, (("self-executing/alone", _runs()),)))
     text = "Callers of a self-executing component are sent while its run is held inside."
     purposes.append(TestPurpose("self-executing/run and ports", _CLAUSE, text, ("R-10.1.3.2-06",), runs))
     return purposes
@@ -102,6 +105,26 @@ def _meeting_with_run(way: _Way) -> Scenario:
     server = Declaration(_PORTS, plan=plan, policies=_SELF_EXECUTING.policies)
     calls: list[Step] = [s.ReachGate("running"), s.Invoke("way 0", 1, thread="caller"), s.Settle("caller")]
     return _scenario(server, (way,), [*calls, s.OpenGate("running"), s.Join("caller")])
+
+
+def _runs() -> Scenario:
+    plan: dict[s.Hook, tuple[s.Action, ...]] = {"run": (s.HoldAtGate("running"),)}
+    several = s.ReachGate("running", more=6)
+    steps = (
+        s.AddComponent("server"),
+        s.Start(),
+        s.ReachGate("running"),
+        s.ReachGate("running", more=1),  # it must not come: the patience it takes is the time for a second run to show
+        s.OpenGate("running"),
+        several,
+        s.Stop(),
+        s.GetComponents(),
+        s.Start(),
+        several,
+        s.Stop(),
+        s.GetComponents(),
+    )
+    return Scenario({"server": Declaration(plan=plan, policies=_SELF_EXECUTING.policies)}, steps)
 
 
 def _scenario(server: Declaration, ways: tuple[_Way, ...], calls: list[Step]) -> Scenario:

@@ -64,13 +64,19 @@ class BusinessCall:
 
 @dataclass(slots=True, eq=False)
 class Execution:
-    """A body inside ``exchange`` or ``run``: how it was entered, by which call, and at which gate it is held."""
+    """A body inside ``exchange`` or ``run``: how it was entered, by which call, and at which gate it is held.
+
+    ``waited`` are calls that were seen waiting meanwhile; ``left`` is when it was over; ``earlier`` are the body's
+    executions of the same kind so far.
+    """
 
     enter: Enter
     call: BusinessCall | None
     gate: str | None = None
     waited: list[BusinessCall] = field(default_factory=list)
     over: bool = False
+    left: int = 0
+    earlier: list[Execution] = field(default_factory=list)
 
     @property
     def way(self) -> str:
@@ -84,6 +90,7 @@ class Executions:
     def __init__(self, runtime: Runtime) -> None:
         self._runtime = runtime
         self._inside: dict[tuple[str, int], list[Execution]] = {}
+        self._earlier: dict[tuple[str, int, str], list[Execution]] = {}
         self._opened: set[str] = set()
         self._pending: list[BusinessCall] = []
         self.waiting: dict[int, tuple[BusinessCall, Execution]] = {}
@@ -109,7 +116,9 @@ class Executions:
     def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
         """A body is entered: the execution, and those it meets there that are not its own callers."""
         inside = self._inside.setdefault((enter.component, enter.instance), [])
-        execution = Execution(enter, call)
+        earlier = self._earlier.setdefault((enter.component, enter.instance, enter.hook), [])
+        execution = Execution(enter, call, earlier=earlier.copy())
+        earlier.append(execution)
         callers = set()
         cause = call
         while cause is not None and cause.caller is not None:
@@ -133,6 +142,7 @@ class Executions:
             if execution.enter.thread == exit_.thread and execution.enter.hook == exit_.hook:
                 inside.remove(execution)
                 execution.over = True
+                execution.left = exit_.t
                 return execution
         return None
 

@@ -159,6 +159,7 @@ class _Reading:
             for check in self.judge.began:
                 check(self.ledger, self.runtime, execution, met)
         if event.hook == "run":
+            self.runtime.last_run[event.component, event.instance] = event.n
             return
         if call is not None:
             call.entries.append((event, None))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
+import statistics
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, HoldAtGate
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
@@ -30,6 +33,10 @@ _EXCLUSIONS = (
     "R-10.1.3.2-13",
     "R-10.1.3.2-16",
 )
+
+
+_INTERVALS = 3
+"""So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
 
 
 def _exclusion(declaration: Declaration, one: str, other: str) -> str:
@@ -81,6 +88,18 @@ def kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, end: int) -
             inside = any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries)
             if requirement and not inside:
                 ledger.exercised(requirement)
+
+
+@rule("began", "R-10.1.3.2-05")
+def run_kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+    """A run was held inside for several of the intervals at which run is called, and nobody came in."""
+    runs = [run for run in execution.earlier if run.over]
+    if execution.way != "run" or met or len(runs) < _INTERVALS:
+        return
+    begun = [run.enter.t for run in (*runs, execution)]
+    usual = statistics.median(later - earlier for earlier, later in itertools.pairwise(begun))
+    if any(run.left - run.enter.t >= _INTERVALS * usual for run in runs):
+        ledger.exercised("R-10.1.3.2-05")
 
 
 @rule("served", "R-10.1.3.2-17")
@@ -169,7 +188,8 @@ def run_triggered(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
     if not isinstance(step, s.ReachGate):
         return
     for member in runtime.everyone:
-        if member.serving and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
+        runs = runtime.runs_since_start(member)
+        if member.serving and not runs and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
             ledger.violated(
                 "R-10.1.3.2-01",
                 "run_triggered",

@@ -173,7 +173,7 @@ class Runtime:
 
     ``members``, ``connections`` and ``references`` are what variables hold now; ``everyone`` is every instance ever added.
     ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
-    whose on_startup has returned during the operation in progress.
+    whose on_startup has returned during the operation in progress, ``last_run`` when run was entered last.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -185,6 +185,7 @@ class Runtime:
         self.discarded: set[tuple[str, int]] = set()
         self.startups: dict[tuple[str, int], tuple[int, int]] = {}
         self.starting: set[tuple[str, int]] = set()
+        self.last_run: dict[tuple[str, int], int] = {}
         self.connections: dict[str, Connection] = {}
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
         self.ports: dict[str, str] = {}
@@ -203,6 +204,11 @@ class Runtime:
         first = self.startups.get((one.component, one.instance or 0))
         second = self.startups.get((other.component, other.instance or 0))
         return first is not None and second is not None and first[1] == second[1] and first[0] < second[0]
+
+    def runs_since_start(self, member: Member) -> bool:
+        """Has run been entered since its last on_startup?"""
+        body = member.component, member.instance or 0
+        return body in self.startups and self.last_run.get(body, 0) > self.startups[body][0]
 
     def may_run(self, member: Member) -> bool:
         """Has its last on_startup returned, and the stop that follows not?"""

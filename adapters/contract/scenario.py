@@ -213,9 +213,13 @@ class OpenGate(StepBase, frozen=True, tag_field="op", tag="open"):
 
 
 class ReachGate(StepBase, frozen=True, tag_field="op", tag="reach"):
-    """Wait until some probe is held at ``gate``, for at most the scenario's patience."""
+    """Wait until some probe has arrived at ``gate``, open or not, for at most the scenario's patience.
+
+    With ``more`` so many must arrive after the step has begun.
+    """
 
     gate: str
+    more: Int32 = 0
 
 
 class Settle(StepBase, frozen=True, tag_field="op", tag="settle"):

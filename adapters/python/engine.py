@@ -131,7 +131,7 @@ class Performance:
             gate = step.gate
             self._stage.gates.open(gate, lambda: record(Opened, gate=gate))
         elif isinstance(step, s.ReachGate):
-            if not self._stage.gates.reach(step.gate):
+            if not self._stage.gates.reach(step.gate, step.more):
                 record(Timeout, step=number)
         elif isinstance(step, s.Join):
             if not self._workers.join(step.worker):

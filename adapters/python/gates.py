@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import Counter
 from collections.abc import Callable
 
 
@@ -12,7 +13,7 @@ class Gates:
     def __init__(self, patience: float) -> None:
         self._patience = patience
         self._changed = threading.Condition()
-        self._reached: set[str] = set()
+        self._arrivals: Counter[str] = Counter()
         self._opened: set[str] = set()
         self._all_open = False
         self._holding: dict[int | None, str] = {}
@@ -21,7 +22,7 @@ class Gates:
         """A probe arrives: wait until ``gate`` is open. ``record`` is called before anybody can learn of the arrival."""
         with self._changed:
             record()
-            self._reached.add(gate)
+            self._arrivals[gate] += 1
             self._changed.notify_all()
             thread = threading.get_ident()
             self._holding[thread] = gate
@@ -34,10 +35,11 @@ class Gates:
             gate = self._holding.get(thread.ident)
             return gate is not None and not self._is_open(gate)
 
-    def reach(self, gate: str) -> bool:
-        """Wait until some probe has arrived at ``gate``; False when patience runs out."""
+    def reach(self, gate: str, more: int = 0) -> bool:
+        """Wait until a probe has arrived at ``gate``, or ``more`` have from now on; False when patience runs out."""
         with self._changed:
-            return self._changed.wait_for(lambda: gate in self._reached, self._patience)
+            enough = self._arrivals[gate] + more if more > 0 else 1
+            return self._changed.wait_for(lambda: self._arrivals[gate] >= enough, self._patience)
 
     def open(self, gate: str, record: Callable[[], None]) -> None:
         """Open ``gate`` for good. ``record`` is called before anybody goes through."""

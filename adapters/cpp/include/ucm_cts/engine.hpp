@@ -109,7 +109,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
                 });
                 return;
             case Operation::reach:
-                check_patience(number, stage_->gates.reach(step.subject));
+                check_patience(number, stage_->gates.reach(step.subject, step.value));
                 return;
             case Operation::settle:
                 settle(step.subject);

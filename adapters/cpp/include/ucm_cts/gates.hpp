@@ -28,7 +28,7 @@ class Gates {
         std::unique_lock<std::mutex> lock(mutex_);
         Gate& gate = gates_[name];
         record_held();
-        gate.reached = true;
+        ++gate.arrivals;
         held_[std::this_thread::get_id()] = &gate;
         changed_.notify_all();
         changed_.wait_for(lock, patience_, [this, &gate] { return gate.open || all_open_; });
@@ -42,11 +42,12 @@ class Gates {
         return found != held_.end() && !found->second->open && !all_open_;
     }
 
-    /// Waits until some probe has arrived at the gate; false when patience runs out.
-    bool reach(const std::string& name) {
+    /// Waits until a probe has arrived at the gate, or `more` have from now on; false when patience runs out.
+    bool reach(const std::string& name, std::int64_t more) {
         std::unique_lock<std::mutex> lock(mutex_);
         Gate& gate = gates_[name];
-        return changed_.wait_for(lock, patience_, [&gate] { return gate.reached; });
+        const std::int64_t enough = more > 0 ? gate.arrivals + more : 1;
+        return changed_.wait_for(lock, patience_, [&gate, enough] { return gate.arrivals >= enough; });
     }
 
     /// Opens the gate for good. `record_opened` is called before anybody goes through.
@@ -67,7 +68,7 @@ class Gates {
   private:
     struct Gate {
         bool open = false;
-        bool reached = false;
+        std::int64_t arrivals = 0;
     };
 
     const std::chrono::milliseconds patience_;

@@ -304,8 +304,11 @@ inline Step read_step(const json::Value& value) {
             fields.text("ref", step.subject);
             fields.integer32("value", step.value);
             break;
-        case Operation::open:
         case Operation::reach:
+            fields.optional("more", [&step](const json::Value& more) { step.value = more.integer32(); });
+            fields.text("gate", step.subject);
+            break;
+        case Operation::open:
             fields.text("gate", step.subject);
             break;
         case Operation::settle:
