@@ -24,10 +24,14 @@ _PROTECTIONS: dict[str, Protection] = {
 }
 
 
+_PROMISES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
+
+
 @dataclass(slots=True, eq=False)
 class BusinessCall:
     """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
 
+    ``caller`` is the execution that makes it, if a body does; ``waited`` says that it was seen waiting to get in.
     ``entries`` are the bodies it entered, with how they were left. ``callee`` is whose port element ``port`` the test
     called; ``possible`` says that all who could be called were operational when the call was made. ``caller`` is the
     execution that makes the call.
@@ -43,6 +47,7 @@ class BusinessCall:
     port: str | None = None
     possible: bool = False
     caller: Execution | None = None
+    waited: bool = False
 
     def look(self, runtime: Runtime) -> None:
         """Note who is called, and whether a call is possible."""
@@ -167,6 +172,7 @@ class Executions:
                 for execution in self._inside.get((member.component, member.instance or 0), ()):
                     if execution.gate is not None and call not in execution.waited:
                         execution.waited.append(call)
+                        call.waited = True
                         self.waiting[call.n] = call, execution
 
 
@@ -179,6 +185,14 @@ def protection_of(declaration: Declaration | None) -> Protection:
 def managed_ports(declaration: Declaration) -> set[str]:
     """The port elements that an active policy applies to."""
     return {p.port for p in declaration.policies if p.definition == s.ACTIVE and p.port is not None}
+
+
+def calls_promised(declaration: Declaration, port: str) -> tuple[str, ...]:
+    """The requirements by which an execution policy promises that calls of ``port`` are carried out."""
+    protection = protection_of(declaration)
+    if protection == "active" and port in managed_ports(declaration):
+        return ("R-10.1.3.2-08", "R-10.1.3.2-07")
+    return _PROMISES.get(protection, ())
 
 
 def goals_of(runtime: Runtime, call: BusinessCall) -> list[tuple[Member, str]]:

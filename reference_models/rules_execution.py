@@ -11,6 +11,7 @@ from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
 from ucm_cts.reference_models.executions import (
     BusinessCall,
     Execution,
+    calls_promised,
     goals_of,
     managed_ports,
     protection_of,
@@ -120,6 +121,33 @@ def waiting_calls_served(ledger: Ledger, runtime: Runtime, call: BusinessCall, w
         f"the call that waits while '{lane(enter.component, enter.instance)}' is executed is carried out afterwards",
         "it ended without having been carried out" if end else "it did not end",
         (enter.n, call.n, *((end,) if end else ())),
+    )
+
+
+@rule("answered", "R-10.1.3.2-07", "R-10.1.3.2-08", "R-10.1.3.2-15", "R-10.1.3.2-21")
+def calls_carried_out(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
+    """A call through a port that the policy speaks of enters the body once, there, with the value sent; its result comes back."""
+    member, port = call.callee, call.port
+    if member is None or port is None or not call.possible or not member.serving or member.raises("exchange"):
+        return
+    promised = calls_promised(member.declaration, port)
+    own = [(e, x) for e, x in call.entries if (e.component, e.instance) == (member.component, member.instance)]
+    if not promised or (call.waited and not own):  # who waits in vain is waiting_calls_served's matter
+        return
+    right = [x for e, x in own if e.port == port and e.value == call.value and x is not None]
+    if len(own) == len(right) == 1 and isinstance(end, Return) and end.value == right[0].value:
+        for requirement in promised:
+            ledger.exercised(requirement)
+        return
+    entered = ", ".join(f"{e.port} with {e.value}" for e, _ in own) or "nothing"
+    came_back = end.value if isinstance(end, Return) else end.error
+    ledger.violated(
+        promised[0],
+        "calls_carried_out",
+        "not served" if not own else "otherwise",
+        f"exchange({call.value}) through {port} executes '{member.lane}' there, once, and brings back its result",
+        f"it executed {entered}, and brought back {came_back}",
+        (call.n, end.n),
     )
 
 

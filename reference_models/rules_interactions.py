@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply, Return
-from ucm_cts.reference_models.executions import BusinessCall, connections_behind, providers_of
+from ucm_cts.reference_models.executions import BusinessCall, calls_promised, connections_behind, providers_of
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
@@ -16,6 +16,8 @@ def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return |
     member, port = call.callee, call.port
     if member is None or not call.possible or not member.serving or member.raises("exchange"):
         return
+    if port is not None and calls_promised(member.declaration, port):
+        return  # its execution policy's matter
     own = [(e, x) for e, x in call.entries if (e.component, e.instance) == (member.component, member.instance)]
     expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
     if not own or isinstance(end, Raise):
