@@ -75,6 +75,15 @@ def overlap_purposes() -> list[TestPurpose]:
     text = "A self-executing component runs, once started and once started again, and one run at a time."
     alone = ("R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03", "R-10.1.3.2-05")
     purposes.append(TestPurpose("self-executing/alone", _CLAUSE, text, alone, (("self-executing/alone", _runs()),)))
+    purposes.append(
+        TestPurpose(
+            "two execution policies",
+            "10.1.3",
+            "A component has more than one execution policy.",
+            ("R-10.1.3-03",),
+            tuple((f"two policies/{one} and {other}", _contradictory(one, other)) for one, other in _PAIRS),
+        )
+    )
     text = "Callers of a self-executing component are sent while its run is held inside."
     purposes.append(TestPurpose("self-executing/run and ports", _CLAUSE, text, ("R-10.1.3.2-06",), runs))
     return purposes
@@ -105,6 +114,15 @@ def _meeting_with_run(way: _Way) -> Scenario:
     server = Declaration(_PORTS, plan=plan, policies=_SELF_EXECUTING.policies)
     calls: list[Step] = [s.ReachGate("running"), s.Invoke("way 0", 1, thread="caller"), s.Settle("caller")]
     return _scenario(server, (way,), [*calls, s.OpenGate("running"), s.Join("caller")])
+
+
+_PAIRS = tuple(itertools.combinations((s.SELF_EXECUTING, s.ACTIVE, s.PROTECTED_PASSIVE, s.UNPROTECTED_PASSIVE), 2))
+
+
+def _contradictory(one: str, other: str) -> Scenario:
+    policies = tuple(Policy(name, "in.api" if name == s.ACTIVE else None) for name in (one, other))
+    steps = (s.AddComponent("server"), s.Start(), s.Stop(), s.GetComponents())
+    return Scenario({"server": Declaration(_PORTS, policies=policies)}, steps)
 
 
 def _runs() -> Scenario:

@@ -187,6 +187,12 @@ def managed_ports(declaration: Declaration) -> set[str]:
     return {p.port for p in declaration.policies if p.definition == s.ACTIVE and p.port is not None}
 
 
+def is_contradictory(declaration: Declaration) -> bool:
+    """Has the component more than the one execution policy that it may have (10.1.3)?"""
+    applied = [p for p in declaration.policies if p.definition in _PROTECTIONS]
+    return len({p.definition for p in applied}) > 1 or sum(p.port is None for p in applied) > 1
+
+
 def calls_promised(declaration: Declaration, port: str) -> tuple[str, ...]:
     """The requirements by which an execution policy promises that calls of ``port`` are carried out."""
     protection = protection_of(declaration)

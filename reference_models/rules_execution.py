@@ -13,6 +13,7 @@ from ucm_cts.reference_models.executions import (
     Execution,
     calls_promised,
     goals_of,
+    is_contradictory,
     managed_ports,
     protection_of,
 )
@@ -183,6 +184,29 @@ def policy_supported(ledger: Ledger, runtime: Runtime, window: Window, end: Retu
         requirement = _SUPPORT.get(protection_of(member.declaration), "")
         if requirement and "on_startup" in heard:
             ledger.exercised(requirement)
+
+
+@rule("ended", "R-10.1.3-03", at=("add_component", "start"))
+def one_execution_policy(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """A component with two execution policies is refused when it is added, or at the latest when it is to be started."""
+    if isinstance(window.step, s.AddComponent):
+        declaration = runtime.scenario.components.get(window.step.component)
+        if declaration is not None and is_contradictory(declaration) and isinstance(end, Raise):
+            ledger.exercised("R-10.1.3-03")
+        return
+    members = [m for m in window.container.live_members() if is_contradictory(m.declaration)]
+    if members and isinstance(end, Raise):
+        ledger.exercised("R-10.1.3-03")
+    for member in members if isinstance(end, Return) else ():
+        ledger.violated(
+            "R-10.1.3-03",
+            "one_execution_policy",
+            "started",
+            f"'{member.lane}', which has two execution policies, is not started",
+            "start returned",
+            (end.n,),
+            window.step_number,
+        )
 
 
 @rule("began", "R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03")
