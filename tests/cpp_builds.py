@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -333,4 +334,33 @@ def concurrent_scenarios() -> list[s.Scenario]:
             *(s.Join(w) for w in "abce"),
         ),
     )
-    return [gates, crowd, left, settled, s.Scenario(PAIR, (*LIFE, s.Destroy()))]
+    executed = {
+        policy: s.Declaration(
+            ("p_e",),
+            ("r_e",),
+            connectable=True,
+            plan={"run": (s.CallPort("r_e", 1), s.RaiseError()), "on_startup": (s.CallPort("r_e", 2),)},
+            policies=(s.Policy(policy, "p_e" if policy == s.ACTIVE else None),),
+        )
+        for policy in (s.SELF_EXECUTING, s.ACTIVE, s.PROTECTED_PASSIVE, s.UNPROTECTED_PASSIVE)
+    }
+    ring = [*executed, *executed][:5]
+    policies = s.Scenario(
+        executed,
+        (
+            *(s.AddComponent(name) for name in executed),
+            *(s.GetPortElement(name, "p_e", f"ref {name}") for name in executed),
+            *(s.Connect(name, "r_e", f"ref {to}", f"k {name}") for name, to in pairwise(ring)),
+            s.Start(),
+            *(s.Invoke(f"ref {name}", n, thread=f"w{n % 3}") for n in range(4) for name in executed),
+            s.Settle("w1"),
+            s.Stop(thread="z"),
+            s.Settle("w2"),
+            s.Settle("z"),
+            s.Join("z"),
+            s.Start(),
+            s.Destroy(),
+            s.Invoke(f"ref {s.ACTIVE}", 1),
+        ),
+    )
+    return [gates, crowd, left, s.Scenario(PAIR, (*LIFE, s.Destroy())), settled, policies]

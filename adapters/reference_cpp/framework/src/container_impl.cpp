@@ -22,6 +22,7 @@ componentId ContainerImpl::add_component(const Properties& configValues) {
         throw UCM_ERROR("components are added before start");
     }
     const std::shared_ptr<const Implementation> implementation = select(configValues);
+    check_policies(*implementation);
     const componentId id = ++shared_->last_component;
     std::shared_ptr<Instance> instance;
     Attempts attempts;
@@ -144,6 +145,12 @@ void ContainerImpl::start() {
         }
         startup_order_.push_back(member);
     }
+    for (const std::shared_ptr<Instance>& member : members_) {
+        if (!attempts.make("execution", [&] { member->begin_execution(); })) {
+            shut_down_members(attempts);
+            attempts.check();
+        }
+    }
     started_ = true;
 }
 
@@ -170,6 +177,9 @@ componentIds ContainerImpl::get_components() {
 }
 
 void ContainerImpl::shut_down_members(Attempts& attempts) {
+    for (const std::shared_ptr<Instance>& member : startup_order_) {
+        member->end_execution();
+    }
     while (!startup_order_.empty()) {
         const std::shared_ptr<Instance> last = startup_order_.back();
         startup_order_.pop_back();

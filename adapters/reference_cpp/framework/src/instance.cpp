@@ -27,7 +27,8 @@ Instance::Instance(componentId id, ContainerImpl& container, std::shared_ptr<con
       container_(container),
       implementation_(std::move(implementation)),
       body_(make_body(*implementation_)),
-      connectable_(dynamic_cast<Connectable*>(body_.get())) {
+      connectable_(dynamic_cast<Connectable*>(body_.get())),
+      execution_(implementation_, *body_) {
     for (const std::string& port : implementation_->required) {
         required_.push_back(Required{port, nullptr});
     }
@@ -60,7 +61,7 @@ void Instance::initialize(const Properties& configuration, const std::shared_ptr
     if (FragmentObject* fragment = dynamic_cast<FragmentObject*>(body_.get())) {
         fragment->set_container_interface(container);
     }
-    body_->on_init();
+    execution_.enter([&] { body_->on_init(); });
 }
 
 void Instance::connect(const std::string& port, const std::shared_ptr<PortElementObject>& to) {
@@ -69,7 +70,7 @@ void Instance::connect(const std::string& port, const std::shared_ptr<PortElemen
         return;
     }
     try {
-        connectable_->on_connect(port, to);
+        execution_.enter([&] { connectable_->on_connect(port, to); });
     } catch (...) {
         find_required(port)->to = nullptr;
         throw;
@@ -79,7 +80,7 @@ void Instance::connect(const std::string& port, const std::shared_ptr<PortElemen
 void Instance::disconnect(const std::string& port) {
     find_required(port)->to = nullptr;
     if (connectable_ != nullptr) {
-        connectable_->on_disconnect(port);
+        execution_.enter([&] { connectable_->on_disconnect(port); });
     }
 }
 
@@ -89,19 +90,27 @@ void Instance::start() {
     for (const Required& required : required_) {
         dependencies.push_back(PortConnection{required.port, {required.to}});
     }
-    body_->on_startup(dependencies);
+    execution_.enter([&] { body_->on_startup(dependencies); });
     ready_ = true;
 }
 
 void Instance::shut_down() {
     ready_ = false;
-    body_->on_shutdown();
+    execution_.enter([&] { body_->on_shutdown(); });
 }
 
-void Instance::remove() { body_->on_remove(); }
+void Instance::remove() {
+    try {
+        execution_.enter([&] { body_->on_remove(); });
+    } catch (...) {
+        execution_.close();
+        throw;
+    }
+    execution_.close();
+}
 
 std::shared_ptr<PortElementObject> Instance::ask_port_element(const std::string& port) {
-    return body_->get_portElement(port);
+    return execution_.guarded(port, body_->get_portElement(port));
 }
 
 void Instance::remember(const std::shared_ptr<PortElementObject>& element) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "execution.hpp"
 #include "lwucm/container.hpp"
 #include "lwucm/repository.hpp"
 
@@ -37,7 +38,11 @@ class Instance {
     void shut_down();
     void remove();
 
-    /// What the body gives for a provided port element.
+    /// The time in which it executes by itself, if it does: when all members of its container have started.
+    void begin_execution() { execution_.begin(); }
+    void end_execution() { execution_.end(); }
+
+    /// What the body gives for a provided port element, guarded as its policy has it.
     std::shared_ptr<PortElementObject> ask_port_element(const std::string& port);
 
     /// Which references have been given out, so that the runtime knows who provides what is connected.
@@ -57,6 +62,7 @@ class Instance {
     const std::shared_ptr<const Implementation> implementation_;
     const std::shared_ptr<ComponentObject> body_;
     Connectable* const connectable_;
+    Execution execution_;
     std::vector<Required> required_;
     PortElementObjects given_out_;
     bool ready_ = false;

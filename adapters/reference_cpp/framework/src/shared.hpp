@@ -9,6 +9,7 @@
 #include "connections.hpp"
 #include "lwucm/errors.hpp"
 #include "lwucm/repository.hpp"
+#include "monitor.hpp"
 
 namespace lwucm {
 
@@ -26,12 +27,16 @@ struct Shared {
     bool destroyed = false;
 };
 
-/// Scope of one changing operation. UCM_ERROR if a callback of another one makes it, or if the runtime is destroyed.
+/// Scope of one changing operation. UCM_ERROR if a callback of another one makes it, or a protected component, which
+/// the operation might have to wait for; or if the runtime is destroyed.
 class Operation {
   public:
     explicit Operation(Shared& shared) : shared_(shared) {
         if (shared.operating.load() == std::this_thread::get_id()) {
             throw UCM_ERROR("a callback may not change the runtime that makes it");
+        }
+        if (Monitor::is_inside_any()) {
+            throw UCM_ERROR("a protected component may not change the runtime while it is executed");
         }
         shared.operations.lock();
         if (shared.destroyed) {

@@ -6,21 +6,38 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lwucm/component.hpp"
+#include "lwucm/policies.hpp"
 
 namespace lwucm {
 
 /// What the runtime must know of an implementation: its model (names of port elements and attributes) and how to make
 /// and configure bodies. `set_attribute` is called once for each attribute that add_component configures.
 struct Implementation {
+    typedef std::vector<std::string> Names;
+    typedef std::function<std::shared_ptr<ComponentObject>()> Create;
+    typedef std::function<void(ComponentObject& body, const std::string& name, const std::string& value)> SetAttribute;
+
+    Implementation(std::string its_name, Names its_provided, Names its_required, Names its_attributes,
+                   Create how_to_create, SetAttribute how_to_set_attribute, Policies its_policies = Policies())
+        : name(std::move(its_name)),
+          provided(std::move(its_provided)),
+          required(std::move(its_required)),
+          attributes(std::move(its_attributes)),
+          create(std::move(how_to_create)),
+          set_attribute(std::move(how_to_set_attribute)),
+          policies(std::move(its_policies)) {}
+
     std::string name;
-    std::vector<std::string> provided;
-    std::vector<std::string> required;
-    std::vector<std::string> attributes;
-    std::function<std::shared_ptr<ComponentObject>()> create;
-    std::function<void(ComponentObject& body, const std::string& name, const std::string& value)> set_attribute;
+    Names provided;
+    Names required;
+    Names attributes;
+    Create create;
+    SetAttribute set_attribute;
+    Policies policies;
 };
 
 class Repository {
