@@ -28,6 +28,11 @@ SUBJECTS: dict[str, WrongSubject] = {}
 
 VARIANTS: dict[str, type[ReferenceAdapter]] = {}
 
+POLICY_SUBJECTS: dict[str, WrongSubject] = {}
+"""What only components with execution policies show; the container profile has none."""
+
+POLICY_VARIANTS: dict[str, type[ReferenceAdapter]] = {}
+
 
 def bind(name: str, mixin: type, doc: str | None = None) -> type[ReferenceAdapter]:
     """An adapter for the reference framework with ``mixin`` in front of both container classes."""
@@ -50,6 +55,23 @@ def breaks(*requirements: str, also: tuple[str, ...] = ()) -> Callable[[type], t
 def variant(mixin: type) -> type:
     """Register the decorated mixin."""
     VARIANTS[mixin.__name__] = bind(mixin.__name__, mixin, mixin.__doc__)
+    return mixin
+
+
+def breaks_policy(*requirements: str, also: tuple[str, ...] = ()) -> Callable[[type], type]:
+    """Register the decorated mixin as a framework that applies execution policies wrongly."""
+
+    def register(mixin: type) -> type:
+        adapter = bind(mixin.__name__, mixin, mixin.__doc__)
+        POLICY_SUBJECTS[mixin.__name__] = WrongSubject(mixin.__name__, adapter, requirements, also)
+        return mixin
+
+    return register
+
+
+def policy_variant(mixin: type) -> type:
+    """Register the decorated mixin as a conformant framework that applies execution policies in its own way."""
+    POLICY_VARIANTS[mixin.__name__] = bind(mixin.__name__, mixin, mixin.__doc__)
     return mixin
 
 

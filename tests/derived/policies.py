@@ -1,0 +1,178 @@
+"""Conformant variants that execute protected components in their own way (10.1.3)."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TypeVar
+
+from derived.registry import Base, policy_variant
+from ucm_cts.adapters.contract.programming_model import UcmError
+from ucm_cts.adapters.contract.scenario import UNPROTECTED_PASSIVE
+from ucm_cts.adapters.reference_py.framework import Failures, Member
+from ucm_cts.adapters.reference_py.policies import Executor, Trigger
+
+T = TypeVar("T")
+
+# threads
+
+
+class _SharedExecutor(Executor):
+    """Lets calls that come from its own thread in at once."""
+
+    own_thread: int | None = None
+
+    def execute(self, work: Callable[[], T]) -> T:
+        if self.own_thread == threading.get_ident():
+            return work()
+
+        def on_own_thread() -> T:
+            self.own_thread = threading.get_ident()
+            return work()
+
+        return super().execute(on_own_thread)
+
+
+@policy_variant
+class executes_all_on_one_thread(Base):
+    """A thread of the container executes all its protected components."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        executor: _SharedExecutor = self.__dict__.setdefault("executor", _SharedExecutor())
+        return executor.execute(work)
+
+    def _remove_members(self, failures: Failures) -> None:
+        super()._remove_members(failures)
+        self.__dict__.pop("executor", _SharedExecutor()).close()
+
+
+@policy_variant
+class executes_each_on_its_thread(Base):
+    """Every protected component has a thread for all that enters it."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.execution.is_inside:
+            return work()
+        return self._execute_on_own_thread(member, lambda: self._execute_alone(member, port, work))
+
+
+@policy_variant
+class executes_all_on_the_callers_thread(Base):
+    """Active components have no thread; callers enter one by one."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        return self._execute_alone(member, port, work)
+
+
+# who waits
+
+
+@policy_variant
+class refuses_recursion(Base):
+    """A call that comes back to a protected component is refused."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.execution.is_inside:
+            raise UcmError("the component is being executed")
+        return super()._execute(member, port, work)
+
+
+@policy_variant
+class serialises_unprotected_components(Base):
+    """Unprotected passive components are entered one at a time, too."""
+
+    def _is_protected(self, member: Member) -> bool:
+        return super()._is_protected(member) or member.execution.definition == UNPROTECTED_PASSIVE
+
+
+class _Turnstile:
+    """Lets those who wait in one by one, in the order they came or in reverse."""
+
+    def __init__(self, last_first: bool) -> None:
+        self._changed = threading.Condition()
+        self._waiting: list[object] = []
+        self._is_free = True
+        self._next = -1 if last_first else 0
+
+    def enter(self) -> None:
+        own = object()
+        with self._changed:
+            self._waiting.append(own)
+            self._changed.wait_for(lambda: self._is_free and self._waiting[self._next] is own)
+            self._waiting.remove(own)
+            self._is_free = False
+
+    def leave(self) -> None:
+        with self._changed:
+            self._is_free = True
+            self._changed.notify_all()
+
+
+@policy_variant
+class lets_the_first_in_first(Base):
+    """Callers are let in in the order they came."""
+
+    last_first = False
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        if member.execution.is_inside:
+            yield
+            return
+        turnstile: _Turnstile = member.__dict__.setdefault("turnstile", _Turnstile(self.last_first))
+        turnstile.enter()
+        member.execution.thread_inside = threading.get_ident()
+        try:
+            yield
+        finally:
+            member.execution.thread_inside = None
+            turnstile.leave()
+
+
+@policy_variant
+class lets_the_last_in_first(lets_the_first_in_first):
+    """Who came last is let in first."""
+
+    last_first = True
+
+
+# run
+
+
+@policy_variant
+class runs_once_a_start(Base):
+    """run is called once after each start."""
+
+    def _keep_running(self, member: Member, trigger: Trigger) -> None:
+        if not trigger.ended.wait(self.period):
+            self._run(member, trigger)
+
+
+@policy_variant
+class runs_seldom(Base):
+    """run is called every 50 ms."""
+
+    period = 0.05
+
+
+@policy_variant
+class runs_no_more_after_a_failure(Base):
+    """An exception out of run ends the runs until the next start."""
+
+    def _keep_running(self, member: Member, trigger: Trigger) -> None:
+        run = self._execution_api(member).run
+        try:
+            while not trigger.ended.wait(self.period):
+                self._execute(member, None, lambda: trigger.run(run))
+        except Exception:  # noqa: BLE001 - a body may raise anything
+            return
+
+
+@policy_variant
+class runs_one_component_at_a_time(Base):
+    """Of all self-executing components of the runtime one runs at a time."""
+
+    def _run(self, member: Member, trigger: Trigger) -> None:
+        with self.manager.__dict__.setdefault("one_run", threading.Lock()):
+            super()._run(member, trigger)

@@ -1,0 +1,306 @@
+"""Wrong frameworks, clause 10.1.3: execution policies that protect too little, too long or the wrong thing."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TypeVar
+
+from derived.registry import Base, Proxy, breaks_policy
+from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
+from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
+from ucm_cts.adapters.reference_py.framework import Failures, Member
+from ucm_cts.adapters.reference_py.policies import ProtectedElement, Trigger
+
+T = TypeVar("T")
+
+# too little protection
+
+
+class _Unprotects(Base):
+    definition: str
+
+    def _is_protected(self, member: Member) -> bool:
+        return member.execution.definition != self.definition and super()._is_protected(member)
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        return super()._execute(member, port, work) if self._is_protected(member) else work()
+
+
+@breaks_policy("R-10.1.3.2-13", "R-10.1.3.2-16")
+class leaves_passive_components_open(_Unprotects):
+    """Protected passive components are not protected."""
+
+    definition = PROTECTED_PASSIVE
+
+
+@breaks_policy("R-10.1.3.2-09", "R-10.1.3.2-10")
+class leaves_active_components_open(_Unprotects):
+    """Active components are executed by their callers, all at a time."""
+
+    definition = ACTIVE
+
+
+@breaks_policy("R-10.1.3.2-06")
+class leaves_self_executing_components_open(_Unprotects):
+    """Self-executing components are not protected."""
+
+    definition = SELF_EXECUTING
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-10", "R-10.1.3.2-16")
+class locks_ports(Base):
+    """Each port element has a lock of its own, and so has run."""
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        with member.__dict__.setdefault(f"lock of {port}", threading.RLock()):
+            yield
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
+class protects_from_the_outside_only(Base):
+    """Components are given unprotected references at start."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(map(_without_protection, d.to_port))) for d in given]
+
+
+def _without_protection(target: PortElementObject | None) -> PortElementObject | None:
+    return target.element if isinstance(target, ProtectedElement) else target
+
+
+@breaks_policy("R-10.1.3.2-10")
+class protects_managed_ports_only(Base):
+    """The ports of an active component that its policy does not manage are open."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        is_open = member.execution.managed and port not in member.execution.managed
+        return work() if is_open else super()._execute(member, port, work)
+
+
+class _Unlocked(Proxy):
+    """Calls out of ``member`` are made without its lock."""
+
+    def exchange(self, value: int) -> int:
+        execution = self.member.execution
+        if not execution.is_inside:
+            return self.target.exchange(value)
+        inside, execution.thread_inside = execution.thread_inside, None
+        execution.lock.release()
+        try:
+            return self.target.exchange(value)
+        finally:
+            execution.lock.acquire()
+            execution.thread_inside = inside
+
+
+@breaks_policy("R-10.1.3.2-13", also=("R-10.1.3.2-16",))
+class unlocks_for_nested_calls(Base):
+    """While a component waits for another one, anybody may enter it."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(_Unlocked(t, member) for t in d.to_port if t)) for d in given]
+
+
+@breaks_policy("R-10.1.3.2-05")
+class runs_before_run_has_ended(Base):
+    """Every run has a thread of its own and waits for none."""
+
+    def _run(self, member: Member, trigger: Trigger) -> None:
+        threading.Thread(target=super()._run, args=(member, trigger), daemon=True).start()
+
+    def _begin_execution(self, member: Member) -> None:
+        super()._begin_execution(member)
+        if member.execution.trigger:
+            member.execution.trigger.run = lambda run: run()  # type: ignore[method-assign]
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        if port is not None:
+            with super()._exclusion(member, port):
+                yield
+            return
+        if not member.__dict__.setdefault("running", 0):
+            with super()._exclusion(member, port):
+                member.__dict__["running"] += 1
+                try:
+                    yield
+                finally:
+                    member.__dict__["running"] -= 1
+        else:
+            yield
+
+
+# who waits gets nothing, or the wrong thing
+
+
+class _Meets(Base):
+    """Does something else with those who meet an execution."""
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if port is None or member.execution.lock.acquire(blocking=False):
+            try:
+                result = super()._execute_alone(member, port, work)
+            finally:
+                if port is not None:
+                    member.execution.lock.release()
+            if port is not None:
+                member.__dict__["last"] = result
+            return result
+        return self._meet(member, port, work)
+
+    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        raise NotImplementedError
+
+
+_CALLS = ("R-10.1.3.2-08", "R-10.1.3.2-15", "R-11.1.2-02", "R-11.1.3-01", "R-11.2.1.2-07", "R-11.2.3-03")
+"""Business calls do not do what they should."""
+
+
+@breaks_policy("R-10.1.3.2-17", also=_CALLS)
+class refuses_who_waited(_Meets):
+    """A caller that meets an execution waits for its end and is refused."""
+
+    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        with self._exclusion(member, port):
+            pass
+        raise UcmError("busy")
+
+
+@breaks_policy("R-10.1.3.2-17", also=_CALLS)
+class forgets_who_waits(_Meets):
+    """A caller that meets an execution waits for ever."""
+
+    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        threading.Event().wait()
+        raise NotImplementedError
+
+
+@breaks_policy("R-10.1.3.2-17", also=_CALLS)
+class answers_all_who_wait_alike(_Meets):
+    """A caller that meets an execution waits and gets its result."""
+
+    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        with self._exclusion(member, port):
+            return member.__dict__.get("last", 0)  # type: ignore[no-any-return]
+
+
+@breaks_policy("R-10.1.3.2-17", also=_CALLS)
+class stays_locked_after_exceptions(Base):
+    """Nobody enters a component that was left with an exception."""
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        lock = member.__dict__.setdefault("semaphore", threading.Semaphore())
+        if member.execution.is_inside:
+            yield
+            return
+        lock.acquire()
+        member.execution.thread_inside = threading.get_ident()
+        try:
+            yield
+        except Exception:
+            member.execution.thread_inside = None
+            raise
+        member.execution.thread_inside = None
+        lock.release()
+
+
+# run and what executes by itself
+
+
+@breaks_policy("R-10.1.3.2-01", also=("R-10.1.3.2-03",))
+class never_runs(Base):
+    """Self-executing components are not executed."""
+
+    def _begin_execution(self, member: Member) -> None:
+        pass
+
+
+@breaks_policy("R-10.1.3.2-01")
+class runs_after_the_first_start_only(Base):
+    """Self-executing components are not executed after a restart."""
+
+    def _begin_execution(self, member: Member) -> None:
+        if not member.__dict__.get("has_run"):
+            super()._begin_execution(member)
+        member.__dict__["has_run"] = True
+
+
+@breaks_policy("R-10.1.3.2-01", also=("R-10.1.3.2-03",))
+class runs_when_called(Base):
+    """Self-executing components are executed after each call of a port, and not without."""
+
+    def _keep_running(self, member: Member, trigger: Trigger) -> None:
+        pass
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        result = super()._execute(member, port, work)
+        if port is not None and member.execution.trigger:
+            self._run(member, member.execution.trigger)
+        return result
+
+
+@breaks_policy("R-10.1.3.2-02", also=("R-10.1.3.2-01",))
+class runs_before_startup(Base):
+    """run is called as soon as start begins."""
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        if member.execution.definition == SELF_EXECUTING:
+            self._begin_execution(member)
+            time.sleep(2 * self.period)
+        return super()._start_up(member, failures)
+
+
+@breaks_policy("R-10.1.3.2-02")
+class runs_after_stop(Base):
+    """run is called until the component is removed."""
+
+    def _end_execution(self, member: Member) -> None:
+        pass
+
+    def get_components(self) -> list[int]:
+        time.sleep(2 * self.period)  # or who asks at once would not see it
+        return super().get_components()
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        super()._end_execution(member)
+        super()._remove(member, failures)
+
+
+@breaks_policy("R-10.1.3.2-14")
+class executes_passive_components(Base):
+    """Protected passive components are executed by their container now and then."""
+
+    definition = PROTECTED_PASSIVE
+
+    def _begin_execution(self, member: Member) -> None:
+        super()._begin_execution(member)
+        if member.execution.definition == self.definition and member.implementation.provides:
+            port = self._reference_to(member, member.implementation.provides[0])
+            assert port is not None
+            threading.Thread(target=port.exchange, args=(0,), daemon=True).start()
+            time.sleep(self.period)
+
+
+@breaks_policy("R-10.1.3.2-19")
+class executes_unprotected_components(executes_passive_components):
+    """The same with unprotected passive components."""
+
+    definition = UNPROTECTED_PASSIVE
+
+
+# how many policies
+
+
+@breaks_policy("R-10.1.3-03")
+class takes_any_number_of_policies(Base):
+    """The first of several execution policies counts."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        pass
