@@ -18,8 +18,8 @@ class Requirement(Value, frozen=True):
     """One statement of the specification, in the project's own words.
 
     ``observed`` says how a trace or a model shows that it was kept or broken. It has exactly one of ``rules``, the rules
-    that stand for it; ``pending``, what the rule that is to stand for it still needs; and ``untestable``, why no run can
-    show it. ``interpretations`` are ids of ``interpretations*.yaml``.
+    or model checks that stand for it; ``pending``, what the rule that is to stand for it still needs; and
+    ``untestable``, why no run can show it. ``interpretations`` are ids of ``interpretations*.yaml``.
     """
 
     id: str
@@ -29,10 +29,10 @@ class Requirement(Value, frozen=True):
     meaning: str
     observed: str = ""
     rules: tuple[str, ...] = ()
-    pending: str = ""
     untestable: str = ""
     interpretations: tuple[str, ...] = ()
     profile: str = "container"
+    pending: str = ""
 
 
 SUITE = Path(__file__).parent.parent / "suite"

@@ -9,6 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_requirements
+from ucm_cts.harness.core_models import CHECKS
 from ucm_cts.harness.locate import WrongUse
 from ucm_cts.harness.purposes import PROFILES, load_purposes
 from ucm_cts.reference_models.ledger import RULES
@@ -36,7 +37,7 @@ def explanation(identifier: str) -> RenderableType:
         lines += [Text(), Text(f"Interpretation {name}: ", style="bold") + Text(entry.text)]
         lines += [Text(f"  {option}: {', '.join(readings)}") for option, readings in entry.options.items()]
     for rule in requirement.rules:
-        doc = (RULES[rule].check.__doc__ or "").strip().splitlines()[0]
+        doc = CHECKS[rule] if rule in CHECKS else (RULES[rule].check.__doc__ or "").strip().splitlines()[0]
         lines += [Text(), Text(f"Rule {rule}: ", style="bold") + Text(doc)]
     offered = load_purposes(requirement.profile) if requirement.profile in PROFILES else ()
     purposes = [p for p in offered if requirement.id in p.requirements]

@@ -1,0 +1,196 @@
+"""UCM models in XML as plain trees in one spelling, whichever of the printed spellings they are written in.
+
+Models come from others and may be hostile: size is bounded, document types and so entities are refused.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from lxml import etree
+
+from ucm_cts.harness.documents import LARGEST, DocumentError
+
+MODULES = ("ContractModule", "InteractionModule", "NonfunctionalAspectModule")
+
+_SAME_TAG = {
+    "PortType": "TemplatedPort",
+    "ConnectorPort": "ConnectorPortDefinition",
+    "AbstractInterface": "InterfaceTypeTemplateParameter",
+    "InterfaceTemplateParameter": "InterfaceTypeTemplateParameter",
+    "AbstractDataType": "DataTypeTemplateParameter",
+    "PrimitiveType": "PrimitiveInteger",
+    "String8": "StringType",
+    "String32": "StringType",
+}
+_SAME_ATTRIBUTE = {
+    "aliasedPrimitive": "kind",
+    "indexValue": "value",
+    "intf": "interface",
+    "baseChar": "charBase",
+    "size": "maxSize",
+}
+_IMPLIED = {
+    "String8": {"charBase": "CHAR8", "maxSize": "-1"},
+    "String32": {"charBase": "CHAR32", "maxSize": "-1"},
+    "StringType": {"maxSize": "-1"},
+}
+
+
+def words(text: str) -> tuple[str, ...]:
+    """The words of ``text``, for lists that nobody wants to read in quotes."""
+    return tuple(text.split())
+
+
+KNOWN_TAGS = frozenset(
+    words("""
+    AnnotationDefinition ArrayType Attribute ComponentModule ConfigurationParameter ConnectorDefinition
+    ConnectorPortDefinition Constant ContractModule DataTypeTemplateParameter Enumeration Enumerator Exception
+    ExceptionField InteractionItem InteractionModule InteractionPattern InteractionRole Interface
+    InterfaceTypeTemplateParameter InvolvedItem ItemBinding Language Method NativeType NonfunctionalAspectModule
+    Parameter PortElement PrimitiveBoolean PrimitiveChar PrimitiveFloat PrimitiveInteger ProgrammingLanguages
+    PropertyDefinition RaisedException SequenceType StringType Structure StructureField TechnicalAspect
+    TechnicalPolicyDefinition TemplatedPort Union UnionCase
+    """)
+)
+"""Spellings that the text prints or that follow from its meta-model, after those that mean the same were made one."""
+
+KNOWN_ATTRIBUTES = frozenset(
+    words("""
+    api applicability charBase connectorItem defaultValue direction extends indexType inheritedInterface interactionItem
+    interface item kind language lowerMultiplicity maxSize mode multiplicity name nature pattern portRole size
+    technicalAspect type upperMultiplicity value
+    """)
+)
+
+INTEGERS = words("BYTE SHORT LONG LONGLONG UBYTE USHORT ULONG ULONGLONG")
+_WORDS = {
+    "kind": (*INTEGERS, *words("FLOAT DOUBLE LONGDOUBLE CHAR8 CHAR32 PROVIDED REQUIRED")),
+    "direction": words("IN OUT INOUT RETURN"),
+    "nature": words("DATA INTERFACE"),
+    "charBase": words("CHAR8 CHAR32"),
+    "applicability": words("onComponent onPort onBoth"),
+    "multiplicity": words("anyNumber atMostOne exactlyOne atLeastOne"),
+}
+_SAME_WORD = {"anynumer": "anyNumber"} | {word.lower(): word for printed in _WORDS.values() for word in printed}
+
+
+@dataclass(eq=False)
+class Element:
+    """One element of a model, in the spelling that all are compared in."""
+
+    tag: str
+    attributes: dict[str, str]
+    parent: Element | None = None
+    children: list[Element] = field(default_factory=list)
+    source: etree._Element | None = None
+    where: str = ""
+
+    @property
+    def name(self) -> str:
+        return self.attributes.get("name", "")
+
+    @property
+    def path(self) -> tuple[str, ...]:
+        """The names from the root to here."""
+        return (*self.parent.path, self.name) if self.parent is not None else ()
+
+    def walk(self) -> Iterator[Element]:
+        """This element and all inside it."""
+        yield self
+        for child in self.children:
+            yield from child.walk()
+
+
+def is_printed(attribute: str, value: str) -> bool:
+    """Is ``value`` one that the text prints for this attribute, as far as it prints them one by one?"""
+    return value in _WORDS[attribute] if attribute in _WORDS else True
+
+
+def read_models(paths: list[Path]) -> tuple[Element, Element]:
+    """What the files at ``paths`` declare at the root, and below a root module ``core``. Raises ``DocumentError``.
+
+    A module that is written in several pieces becomes one.
+    """
+    root, core = Element("", {}), Element("", {})
+    for path in paths:
+        for element in _modules(_parse(path)):
+            below_core = element.get("name") == "core"
+            for one in element if below_core else (element,):
+                if isinstance(one.tag, str):
+                    _add(core if below_core else root, one, path)
+    return root, core
+
+
+def _modules(element: etree._Element) -> Iterator[etree._Element]:
+    """The outermost modules, whatever a tool wraps around them; what is no wrapper either is taken as it is."""
+    inside = [e for e in element.iterdescendants() if isinstance(e.tag, str) and _local(e) in MODULES]
+    if _local(element) in (*MODULES, "ComponentModule") or not inside or element.get("name"):
+        yield element
+    else:
+        for child in element:
+            if isinstance(child.tag, str):
+                yield from _modules(child)
+
+
+def _add(parent: Element, source: etree._Element, path: Path) -> None:
+    printed = _local(source)
+    tag = _SAME_TAG.get(printed, printed)
+    attributes = dict(_IMPLIED.get(printed, {}))
+    for key, value in source.attrib.items():
+        if not str(key).startswith("{"):
+            name = _SAME_ATTRIBUTE.get(str(key), str(key))
+            attributes[name] = _value(name, str(value).strip())
+    element = None
+    if tag in MODULES:
+        element = next((c for c in parent.children if (c.tag, c.name) == (tag, attributes.get("name"))), None)
+    if element is None:
+        element = Element(tag, attributes, parent, source=source, where=f"{path.name}:{source.sourceline}")
+        parent.children.append(element)
+    for child in source:
+        if isinstance(child.tag, str):
+            _add(element, child, path)
+
+
+def _value(attribute: str, value: str) -> str:
+    if attribute in _WORDS:
+        return _SAME_WORD.get(value.lower(), value)
+    return str(int(value)) if re.fullmatch(r"[-+]?[0-9]{1,18}", value) and attribute != "name" else value
+
+
+def _local(element: etree._Element) -> str:
+    return str(etree.QName(element).localname)
+
+
+_BEFORE_DOCTYPE = re.compile(r"\ufeff?(?>(?:<\?.*?\?>|<!--.*?-->|\s+))*+(?=<!DOCTYPE)", re.DOTALL)
+_ENCODING = re.compile(r"\ufeff?<\?xml[^>]*?\sencoding\s*=\s*[\"']([^\"']*)[\"']")
+
+
+def _parse(path: Path) -> etree._Element:
+    try:
+        with path.open("rb") as stream:
+            raw = stream.read(LARGEST + 1)
+    except OSError as error:
+        raise DocumentError(path, None, f"cannot be read: {error.strerror}; name an XML file") from None
+    if len(raw) > LARGEST:
+        raise DocumentError(path, None, f"is larger than {LARGEST} bytes; split it")
+    try:
+        text = raw.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise DocumentError(path, raw[: error.start].count(b"\n") + 1, "is not UTF-8; save it as UTF-8") from None
+    encoding = _ENCODING.match(text)
+    if encoding and encoding.group(1).lower() not in ("utf-8", "us-ascii"):
+        raise DocumentError(path, 1, f"is said to be '{encoding.group(1)[:40]}'; save it as UTF-8")
+    doctype = _BEFORE_DOCTYPE.match(text)
+    if doctype:
+        line = text.count("\n", 0, doctype.end()) + 1
+        raise DocumentError(path, line, "has a document type, which may hold entities; take the DOCTYPE out")
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False)
+    try:
+        return etree.fromstring(raw, parser)
+    except etree.XMLSyntaxError as error:
+        problem = " ".join(str(error.msg).split())
+        raise DocumentError(path, error.lineno or 1, f"is not XML: {problem}; mend it there") from None

@@ -1,0 +1,308 @@
+"""Models that a framework ships are compared with 10.1: declaration by declaration, in every printed spelling."""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pytest
+from core_mutations import Mutation, mutations, spoilt
+from lxml import etree
+
+from ucm_cts.harness import core_models
+from ucm_cts.harness.core_models import CORE, Declaration, ModelResult, compare
+from ucm_cts.harness.documents import DocumentError
+
+DECLARATIONS = {d.requirement: d for d in core_models._catalogue().declarations}
+STATEMENTS = core_models._catalogue().statements
+each_declaration = pytest.mark.parametrize("declaration", DECLARATIONS.values(), ids=DECLARATIONS.keys())
+
+
+def having(status: str, path: Path, claims: Mapping[str, str] = {}) -> set[str]:
+    return {r.requirement for r in compare([path], claims).results if r.status == status}
+
+
+def repeating(requirement: str) -> set[str]:
+    """The statements that say again what ``requirement`` says."""
+    return {s.requirement for s in STATEMENTS if requirement in s.of}
+
+
+@functools.cache
+def tree_of(file: str) -> etree._ElementTree:
+    return etree.parse(CORE / file)
+
+
+def element_of(declaration: Declaration) -> etree._Element:
+    (element,) = tree_of(declaration.file).xpath(declaration.place)
+    return element
+
+
+@functools.cache
+def spoilt_results(requirement: str) -> list[tuple[Mutation, dict[str, ModelResult]]]:
+    """Every way to spoil a declaration, and what comes of it."""
+    declaration = DECLARATIONS[requirement]
+    outcomes = []
+    with TemporaryDirectory() as folder:
+        for mutation in mutations(element_of(declaration), requirement):
+            path = spoilt(Path(folder), declaration.file, declaration.place, mutation.change)
+            outcomes.append((mutation, {r.requirement: r for r in compare([path]).results}))
+    return outcomes
+
+
+def test_our_own_models_keep_everything() -> None:
+    assert {r.status for r in compare([CORE]).results} == {"kept"}
+    assert compare([CORE]) == compare(sorted(CORE.glob("*.xml"), reverse=True))
+
+
+def test_every_element_is_a_declaration() -> None:
+    elements = sum(len(list(etree.parse(path).getroot().iter("*"))) for path in CORE.glob("*.xml"))
+    assert elements == len(DECLARATIONS) == len({element_of(d) for d in DECLARATIONS.values()})
+
+
+def test_without_models_everything_is_absent() -> None:
+    assert {r.status for r in compare([]).results} == {"absent"}
+
+
+@each_declaration
+def test_what_is_changed_breaks_its_requirement_alone(declaration: Declaration) -> None:
+    inside = {
+        r for r, d in DECLARATIONS.items()
+        if d.file == declaration.file and element_of(declaration) in element_of(d).iterancestors()
+    }  # fmt: skip
+    for mutation, results in spoilt_results(declaration.requirement):
+        wrong = {r for r, result in results.items() if result.status in ("broken", "unclear")}
+        assert mutation.requirement in wrong, mutation.what
+        assert wrong - {mutation.requirement} <= repeating(mutation.requirement), mutation.what
+        assert results[mutation.requirement].status == ("broken" if mutation.clear else "unclear"), mutation.what
+        assert results[mutation.requirement].expected
+        assert results[mutation.requirement].observed
+        absent = {r for r, result in results.items() if result.status == "absent" and r in DECLARATIONS}
+        assert absent in (set(), inside), mutation.what
+
+
+def test_every_requirement_can_be_broken() -> None:
+    outcomes = [results for requirement in DECLARATIONS for _, results in spoilt_results(requirement)]
+    broken = {r for results in outcomes for r, result in results.items() if result.status == "broken"}
+    assert broken == {r for requirements in core_models.checked().values() for r in requirements}
+
+
+# spellings
+
+
+def rewritten(folder: Path, *replacements: tuple[str, str], of: str = "*") -> Path:
+    """Our models with every ``replacements`` made in the files that ``of`` matches; each is found somewhere."""
+    texts = {path.name: path.read_text() for path in CORE.glob("*.xml")}
+    for pattern, text in replacements:
+        found = 0
+        for path in CORE.glob(f"{of}.xml"):
+            texts[path.name], times = re.subn(pattern, text, texts[path.name], flags=re.DOTALL)
+            found += times
+        assert found, pattern
+    for name, content in texts.items():
+        (folder / name).write_text(content)
+    return folder
+
+
+SPELLINGS = {
+    "port types": [("TemplatedPort", "PortType")],
+    "connector ports": [("ConnectorPortDefinition", "ConnectorPort")],
+    "abstract interfaces": [("InterfaceTypeTemplateParameter", "AbstractInterface")],
+    "interface parameters": [("InterfaceTypeTemplateParameter", "InterfaceTemplateParameter")],
+    "abstract data types": [("DataTypeTemplateParameter", "AbstractDataType")],
+    "primitive types": [("PrimitiveInteger", "PrimitiveType")],
+    "aliased primitives": [('kind="(BYTE|U?LONG)"', r'aliasedPrimitive="\1"')],
+    "index values": [(' value="', ' indexValue="')],
+    "intf": [(" interface=", " intf=")],
+    "anyNumer": [('"anyNumber"', '"anyNumer"')],
+    "string types": [("<String8 ", '<StringType charBase="CHAR8" '), ("<String32 ", '<StringType charBase="CHAR32" ')],
+    "base characters": [("<String8 ", '<StringType size="-1" baseChar="CHAR8" ')],
+    "sizes": [("<String8 ", '<String8 maxSize="-1" ')],
+    "small letters": [('"(IN|OUT|RETURN|PROVIDED|REQUIRED|DATA)"', lambda m: m.group(0).lower())],
+    "full paths": [('"execution_policies_api::', '"::component_execution_policies::execution_policies_api::')],
+    "paths from core": [('"::return_codes', '"::core::return_codes')],
+    "a namespace": [("(<[A-Za-z]*Module name=[^>]*)(>)", r'\1 xmlns="urn:some"\2')],
+    "comments": [("(<(Method|Parameter|InvolvedItem)[^>]*>)", r"<!-- said -->\1<?said?>")],
+    "further attributes": [("<Method ", '<Method comment="said" ')],
+    "further declarations": [("</ContractModule>", '<Structure name="more"/></ContractModule>')],
+}
+
+
+@pytest.mark.parametrize("replacements", SPELLINGS.values(), ids=SPELLINGS.keys())
+def test_spelling_is_accepted(replacements: list[tuple[str, str]], tmp_path: Path) -> None:
+    results = compare([rewritten(tmp_path, *replacements)]).results
+    assert [r for r in results if r.status != "kept"] == []
+
+
+def test_all_spellings_at_once_in_one_file(tmp_path: Path) -> None:
+    for name in (
+        "port types",
+        "connector ports",
+        "abstract interfaces",
+        "abstract data types",
+        "primitive types",
+        "intf",
+    ):
+        for pattern, text in SPELLINGS[name]:
+            for path in tmp_path.glob("*.xml") if list(tmp_path.glob("*.xml")) else CORE.glob("*.xml"):
+                (tmp_path / path.name).write_text(re.sub(pattern, text, path.read_text()))
+    whole = "".join(re.sub(r"<\?xml.*?\?>", "", p.read_text()) for p in sorted(tmp_path.glob("*.xml")))
+    (tmp_path / "all").write_text(f"<UCM>{whole}</UCM>")
+    assert {r.status for r in compare([tmp_path / "all"]).results} == {"kept"}
+
+
+def test_a_module_in_pieces_is_one(tmp_path: Path) -> None:
+    cut = r'\1</NonfunctionalAspectModule></NonfunctionalAspectModule></M><M><NonfunctionalAspectModule name="container_services"><NonfunctionalAspectModule name="clock_service">'
+    rewritten(tmp_path, ('(<TechnicalAspect name="clock"[^>]*>)', cut), of="container*")
+    first, second = (tmp_path / "container_services.xml").read_text().split("</M><M>")
+    (tmp_path / "container_services.xml").write_text(first)
+    (tmp_path / "more.xml").write_text(second)
+    assert {r.status for r in compare([tmp_path]).results} == {"kept"}
+
+
+def test_a_spelling_that_is_never_printed_is_unclear(tmp_path: Path) -> None:
+    path = rewritten(tmp_path, ('<Method name="run"', '<Method id="run"'))
+    assert having("unclear", path) == {"R-10.1.3.1-10"}
+    path = rewritten(tmp_path, (' direction="OUT"', ' way="OUT"'))
+    assert having("unclear", path) == {"R-10.1.4.2-21", "R-10.1.4.2-23"}
+    assert not having("broken", path)
+
+
+# readings
+
+NARROW = '<StringType charBase="CHAR8" maxSize="255" name="log_message_t"/>'
+FIVE = [
+    ('<Enumerator name="trace".*?>', ""),
+    ("critical", "fatal"),
+    *[(f'value="{n}"', f'value="{n - 1}"') for n in range(1, 6)],
+]
+FIELD = ('name="utv_usec"', 'name="ucm_usec"')
+NO_PARAMETERS = ("<ConfigurationParameter[^>]*>", "")
+READINGS: list[tuple[str, str, list[tuple[str, str]], str, set[str]]] = [
+    ("clock-usec-field", "ucm_usec", [FIELD], "*", {"R-10.1.4.2-16"}),
+    (
+        "service-client-item",
+        "verbatim",
+        [('(client".*?item=")service_intf', r"\1service_intf_t")],
+        "services*",
+        {"R-10.1.5.2-06"},
+    ),
+    ("service-port-api", "absent", [('api="service_[a-z]*_tport"', "")], "*", {"R-10.1.5.2-15", "R-10.1.5.2-16"}),
+    ("comm-ecode-index", "kind", [('indexType="comm_ecode_enumerator_t"', 'indexType="BYTE"')], "*", {"R-10.1.2-04"}),
+    ("log-severity-set", "idl-5", FIVE, "container*", {f"R-10.1.4.2-{n}" for n in range(39, 45)}),
+    ("log-severity-index", "BYTE", [('indexType="ULONG"', 'indexType="BYTE"')], "*", {"R-10.1.4.2-38"}),
+    (
+        "log-severity-index",
+        "BYTE",
+        [('indexType="ULONG"', 'indexType="log_severity_enumerator_t"')],
+        "*",
+        {"R-10.1.4.2-38"},
+    ),
+    ("log-message", "narrow-255", [("<String32[^>]*>", NARROW)], "*", {"R-10.1.4.2-46"}),
+    ("protected-active-applicability", "onComponent", [("onPort", "onComponent")], "component*", {"R-10.1.3.1-07"}),
+    ("protected-active-applicability", "onBoth", [("onPort", "onBoth")], "component*", {"R-10.1.3.1-07"}),
+    ("port-trace-applicability", "onBoth", [("onPort", "onBoth")], "container*", {"R-10.1.4.2-30"}),
+    ("port-trace-applicability", "onComponent", [("onPort", "onComponent")], "container*", set()),
+    ("port-trace-parameters", "none", [NO_PARAMETERS], "*", {"R-10.1.4.2-31", "R-10.1.4.2-34"}),
+]
+
+
+@pytest.mark.parametrize(("option", "value", "replacements", "of", "concerned"), READINGS)
+def test_reading(
+    option: str, value: str, replacements: list[tuple[str, str]], of: str, concerned: set[str], tmp_path: Path
+) -> None:
+    first = core_models._first_values()[option]
+    path = rewritten(tmp_path, *replacements, of=of)
+    declared = compare([path], {option: value})
+    assert not [r for r in declared.results if r.status in ("broken", "unclear")]
+    assert value in declared.readings[option]
+    undeclared = having("broken", path) - {"R-10.1.4.2-24"}
+    assert undeclared == (set() if first == "observed" else concerned)
+    if first == "observed":
+        assert compare([path]).readings[option] == {value}
+        others = {
+            v for i in core_models.load_interpretations() for v in i.options.get(option, ()) if v not in (first, value)
+        }
+        for other in others:
+            assert having("broken", path, {option: other}) & concerned
+
+
+def test_unused_type_may_be_missing(tmp_path: Path) -> None:
+    path = rewritten(tmp_path, ('<PrimitiveInteger name="log_severity_enumerator_t"[^>]*>', ""))
+    assert (having("absent", path), having("broken", path)) == ({"R-10.1.4.2-45"}, set())
+
+
+def test_index_type_may_be_missing_only_if_nothing_names_it(tmp_path: Path) -> None:
+    declared = ('<PrimitiveInteger name="comm_ecode_enumerator_t"[^>]*>', "")
+    assert having("broken", rewritten(tmp_path, declared)) == {"R-10.1.2-08"}
+    path = rewritten(tmp_path, declared, ('indexType="comm_ecode_enumerator_t"', 'indexType="BYTE"'))
+    assert (having("absent", path), having("broken", path)) == ({"R-10.1.2-08"}, set())
+
+
+def test_declared_parameters_that_should_not_be_there_are_found(tmp_path: Path) -> None:
+    assert having("broken", CORE, {"port-trace-parameters": "none"}) == {"R-10.1-02"}
+
+
+def test_root(tmp_path: Path) -> None:
+    core = tmp_path / "core"
+    core.mkdir()
+    for path in CORE.glob("*.xml"):
+        inner = re.sub(r"<\?xml.*?\?>", "", path.read_text())
+        (core / path.name).write_text(f'<InteractionModule name="core">{inner}</InteractionModule>')
+    modules = {"R-10.1.2-03", "R-10.1.3.1-02", "R-10.1.4.2-07", "R-10.1.5.2-01", "R-10.1.6.2-01"}
+    for paths, met in (([CORE], "none"), ([core], "core"), ([core, CORE], "both")):
+        assert compare(paths).readings["core-root"] == {met}
+        for claim in ("observed", "none", "core", "both"):
+            broken = {r.requirement for r in compare(paths, {"core-root": claim}).results if r.status == "broken"}
+            fits = claim in ("observed", met) or met == "both"
+            assert broken == (set() if fits else modules), (met, claim)
+    (core / "services.xml").write_text((core / "services.xml").read_text().replace('"client"', '"customer"'))
+    assert "R-10.1.5.2-01" in {r.requirement for r in compare([core, CORE]).results if r.status == "broken"}
+
+
+# hostile files
+
+ENTITY = '<!DOCTYPE a [<!ENTITY b SYSTEM "file:///etc/passwd">]>'
+LAUGHS = "<!DOCTYPE a [" + "".join(f'<!ENTITY l{n + 1} "{f"&l{n};" * 10}">' for n in range(9)) + "]>"
+HOSTILE = {
+    "entity": (f"<?xml version='1.0'?>\n<!-- x -->\n{ENTITY}<a>&b;</a>", 3, "take the DOCTYPE out"),
+    "entity in an attribute": (f"{LAUGHS}<a b='&l9;'/>", 1, "take the DOCTYPE out"),
+    "external document type": ('\n<!DOCTYPE a SYSTEM "http://localhost:9/a.dtd"><a/>', 2, "take the DOCTYPE out"),
+    "many comments": ("<!---->" * 50_000, 1, "is not XML"),
+    "unknown entity": ("<a>\n&b;</a>", 2, "is not XML"),
+    "not closed": ("<a>\n<b>\n</a>", 3, "is not XML"),
+    "two roots": ("<a/>\n<b/>", 2, "is not XML"),
+    "nothing": ("", 1, "is not XML"),
+    "too deep": ("<a>" * 5000 + "</a>" * 5000, 1, "is not XML"),
+    "too large": ("<a>" + " " * 5_000_000 + "</a>", None, "split it"),
+    "another encoding": ("<?xml version='1.0' encoding='UTF-7'?><a/>", 1, "save it as UTF-8"),
+    "UTF-16": ("<a/>".encode("utf-16"), 1, "save it as UTF-8"),
+    "not UTF-8": (b"<a>\n\xff</a>", 2, "save it as UTF-8"),
+    "a NUL": ("<a>\0</a>", 1, "is not XML"),
+}
+
+
+@pytest.mark.parametrize(("content", "line", "remedy"), HOSTILE.values(), ids=HOSTILE.keys())
+def test_hostile_file_is_one_clear_message(content: str | bytes, line: int | None, remedy: str, tmp_path: Path) -> None:
+    path = tmp_path / "hostile.xml"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(DocumentError) as raised:
+        compare([CORE, path])
+    message = str(raised.value)
+    assert message.startswith(f"{path}:{line}: " if line else f"{path}: ")
+    assert remedy in message
+    assert "\n" not in message
+    assert len(message) < 400
+
+
+def test_missing_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(DocumentError, match=r"no_such\.xml: cannot be read"):
+        compare([tmp_path / "no_such.xml"])
+
+
+def test_files_of_other_kinds_are_no_core_models(tmp_path: Path) -> None:
+    (tmp_path / "page.xml").write_text("<html><body name='return_codes'>&#8364;<p/></body></html>")
+    statuses = {r.status for r in compare([tmp_path]).results}
+    assert statuses <= {"broken", "absent", "unclear"}
