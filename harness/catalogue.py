@@ -17,8 +17,8 @@ Level = Literal["shall", "should", "may", "statement"]
 class Requirement(Value, frozen=True):
     """One statement of the specification, in the project's own words.
 
-    ``observed`` says how a trace or a model shows that it was kept or broken. It has exactly one of ``rules``, the rules
-    or model checks that stand for it; ``pending``, what the rule that is to stand for it still needs; and
+    ``observed`` says how a trace or a model shows that it was kept or broken. It has exactly one of ``rules``, the
+    rules or model checks that stand for it; ``pending``, what the rule that is to stand for it still needs; and
     ``untestable``, why no run can show it. ``interpretations`` are ids of ``interpretations*.yaml``.
     """
 

@@ -63,7 +63,7 @@ IN_PARTICULAR = {
 
 @dataclass
 class Mutation:
-    """``change`` spoils the element; ``requirement`` is the one that this breaks, ``clear`` whether no doubt is left."""
+    """``change`` spoils an element; this breaks ``requirement``, and leaves it unclear if it is not ``clear``."""
 
     what: str
     requirement: str

@@ -154,8 +154,9 @@ def test_all_spellings_at_once_in_one_file(tmp_path: Path) -> None:
 
 
 def test_a_module_in_pieces_is_one(tmp_path: Path) -> None:
-    cut = r'\1</NonfunctionalAspectModule></NonfunctionalAspectModule></M><M><NonfunctionalAspectModule name="container_services"><NonfunctionalAspectModule name="clock_service">'
-    rewritten(tmp_path, ('(<TechnicalAspect name="clock"[^>]*>)', cut), of="container*")
+    opened = "".join(f'<NonfunctionalAspectModule name="{n}">' for n in ("container_services", "clock_service"))
+    cut = f"{'</NonfunctionalAspectModule>' * 2}</M><M>{opened}"
+    rewritten(tmp_path, ('(<TechnicalAspect name="clock"[^>]*>)', rf"\1{cut}"), of="container*")
     first, second = (tmp_path / "container_services.xml").read_text().split("</M><M>")
     (tmp_path / "container_services.xml").write_text(first)
     (tmp_path / "more.xml").write_text(second)
