@@ -196,8 +196,9 @@ def is_contradictory(declaration: Declaration) -> bool:
 def calls_promised(declaration: Declaration, port: str) -> tuple[str, ...]:
     """The requirements by which an execution policy promises that calls of ``port`` are carried out."""
     protection = protection_of(declaration)
-    if protection == "active" and port in managed_ports(declaration):
-        return ("R-10.1.3.2-08", "R-10.1.3.2-07")
+    managed = managed_ports(declaration)
+    if protection == "active" and port in managed:
+        return ("R-10.1.3.2-08", "R-10.1.3.2-07") if len(managed) == 1 else ("R-10.1.3.2-07", "R-10.1.3.2-08")
     return _PROMISES.get(protection, ())
 
 

@@ -18,7 +18,7 @@ from ucm_cts.reference_models.executions import (
     protection_of,
 )
 from ucm_cts.reference_models.ledger import Ledger, rule
-from ucm_cts.reference_models.runtime import Runtime, Window, lane
+from ucm_cts.reference_models.runtime import Runtime, Window, lane, raises
 
 _SUPPORT = {
     "self-executing": "R-10.1.3.1-12",
@@ -174,9 +174,14 @@ def no_self_execution(
     )
 
 
-@rule("ended", *_SUPPORT.values(), at=("start",))
+@rule("ended", *_SUPPORT.values(), at=("add_component", "start"))
 def policy_supported(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
-    """A component with an execution policy is started like any other."""
+    """A component with an execution policy is added and started like any other."""
+    if isinstance(window.step, s.AddComponent):
+        declaration = runtime.scenario.components.get(window.step.component)
+        if isinstance(end, Raise) and declaration is not None and window.container.started is False:
+            _refused(ledger, window, declaration, end)
+        return
     if not isinstance(end, Return) or not window.judged:
         return
     for member in window.container.live_members():
@@ -184,6 +189,21 @@ def policy_supported(ledger: Ledger, runtime: Runtime, window: Window, end: Retu
         requirement = _SUPPORT.get(protection_of(member.declaration), "")
         if requirement and "on_startup" in heard:
             ledger.exercised(requirement)
+
+
+def _refused(ledger: Ledger, window: Window, declaration: Declaration, end: Raise) -> None:
+    requirement = _SUPPORT.get(protection_of(declaration), "")
+    excused = is_contradictory(declaration) or len(managed_ports(declaration)) > 1  # may count as two policies
+    if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
+        ledger.violated(
+            requirement,
+            "policy_supported",
+            "refused",
+            f"a component with the policy {declaration.policies[0].definition} is added",
+            f"add_component raised {end.error} {end.detail}".rstrip(),
+            (end.n,),
+            window.step_number,
+        )
 
 
 @rule("ended", "R-10.1.3-03", at=("add_component", "start"))
@@ -233,7 +253,7 @@ def run_phases(ledger: Ledger, runtime: Runtime, execution: Execution, met: list
     )
 
 
-@rule("waited", "R-10.1.3.2-01")
+@rule("waited", "R-10.1.3.2-01", "R-10.1.3.2-03")
 def run_triggered(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
     """Once started, a self-executing component is executed within the scenario's patience."""
     step = runtime.scenario.steps[event.step]
@@ -242,13 +262,15 @@ def run_triggered(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
     for member in runtime.everyone:
         runs = runtime.runs_since_start(member)
         if member.serving and not runs and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
-            ledger.violated(
-                "R-10.1.3.2-01",
-                "run_triggered",
-                "never",
-                f"run of '{member.lane}', which is ready, is called",
-                f"it was not within {runtime.scenario.patience} ms",
-                (event.n,),
-                event.step,
-            )
+            unprompted = not member.connections and not member.served
+            for requirement in ("R-10.1.3.2-01", *(("R-10.1.3.2-03",) if unprompted else ())):
+                ledger.violated(
+                    requirement,
+                    "run_triggered",
+                    "never",
+                    f"run of '{member.lane}', which is ready, is called",
+                    f"it was not within {runtime.scenario.patience} ms",
+                    (event.n,),
+                    event.step,
+                )
             return

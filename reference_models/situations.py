@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.reference_models.executions import is_contradictory, managed_ports
+from ucm_cts.reference_models.executions import is_contradictory
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, Row, State
 from ucm_cts.reference_models.runtime import Connection, Container, Member, Runtime, Window, raises
 
@@ -98,8 +98,8 @@ class Situations:
             window.judged = False
         if declaration is not None and is_contradictory(declaration):
             window.judged = False
-        if declaration is not None and len(managed_ports(declaration)) > 1:
-            window.forgiving = True  # two instances of the active policy may count as two policies
+        if declaration is not None and declaration.policies:
+            window.forgiving = True  # whether the policy is supported is policy_supported's matter
         self._role(window, None, "absent", condition)
 
     def _remove(self, runtime: Runtime, window: Window, step: s.RemoveComponent) -> None:

@@ -222,7 +222,7 @@ class never_runs(Base):
         pass
 
 
-@breaks_policy("R-10.1.3.2-01")
+@breaks_policy("R-10.1.3.2-01", also=("R-10.1.3.2-03",))
 class runs_after_the_first_start_only(Base):
     """Self-executing components are not executed after a restart."""
 
@@ -232,7 +232,7 @@ class runs_after_the_first_start_only(Base):
         member.__dict__["has_run"] = True
 
 
-@breaks_policy("R-10.1.3.2-01", also=("R-10.1.3.2-03",))
+@breaks_policy("R-10.1.3.2-01", "R-10.1.3.2-03")
 class runs_when_called(Base):
     """Self-executing components are executed after each call of a port, and not without."""
 
@@ -246,7 +246,7 @@ class runs_when_called(Base):
         return result
 
 
-@breaks_policy("R-10.1.3.2-02", also=("R-10.1.3.2-01",))
+@breaks_policy("R-10.1.3.2-02", also=("R-10.1.3.2-01", "R-10.1.3.2-03"))
 class runs_before_startup(Base):
     """run is called as soon as start begins."""
 
@@ -304,3 +304,93 @@ class takes_any_number_of_policies(Base):
 
     def _check_policies(self, implementation: Implementation) -> None:
         pass
+
+
+# support, and results
+
+
+class _Refuses(Base):
+    definition: str
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if any(policy.definition == self.definition for policy in implementation.policies):
+            raise UcmError(f"{self.definition} is not supported")
+        super()._check_policies(implementation)
+
+
+@breaks_policy("R-10.1.3.1-12")
+class knows_no_self_execution(_Refuses):
+    """Self-executing components are refused."""
+
+    definition = SELF_EXECUTING
+
+
+@breaks_policy("R-10.1.3.1-13")
+class knows_no_activity(_Refuses):
+    """Active components are refused."""
+
+    definition = ACTIVE
+
+
+@breaks_policy("R-10.1.3.1-14")
+class knows_no_protection(_Refuses):
+    """Protected passive components are refused."""
+
+    definition = PROTECTED_PASSIVE
+
+
+@breaks_policy("R-10.1.3.1-15")
+class knows_no_libraries(_Refuses):
+    """Unprotected passive components are refused."""
+
+    definition = UNPROTECTED_PASSIVE
+
+
+class _Forwards(ProtectedElement):
+    def exchange(self, value: int) -> int:
+        return super().exchange(value) & 0xFFFF
+
+
+class _Truncates(Base):
+    definition: str
+
+    def _reference_to(self, member: Member, port: str) -> PortElementObject | None:
+        element = super()._reference_to(member, port)
+        if member.execution.definition != self.definition or element is None or not self._truncates(member, port):
+            return element
+        inner = element.element if isinstance(element, ProtectedElement) else element
+        return member.execution.references.setdefault(f"{port}, truncated", _Forwards(member, port, inner))
+
+    def _truncates(self, member: Member, port: str) -> bool:
+        return True
+
+
+@breaks_policy("R-10.1.3.2-08", also=("R-10.1.3.2-07", "R-10.1.3.2-10", "R-11.1.3-01", "R-11.2.1.1-02"))
+class truncates_results_of_active_components(_Truncates):
+    """Of what an active component returns only 16 bits come back."""
+
+    definition = ACTIVE
+
+
+@breaks_policy("R-10.1.3.2-07", also=("R-11.1.3-01",))
+class truncates_results_of_the_second_active_port(_Truncates):
+    """Of what the second managed port of a component returns only 16 bits come back."""
+
+    definition = ACTIVE
+
+    def _truncates(self, member: Member, port: str) -> bool:
+        return len(member.execution.managed) > 1 and port == list(member.implementation.provides)[-1]
+
+
+@breaks_policy("R-10.1.3.2-15", also=("R-11.1.3-01",))
+class truncates_results_of_protected_components(_Truncates):
+    """Of what a protected passive component returns only 16 bits come back."""
+
+    definition = PROTECTED_PASSIVE
+
+
+@breaks_policy("R-10.1.3.2-21", also=("R-11.1.3-01",))
+class truncates_results_of_libraries(_Truncates):
+    """Of what an unprotected passive component returns only 16 bits come back."""
+
+    definition = UNPROTECTED_PASSIVE
