@@ -24,6 +24,7 @@ from ucm_cts.adapters.contract.trace import (
     Reply,
     Request,
     Return,
+    Settled,
     Siblings,
     Skip,
     Timeout,
@@ -176,6 +177,8 @@ class _Walk:
                 self._held(event)
             case Opened():
                 self._opened(event)
+            case Settled():
+                self._settled(event)
             case Return():
                 self._return(event)
             case Raise():
@@ -332,6 +335,9 @@ class _Walk:
 
     def _opened(self, event: Opened) -> None:
         self._add("note", TEST, TEST, f"opens {one_line(event.gate, 30)}", event)
+
+    def _settled(self, event: Settled) -> None:
+        self._add("note", TEST, TEST, f"{one_line(event.worker, 30)} is {event.where}", event)
 
 
 def _mark(lines: Sequence[Line], suspects: frozenset[int]) -> list[Line]:
