@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -187,3 +188,7 @@ def test_no_script_makes_the_adapter_stumble(caplog: pytest.LogCaptureFixture) -
         assert undeclared == []
     swallowed = [record.exc_info[0] for record in caplog.records if record.exc_info]
     assert set(swallowed) == {PlannedFailure}
+
+
+def test_adapter_stays_thin() -> None:
+    assert len(Path(sys.modules[IpopoAdapter.__module__].__file__ or "").read_text().splitlines()) <= 200

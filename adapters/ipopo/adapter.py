@@ -88,9 +88,7 @@ class IpopoAdapter(Adapter):
 
     def disconnect(self, container: Bundle, connection: int) -> None:
         with _translated_errors():
-            name, field = {number: link for link, number in self._connections.copy().items()}[connection]
-            if name.rpartition("/")[0] != container.get_symbolic_name():
-                raise KeyError(connection)
+            name, field = {n: k for k, n in [*self._connections.items()] if _name(container, "") in k[0]}[connection]
             del self._connections[name, field]
             self._ipopo.reconfigure(name, {field: _Target(instance="-", port="-")})
 
