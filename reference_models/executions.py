@@ -11,7 +11,7 @@ from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
-from ucm_cts.adapters.contract.trace import Enter, Exit, Held, Opened, Request
+from ucm_cts.adapters.contract.trace import Enter, Exit, Held, Opened, Request, Settled
 from ucm_cts.reference_models.runtime import Connection, Member, Runtime
 
 Protection = Literal["", "self-executing", "active", "passive", "unprotected"]
@@ -33,8 +33,7 @@ class BusinessCall:
 
     ``caller`` is the execution that makes it, if a body does; ``waited`` says that it was seen waiting to get in.
     ``entries`` are the bodies it entered, with how they were left. ``callee`` is whose port element ``port`` the test
-    called; ``possible`` says that all who could be called were operational when the call was made. ``caller`` is the
-    execution that makes the call.
+    called; ``possible`` says that all who could be called were operational when the call was made.
     """
 
     value: int
@@ -48,6 +47,14 @@ class BusinessCall:
     possible: bool = False
     caller: Execution | None = None
     waited: bool = False
+
+    @property
+    def worker(self) -> str | None:
+        """The worker whose step it is that led to this call."""
+        call = self
+        while call.caller is not None and call.caller.call is not None:
+            call = call.caller.call
+        return call.step.thread if call.step is not None else None
 
     def look(self, runtime: Runtime) -> None:
         """Note who is called, and whether a call is possible."""
@@ -71,8 +78,8 @@ class BusinessCall:
 class Execution:
     """A body inside ``exchange`` or ``run``: how it was entered, by which call, and at which gate it is held.
 
-    ``waited`` are calls that were seen waiting meanwhile; ``left`` is when it was over; ``earlier`` are the body's
-    executions of the same kind so far.
+    ``waited`` are calls that were seen waiting meanwhile; ``left`` is when it was over; ``earlier`` are the body's runs
+    before this one.
     """
 
     enter: Enter
@@ -95,7 +102,7 @@ class Executions:
     def __init__(self, runtime: Runtime) -> None:
         self._runtime = runtime
         self._inside: dict[tuple[str, int], list[Execution]] = {}
-        self._earlier: dict[tuple[str, int, str], list[Execution]] = {}
+        self._runs: dict[tuple[str, int], list[Execution]] = {}
         self._opened: set[str] = set()
         self._pending: list[BusinessCall] = []
         self.waiting: dict[int, tuple[BusinessCall, Execution]] = {}
@@ -121,9 +128,11 @@ class Executions:
     def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
         """A body is entered: the execution, and those it meets there that are not its own callers."""
         inside = self._inside.setdefault((enter.component, enter.instance), [])
-        earlier = self._earlier.setdefault((enter.component, enter.instance, enter.hook), [])
-        execution = Execution(enter, call, earlier=earlier.copy())
-        earlier.append(execution)
+        execution = Execution(enter, call)
+        if enter.hook == "run":
+            runs = self._runs.setdefault((enter.component, enter.instance), [])
+            execution.earlier = runs.copy()
+            runs.append(execution)
         callers = set()
         cause = call
         while cause is not None and cause.caller is not None:
@@ -165,9 +174,11 @@ class Executions:
                 if execution.gate == event.gate:
                     execution.gate = None
 
-    def settle(self) -> None:
-        """A worker was looked for: calls that are still on their way wait for whoever is held inside where they go."""
-        for call in self._pending:
+    def settle(self, event: Settled) -> None:
+        """A worker was looked for: if it waits, its call that is still on its way waits for who is held where it goes."""
+        if event.where not in ("blocked", "running"):
+            return
+        for call in (c for c in self._pending if c.worker == event.worker):
             for member, _ in goals_of(self._runtime, call):
                 for execution in self._inside.get((member.component, member.instance or 0), ()):
                     if execution.gate is not None and call not in execution.waited:

@@ -231,7 +231,7 @@ class _Reading:
 
     def settled(self, event: Settled) -> None:
         if self.executions is not None:
-            self.executions.settle()
+            self.executions.settle(event)
 
     def timeout(self, event: Timeout) -> None:
         if self.executions is None:

@@ -6,9 +6,11 @@ import functools
 from collections import Counter
 from pathlib import Path
 
+import msgspec
 import pytest
 from command_line import within
 
+from ucm_cts.adapters.contract.trace import Settled
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.driver import Driver
 from ucm_cts.harness.locate import locate
@@ -55,3 +57,20 @@ def test_every_schedule_proves_something() -> None:
         for purpose in overlap_purposes():
             for answer in driver.run(purpose.scenarios):
                 assert wanted & judge.judge(answer.disguised, answer.trace).exercises.keys(), answer.name
+
+
+@pytest.mark.parametrize("seen", [None, "another", "done"])
+def test_who_was_not_seen_waiting_proves_nothing(seen: str | None) -> None:
+    judge = Judge(load_life_cycle())
+    cases = [case for purpose in overlap_purposes() if purpose.id.startswith("protected") for case in purpose.scenarios]
+    with Driver(locate("reference-py"), seed=1) as driver:
+        for answer in driver.run(cases):
+            trace = answer.trace
+            assert EXCLUSION & judge.judge(answer.disguised, trace).exercises.keys(), answer.name
+            changes = {"worker": "nobody"} if seen == "another" else {"where": "done"}
+            doubtful = [
+                msgspec.structs.replace(event, **changes) if isinstance(event, Settled) else event
+                for event in trace
+                if seen is not None or not isinstance(event, Settled)
+            ]
+            assert not EXCLUSION & judge.judge(answer.disguised, tuple(doubtful)).exercises.keys(), answer.name
