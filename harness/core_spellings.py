@@ -12,7 +12,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from ucm_cts.harness.documents import LARGEST, DocumentError
+from ucm_cts.harness.documents import DocumentError, read_text
 
 MODULES = ("ContractModule", "InteractionModule", "NonfunctionalAspectModule")
 
@@ -170,17 +170,7 @@ _ENCODING = re.compile(r"\ufeff?<\?xml[^>]*?\sencoding\s*=\s*[\"']([^\"']*)[\"']
 
 
 def _parse(path: Path) -> etree._Element:
-    try:
-        with path.open("rb") as stream:
-            raw = stream.read(LARGEST + 1)
-    except OSError as error:
-        raise DocumentError(path, None, f"cannot be read: {error.strerror}; name an XML file") from None
-    if len(raw) > LARGEST:
-        raise DocumentError(path, None, f"is larger than {LARGEST} bytes; split it")
-    try:
-        text = raw.decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise DocumentError(path, raw[: error.start].count(b"\n") + 1, "is not UTF-8; save it as UTF-8") from None
+    text = read_text(path)
     encoding = _ENCODING.match(text)
     if encoding and encoding.group(1).lower() not in ("utf-8", "us-ascii"):
         raise DocumentError(path, 1, f"is said to be '{encoding.group(1)[:40]}'; save it as UTF-8")
@@ -190,7 +180,7 @@ def _parse(path: Path) -> etree._Element:
         raise DocumentError(path, line, "has a document type, which may hold entities; take the DOCTYPE out")
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False)
     try:
-        return etree.fromstring(raw, parser)
+        return etree.fromstring(text.encode(), parser)
     except etree.XMLSyntaxError as error:
         problem = " ".join(str(error.msg).split())
         raise DocumentError(path, error.lineno or 1, f"is not XML: {problem}; mend it there") from None

@@ -53,8 +53,8 @@ def convert(path: Path, value: object, type_: type[T], lines: dict[str, int]) ->
         raise DocumentError(path, line or lines.get("$"), problem + at) from None
 
 
-def read_lines(path: Path) -> tuple[object, dict[str, int]]:
-    """The document at ``path`` as plain values, and the line of each place in it (``$.steps[2].op``)."""
+def read_text(path: Path) -> str:
+    """What the file at ``path`` holds. Raises ``DocumentError`` if it is not there, too large or not UTF-8."""
     try:
         with path.open("rb") as stream:
             raw = stream.read(LARGEST + 1)
@@ -63,9 +63,14 @@ def read_lines(path: Path) -> tuple[object, dict[str, int]]:
     if len(raw) > LARGEST:
         raise DocumentError(path, None, f"is larger than {LARGEST} bytes; split it")
     try:
-        text = raw.decode("utf-8")
+        return raw.decode("utf-8")
     except UnicodeDecodeError as error:
         raise DocumentError(path, raw[: error.start].count(b"\n") + 1, "is not UTF-8; save it as UTF-8") from None
+
+
+def read_lines(path: Path) -> tuple[object, dict[str, int]]:
+    """The document at ``path`` as plain values, and the line of each place in it (``$.steps[2].op``)."""
+    text = read_text(path)
     lines: dict[str, int] = {}
     try:
         _refuse_anchors_and_depth(path, text)

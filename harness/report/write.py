@@ -11,6 +11,7 @@ import msgspec
 
 from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_life_cycle, load_requirements
 from ucm_cts.harness.locate import WrongUse
+from ucm_cts.harness.purposes import PARTS
 from ucm_cts.harness.report.failures import FOLDER, all_files
 from ucm_cts.harness.report.foreign import clean_report
 from ucm_cts.harness.report.html import to_html
@@ -32,7 +33,7 @@ def prepare_folder(out: Path) -> None:
 def save_report(report: Report, out: Path) -> None:
     """Write all files of ``report`` into ``out``, with what the suite's own catalogue has for its profile."""
     decisions = {i.id: i.text for i in load_interpretations()}
-    catalogue = [r for r in load_requirements() if r.profile == report.profile]
+    catalogue = [r for r in load_requirements() if r.profile in PARTS[report.profile]]
     write_report(report, catalogue, load_life_cycle(), decisions, out)
 
 
