@@ -6,7 +6,7 @@ import functools
 from pathlib import Path
 from typing import Literal
 
-from ucm_cts.adapters.contract.scenario import Value
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.documents import read
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from ucm_cts.adapters.contract.scenario import Value
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.core_spellings import INTEGERS, KNOWN_ATTRIBUTES, KNOWN_TAGS, Element, is_printed, words
 
 Status = Literal["kept", "broken", "absent", "unclear"]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ucm_cts.adapters.contract.scenario import Value
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue import SUITE, load_interpretations
 from ucm_cts.harness.core_comparing import Comparing, Declaration, Fact, Status
 from ucm_cts.harness.core_spellings import Element, read_models

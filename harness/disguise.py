@@ -14,6 +14,7 @@ from typing import TypeVar
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
 from ucm_cts.harness.locate import WrongUse
 from ucm_cts.harness.payloads import EDGES, LARGEST
@@ -46,6 +47,10 @@ class Disguise:
             {self._name(name): self._declaration(d) for name, d in scenario.components.items()},
             tuple(self._step(step) for step in scenario.steps),
             scenario.patience,
+            {
+                self._name(name): Interface({self._method(m): what for m, what in interface.methods.items()})
+                for name, interface in scenario.interfaces.items()
+            },
         )
 
     def reveal(self, value: T) -> T:
@@ -102,11 +107,25 @@ class Disguise:
             d.fragment,
             {hook: tuple(map(self._action, actions)) for hook, actions in d.plan.items()},
             tuple(map(self._policy, d.policies)),
+            {self._port(port): self._name(interface) for port, interface in d.ports.items()},
         )
 
     def _policy(self, policy: Policy) -> Policy:
         """Definitions have standard names, which are no secret."""
-        return msgspec.structs.replace(policy, port=self._port(policy.port) if policy.port is not None else None)
+        parameters = dict(policy.parameters)
+        if s.METHODS_TO_TRACE in parameters:
+            named = parameters[s.METHODS_TO_TRACE]
+            parameters[s.METHODS_TO_TRACE] = re.sub(r"\w+", lambda method: self._method(method.group()), named)
+        return msgspec.structs.replace(
+            policy,
+            port=self._port(policy.port) if policy.port is not None else None,
+            element=self._port(policy.element) if policy.element is not None else None,
+            parameters=parameters,
+        )
+
+    def _method(self, plain: str) -> str:
+        """Methods of 10.1 have standard names."""
+        return plain if plain in s.STANDARD_METHODS else self._name(plain)
 
     def _action(self, action: Action) -> Action:
         match action:
@@ -114,6 +133,12 @@ class Disguise:
                 return s.CallPort(self._port(action.port), self._value(action.value))
             case s.ReturnValue():
                 return s.ReturnValue(self._value(action.value))
+            case s.CallMethod():
+                return msgspec.structs.replace(action, port=self._port(action.port), method=self._method(action.method))
+            case s.Answer():
+                return msgspec.structs.replace(action, method=self._method(action.method))
+            case s.Burst():
+                return msgspec.structs.replace(action, port=self._port(action.port))
             case _:
                 return action
 
@@ -122,8 +147,12 @@ class Disguise:
         match step:
             case s.AddComponent():
                 return replace(step, component=self._name(step.component), bind=step.bind or step.component)
-            case s.GetPortElement() | s.Connect():
+            case s.GetPortElement() | s.Connect() | s.Attach() | s.Detach():
                 return replace(step, port=self._port(step.port))
+            case s.Link():
+                return replace(step, interface=self._name(step.interface))
+            case s.AwaitMessages():
+                return replace(step, component=self._name(step.component))
             case s.Invoke():
                 return replace(step, value=self._value(step.value))
             case _:

@@ -6,16 +6,20 @@ from collections import Counter
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Action, Scenario
 from ucm_cts.adapters.contract.trace import (
     BodyEvent,
     Call,
+    Counted,
     Create,
     Enter,
     Event,
     Exit,
     Held,
     Opened,
+    Paused,
+    Pushed,
     Raise,
     Reference,
     Reply,
@@ -24,13 +28,18 @@ from ucm_cts.adapters.contract.trace import (
     Settled,
     Siblings,
     Skip,
+    Stressed,
     Timeout,
 )
 from ucm_cts.harness.scripts import bound_by, used_by
 from ucm_cts.harness.turns import Turns
 
 _WAITS = (s.ReachGate, s.Join)
-_OF_SCENARIO = (*_WAITS, s.OpenGate, s.Settle)
+_TOLD = {Counted: s.AwaitMessages, Paused: s.Pause, Stressed: s.Stress}
+"""What tells that such a step is done."""
+_OF_SCENARIO = (*_WAITS, s.OpenGate, s.Settle, s.AwaitMessages, s.Pause)
+_OPTIONAL = (s.Link, s.Attach, s.Detach, s.Break, s.Mend, s.ReadLog)
+"""What an adapter need not offer."""
 _ID_GIVING = (s.AddComponent, s.Connect, s.Invoke)
 
 _PUNCTUALITY, _GRAIN = 0.9, 5_000_000
@@ -98,7 +107,7 @@ class _Check:
         """What is wrong if nothing follows."""
         for number, step in enumerate(self.scenario.steps):
             if isinstance(step, s.ReachGate):
-                if number not in self.done and self.arrivals[step.gate] < max(step.more, 1):
+                if number not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
                     return f"step {number} (reach) has met nobody at {step.gate!r} and not run out of patience"
             elif not isinstance(step, s.Join) and not self.done.get(number):
                 return f"step {number} ({s.operation(step)}) is missing or not ended"
@@ -115,6 +124,8 @@ class _Check:
             return self.check_opened(event)
         if isinstance(event, Settled):
             return self.check_settled(event)
+        if isinstance(event, Counted | Paused | Stressed):
+            return self.check_told(event, before)
         return self.check_body(event)
 
     def check_gate(self, event: Event) -> str | None:
@@ -139,7 +150,7 @@ class _Check:
         for passed in self.turns.passed:
             step = self.scenario.steps[passed]
             if isinstance(step, s.ReachGate):
-                if passed not in self.done and self.arrivals[step.gate] < max(step.more, 1):
+                if passed not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
                     return f"step {number} comes after step {passed} (reach), which has met nobody at {step.gate!r}"
             elif isinstance(step, s.Join):
                 before = [n for n in self.turns.steps.get(step.worker, ()) if n < passed and not self.is_wait(n)]
@@ -155,6 +166,12 @@ class _Check:
             return step
         if isinstance(step, _OF_SCENARIO):
             return f"step {event.step} is no operation"
+        frames = self.open.get(event.thread)
+        if isinstance(event, Skip) and isinstance(step, _OPTIONAL) and event.variable == s.operation(step) and frames:
+            top = frames.pop()
+            self.done[event.step] = True
+            is_own = isinstance(top, Call) and top.step == event.step
+            return None if is_own else f"step {event.step} is skipped and was not begun"
         if event.step in self.done:
             return f"step {event.step} is carried out twice"
         missing = [v for v in used_by(step) if v not in self.bound or (isinstance(step, s.Invoke) and v in self.null)]
@@ -176,6 +193,22 @@ class _Check:
             return f"step {event.step} is not a wait"
         if before is not None and event.t - before < self.shortest_wait:
             return f"step {event.step} runs out of patience too early"
+        problem = self.check_turn(event.step, event.thread)
+        self.done[event.step] = True
+        return problem
+
+    def check_told(self, event: Counted | Paused | Stressed, before: int | None) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if not isinstance(step, _TOLD[type(event)]) or event.step in self.done:
+            return f"step {event.step} is not what was done"
+        if isinstance(step, s.Pause) and before is not None:
+            due = step.milliseconds * _NANOSECONDS * _PUNCTUALITY - _GRAIN
+            if event.t - before < due:
+                return f"step {event.step} ends too early"
+        if isinstance(event, Counted) and not 0 <= event.distinct <= event.received:
+            return f"step {event.step} has counted {event.distinct} of {event.received}"
         problem = self.check_turn(event.step, event.thread)
         self.done[event.step] = True
         return problem
@@ -219,7 +252,7 @@ class _Check:
             (self.null.add if event.value is None else self.null.discard)(step.bind)
         return self.check_value(step, event)
 
-    def step(self, event: Call | Skip | Return | Raise | Timeout) -> s.Step | str:
+    def step(self, event: Call | Skip | Return | Raise | Timeout | Counted | Paused | Stressed) -> s.Step | str:
         """The event's step, or that there is none."""
         if not 0 <= event.step < len(self.scenario.steps):
             return f"there is no step {event.step}"
@@ -227,6 +260,8 @@ class _Check:
 
     def check_value(self, step: s.Step, event: Return) -> str | None:
         value = event.value
+        if isinstance(step, s.ReadLog) != (event.records is not None):
+            return f"{s.operation(step)} returned {'no ' if event.records is None else ''}records"
         if isinstance(step, _ID_GIVING):
             fits = isinstance(value, int)
         elif isinstance(step, s.GetComponents):
@@ -260,9 +295,15 @@ class _Check:
             return self.check_enter(declaration, event)
         if isinstance(event, Request):
             if acts:
-                acts[-1].append(s.CallPort(event.port, event.value))
+                acts[-1].append(
+                    s.CallPort(event.port, event.value)
+                    if event.method is None
+                    else s.CallMethod(event.port, event.method, event.arguments or ())
+                )
             frames.append(event)
-            return None if event.port in declaration.requires else f"a request through {event.port!r}"
+            elements = {policy.element for policy in declaration.policies}
+            known = event.port in declaration.requires or event.port in elements
+            return None if known else f"a request through {event.port!r}"
         top = frames[-1] if frames else None
         same = isinstance(top, BodyEvent) and (top.component, top.instance) == (event.component, event.instance)
         if isinstance(event, Reply):
@@ -275,6 +316,10 @@ class _Check:
         if isinstance(event, Exit):
             frames.pop()
             return self.check_exit(declaration, top, event, acts.pop())
+        if isinstance(event, Pushed):
+            acts[-1].append(s.Burst(event.port, event.first, event.count))
+            told = sum(event.answers.values())
+            return None if told == event.count else f"{told} answers to {event.count} messages"
         if isinstance(event, Siblings):
             acts[-1].append(s.QuerySiblings())
         if isinstance(event, Held):
@@ -288,6 +333,10 @@ class _Check:
     def check_enter(self, declaration: s.Declaration, event: Enter) -> str | None:
         if event.hook == "exchange" and (event.value is None or event.port not in declaration.provides):
             return f"exchange on {event.port!r} with {event.value!r}"
+        if event.hook == "method" and (
+            event.method is None or event.arguments is None or event.port not in declaration.ports
+        ):
+            return f"method {event.method!r} on {event.port!r}"
         if event.hook == "run" and all(policy.definition != s.SELF_EXECUTING for policy in declaration.policies):
             return "run of a component that does not execute by itself"
         if event.hook in ("on_connect", "on_disconnect") and not declaration.connectable:
@@ -309,6 +358,15 @@ class _Check:
         plan = declaration.plan.get(enter.hook, ())
         if event.raised != any(isinstance(a, s.RaiseError) for a in plan):
             return f"{event.hook} {'raised' if event.raised else 'did not raise'} against its plan"
+        if event.hook == "method":
+            answers = [a for a in plan if isinstance(a, s.Answer) and a.method == enter.method]
+            due_results: tuple[Datum, ...] | None = ()
+            due_exception = None
+            if answers:
+                own = answers[-1].results
+                due_results, due_exception = enter.arguments if own is None else own, answers[-1].exception
+            if not event.raised and (event.results, event.exception) != (due_results, due_exception):
+                return f"{enter.method} gave {event.results!r}, its plan says {due_results!r}"
         if acts != self.due(plan, event):
             return f"{event.component} did not act in {event.hook} as its plan says"
         if event.hook == "on_shutdown":
@@ -326,8 +384,8 @@ class _Check:
         for action in plan:
             if isinstance(action, s.RaiseError):
                 break
-            if isinstance(action, s.CallPort):
+            if isinstance(action, s.CallPort | s.CallMethod | s.Burst):
                 due.extend([action] * held.get(action.port, 0))
-            elif not isinstance(action, s.ReturnValue):
+            elif not isinstance(action, s.ReturnValue | s.Answer | s.CountMessages):
                 due.append(action)
         return due

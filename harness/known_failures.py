@@ -11,7 +11,7 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from ucm_cts.adapters.contract.scenario import Value
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue import load_requirements
 from ucm_cts.harness.documents import DocumentError, read, read_lines
 from ucm_cts.harness.results import Report, RequirementResult

@@ -70,6 +70,7 @@ def with_payloads(scenario: Scenario, change: Callable[[int], int]) -> Scenario:
         {name: declaration(one) for name, one in scenario.components.items()},
         tuple(map(step, scenario.steps)),
         scenario.patience,
+        scenario.interfaces,
     )
 
 

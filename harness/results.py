@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from ucm_cts.adapters.contract.scenario import Scenario, Value
+from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.reference_models.findings import Finding
 
 Verdict = Literal["pass", "fail", "inconclusive", "not applicable", "error"]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step, Value
+from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.documents import DocumentError, read, read_lines
 from ucm_cts.harness.probes import ProbeType, load_probe_types
 
@@ -25,6 +27,7 @@ class Part(Value, frozen=True):
     fragment: bool = False
     plan: dict[Hook, tuple[Action, ...]] = {}
     policies: tuple[Policy, ...] = ()
+    ports: dict[str, str] = {}
 
 
 class Script(Value, frozen=True):
@@ -36,6 +39,7 @@ class Script(Value, frozen=True):
     purpose: str = ""
     exercises: tuple[str, ...] = ()
     patience: int = 2000
+    interfaces: dict[str, Interface] = {}
 
 
 @dataclass(frozen=True)
@@ -95,8 +99,9 @@ def to_scenario(script: Script, probes: dict[str, ProbeType] | None = None) -> S
             fragment=part.fragment,
             plan=part.plan,
             policies=part.policies,
+            ports=part.ports,
         )
-    return Scenario(components, script.steps, script.patience)
+    return Scenario(components, script.steps, script.patience, script.interfaces)
 
 
 def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list[tuple[str, str]]:
@@ -113,6 +118,9 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             unknown = [a for a in part.attributes if a not in probes[part.probe].attributes]
             if unknown:
                 found.append((f"{where}.attributes", f"probe '{part.probe}' has no attribute '{unknown[0]}'"))
+        strange = [i for i in part.ports.values() if i not in script.interfaces]
+        if strange:
+            found.append((f"{where}.ports", f"no interface '{strange[0]}'; there are {_list(script.interfaces)}"))
     bound = {s.MANAGER: "container"}
     workers: set[str] = set()
     actions = [a for p in script.components.values() for plan in p.plan.values() for a in plan]
@@ -138,6 +146,10 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             found.append(
                 (where, f"no plan holds at gate '{step.gate}'; there are {', '.join(sorted(gates)) or 'none'}")
             )
+        if isinstance(step, s.Link) and step.interface not in script.interfaces:
+            found.append((where, f"no interface '{step.interface}'; there are {_list(script.interfaces)}"))
+        if isinstance(step, s.AwaitMessages) and step.component not in script.components:
+            found.append((where, f"no component '{step.component}'; there are {_list(script.components)}"))
         if isinstance(step, s.Join | s.Settle) and step.worker not in workers:
             found.append((where, f"no earlier step runs on thread '{step.worker}'"))
         if step.thread:
@@ -145,6 +157,10 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
     for index, worker in overlaps(script.steps):
         found.append((f".steps[{index}]", f"'{worker}' may still be operating a container; join it first"))
     return found
+
+
+def _list(names: Iterable[str]) -> str:
+    return ", ".join(sorted(names)) or "none"
 
 
 def _may_stand_for(variable: str, kind: str, step: Step) -> bool:
@@ -179,6 +195,12 @@ def uses(step: Step) -> tuple[tuple[str, str], ...]:
             return ((step.container, "container"),)
         case s.Invoke():
             return ((step.ref, "reference"),)
+        case s.Attach() | s.Detach():
+            return (step.link, "link"), (step.container, "container"), (step.id, "component")
+        case s.Break() | s.Mend():
+            return ((step.link, "link"),)
+        case s.Stress():
+            return tuple((ref, "reference") for ref in step.refs)
         case _:
             return ()
 
@@ -190,7 +212,12 @@ def used_by(step: Step) -> tuple[str, ...]:
 
 def kind_bound_by(step: Step) -> str:
     """The kind of thing that a step binds."""
-    kinds = {s.AddComponent: "component", s.GetPortElement: "reference", s.Connect: "connection"}
+    kinds = {
+        s.AddComponent: "component",
+        s.GetPortElement: "reference",
+        s.Connect: "connection",
+        s.Link: "link",
+    }
     return kinds.get(type(step), "container")
 
 
@@ -199,7 +226,7 @@ def bound_by(step: Step) -> tuple[str, ...]:
     match step:
         case s.AddComponent():
             return (step.bind or step.component,)
-        case s.GetPortElement() | s.Connect() | s.CreateContainer():
+        case s.GetPortElement() | s.Connect() | s.CreateContainer() | s.Link():
             return (step.bind,)
         case _:
             return ()

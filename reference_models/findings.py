@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.contract.scenario import Value
+from ucm_cts.adapters.contract.value import Value
 
 
 class Arrow(Value, frozen=True):

@@ -8,17 +8,21 @@ from typing import Any, get_args
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import (
     Call,
+    Counted,
     Create,
     Enter,
     Exit,
     Held,
     Opened,
+    Paused,
+    Pushed,
     Raise,
     Reply,
     Request,
     Return,
     Settled,
     Siblings,
+    Stressed,
     Timeout,
     Trace,
 )
@@ -30,8 +34,10 @@ from ucm_cts.reference_models import (
     rules_operations,
 )
 from ucm_cts.reference_models.adoption import adopt
+from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.duties import Duties
 from ucm_cts.reference_models.executions import BusinessCall, Executions
+from ucm_cts.reference_models.interactions import Interactions
 from ucm_cts.reference_models.ledger import Ledger, checks
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
@@ -42,9 +48,10 @@ RULE_MODULES = (rules_operations, rules_dependencies, rules_interactions, rules_
 
 
 class Judge:
-    """Judges traces against one life-cycle table. Holds no state between traces."""
+    """Judges traces against one life-cycle table and what the vendor claims. Holds no state between traces."""
 
-    def __init__(self, table: LifeCycleTable) -> None:
+    def __init__(self, table: LifeCycleTable, claims: Claims | None = None) -> None:
+        self.claims = claims or Claims()
         self.situations = Situations(table)
         self.duties = Duties(table)
         self.ended = {op: checks("ended", op) for op in rules_operations.DECLARED}
@@ -57,6 +64,11 @@ class Judge:
         self.over = checks("over", "")
         self.served = checks("served", "")
         self.waited = checks("waited", "")
+        self.linked = checks("linked", "")
+        self.delivered = checks("delivered", "")
+        self.completed = checks("completed", "")
+        self.told = checks("told", "")
+        self.closed = checks("closed", "")
 
     def judge(self, scenario: s.Scenario, trace: Trace) -> Ledger:
         """Everything the rules say about ``trace``, which may break off anywhere.
@@ -70,7 +82,7 @@ class Judge:
             take = _TAKE.get(type(event))
             if take is not None:
                 take(reading, event)
-        reading.ledger.close()
+        reading.close()
         return reading.ledger
 
 
@@ -79,7 +91,7 @@ class _Reading:
 
     def __init__(self, judge: Judge, scenario: s.Scenario) -> None:
         self.judge = judge
-        self.ledger = Ledger(scenario, judge.duties)
+        self.ledger = Ledger(scenario, judge.duties, claims=judge.claims)
         self.runtime = Runtime(scenario)
         self.window: Window | None = None
         self.heard: dict[tuple[str, int], list[s.Hook]] = {}
@@ -88,18 +100,29 @@ class _Reading:
         self.served: dict[int, list[BusinessCall | None]] = {}
         policies = any(declaration.policies for declaration in scenario.components.values())
         self.executions = Executions(self.runtime) if policies else None
+        self.interactions = Interactions(self.runtime) if policies or scenario.interfaces else None
+        self.runtime.interactions = self.interactions
+        self.connecting: dict[int, Call] = {}
+
+    def close(self) -> None:
+        """The trace is over."""
+        for check in self.judge.closed if self.interactions is not None else ():
+            check(self.ledger, self.runtime)
+        self.ledger.close()
 
     def overlaps(self, event: Call) -> bool:
         """Does another operation begin with ``event``, while one is in progress?"""
-        return not isinstance(self.ledger.scenario.steps[event.step], s.Invoke)
+        return isinstance(self.ledger.scenario.steps[event.step], s.ContainerCall)
 
     def call(self, event: Call) -> None:
         step = self.ledger.scenario.steps[event.step]
         if isinstance(step, s.Invoke):
             self.begin(event.thread, BusinessCall(step.value, event.n, step=step))
-        else:
-            self.window = self.judge.situations.open(self.runtime, event.step, step)  # type: ignore[arg-type]
+        elif isinstance(step, s.ContainerCall):
+            self.window = self.judge.situations.open(self.runtime, event.step, step)
             self.window.call = event.n
+        else:
+            self.connecting[event.step] = event
 
     def end(self, event: Return | Raise) -> None:
         window, ledger, runtime = self.window, self.ledger, self.runtime
@@ -110,12 +133,31 @@ class _Reading:
             runtime.starting.clear()
             self.window = None
             return
+        step = ledger.scenario.steps[event.step]
+        begin = self.connecting.pop(event.step, None)
+        if begin is not None:
+            self.end_connecting(step, begin, event)
+            return
         calls = self.calls.get(event.thread)
-        if calls and isinstance(ledger.scenario.steps[event.step], s.Invoke):
+        if calls and isinstance(step, s.Invoke):
             call = calls.pop()
             for check in self.judge.answered:
                 check(ledger, runtime, call, event)
             self.come_back(call, event.n)
+
+    def end_connecting(self, step: s.Step, begin: Call, event: Return | Raise) -> None:
+        if self.interactions is None:
+            return
+        if isinstance(step, s.ConnectorCall):
+            link = self.interactions.linked(step, begin, event)
+            for check in self.judge.linked:
+                check(self.ledger, self.runtime, link, step, event)
+        elif isinstance(event, Return):
+            self.tell(event)
+
+    def tell(self, event: Return | Pushed | Counted | Paused | Stressed) -> None:
+        for check in self.judge.told if self.interactions is not None else ():
+            check(self.ledger, self.runtime, event)
 
     def create(self, event: Create) -> None:
         if self.window is not None:
@@ -123,7 +165,7 @@ class _Reading:
 
     def enter(self, event: Enter) -> None:
         self.hooks.setdefault(event.thread, []).append(event.hook)
-        if event.hook in ("exchange", "run"):
+        if event.hook in ("exchange", "run", "method"):
             self.enter_business(event)
             return
         body = (event.component, event.instance)
@@ -152,7 +194,12 @@ class _Reading:
             member.closing = True
 
     def enter_business(self, event: Enter) -> None:
-        call = self.call_behind(event) if event.hook == "exchange" else None
+        delivery = None
+        if event.hook == "method" and self.interactions is not None:
+            delivery = self.interactions.enter(event)
+            call = delivery.call.business if delivery.call is not None else None
+        else:
+            call = self.call_behind(event) if event.hook == "exchange" else None
         self.served.setdefault(event.thread, []).append(call)
         if self.executions is not None:
             execution, met = self.executions.begin(event, call)
@@ -163,8 +210,12 @@ class _Reading:
             return
         if call is not None:
             call.entries.append((event, None))
-        for check in self.judge.called:
-            check(self.ledger, self.runtime, self.window, event, call)
+        if delivery is not None:
+            for check in self.judge.delivered:
+                check(self.ledger, self.runtime, delivery)
+        else:
+            for check in self.judge.called:
+                check(self.ledger, self.runtime, self.window, event, call)
         member = self.runtime.member_of(event.component, event.instance)
         if member is not None and member.operational:
             member.served = True
@@ -176,8 +227,10 @@ class _Reading:
         if event.hook == "on_startup":
             self.runtime.starting.add((event.component, event.instance))
         served = self.served.get(event.thread)
-        if event.hook not in ("exchange", "run") or not served:
+        if event.hook not in ("exchange", "run", "method") or not served:
             return
+        if event.hook == "method" and self.interactions is not None:
+            self.interactions.exit(event)
         call = served.pop()
         if call is not None:
             call.close(event)
@@ -201,6 +254,8 @@ class _Reading:
         if self.executions is not None:
             call.caller = self.executions.innermost(event.thread)
         self.begin(event.thread, call)
+        if event.method is not None and self.interactions is not None:
+            self.interactions.request(event, call)
 
     def begin(self, thread: int, call: BusinessCall) -> None:
         call.look(self.runtime)
@@ -212,7 +267,12 @@ class _Reading:
         calls = self.calls.get(event.thread)
         if calls:
             call = calls.pop()
-            for check in self.judge.replied:
+            is_method = call.request is not None and call.request.method is not None
+            completed = self.interactions.reply(event) if is_method and self.interactions is not None else None
+            if completed is not None:
+                for check in self.judge.completed:
+                    check(self.ledger, self.runtime, completed)
+            for check in self.judge.replied if not is_method else ():
                 check(self.ledger, self.runtime, call, event)
             self.come_back(call, event.n)
 
@@ -234,11 +294,11 @@ class _Reading:
             self.executions.settle(event)
 
     def timeout(self, event: Timeout) -> None:
-        if self.executions is None:
+        if self.executions is None and self.interactions is None:
             return
         for check in self.judge.waited:
             check(self.ledger, self.runtime, event)
-        if isinstance(self.ledger.scenario.steps[event.step], s.Join):
+        if self.executions is not None and isinstance(self.ledger.scenario.steps[event.step], s.Join):
             for call, waited in self.executions.lost():
                 for check in self.judge.served:
                     check(self.ledger, self.runtime, call, waited, 0)
@@ -262,5 +322,9 @@ _TAKE: dict[type[Any], Callable[[_Reading, Any], None]] = {
     Opened: _Reading.opened,
     Settled: _Reading.settled,
     Timeout: _Reading.timeout,
+    Pushed: _Reading.tell,
+    Counted: _Reading.tell,
+    Paused: _Reading.tell,
+    Stressed: _Reading.tell,
 }
 """What to do with each kind of event; the other kinds say nothing to the rules."""

@@ -7,14 +7,33 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.reference_models.claims import OBSERVED, Claims
 from ucm_cts.reference_models.duties import Duties, Fit
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.life_cycle import Row
 
-Moment = Literal["ended", "entered", "called", "answered", "replied", "noted", "began", "over", "served", "waited"]
+Moment = Literal[
+    "ended",
+    "entered",
+    "called",
+    "answered",
+    "replied",
+    "noted",
+    "began",
+    "over",
+    "served",
+    "waited",
+    "linked",
+    "delivered",
+    "completed",
+    "told",
+    "closed",
+]
 """When a rule looks: an operation ended; a body was entered by a callback, or by a business call; a stimulus of the test
 came back; a body's own call came back; a fragment's query came back. Where components have policies: an execution began,
-or was over; a call that had to wait came back, or never did; a wait of the scenario ran out of patience."""
+or was over; a call that had to wait came back, or never did; a wait of the scenario ran out of patience. Where port
+elements have interfaces or policies (interactions.py): a step for connectors ended; a method of a body was entered; a
+body's call of a method came back; something was counted, measured or read back; the trace is over."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +90,13 @@ class Ledger:
     findings: list[Finding] = field(default_factory=list)
     tallies: dict[int, tuple[Row, RowTally]] = field(default_factory=dict)
     fits: dict[Fit, int] = field(default_factory=dict)
+    claims: Claims = field(default_factory=Claims)
+    readings: dict[str, set[str]] = field(default_factory=dict)
+
+    def observed(self, option: str, value: str) -> bool:
+        """The framework took reading ``value`` of ``option``; False if its vendor declared another one."""
+        self.readings.setdefault(option, set()).add(value)
+        return self.claims.reading(option) in (value, OBSERVED)
 
     def exercised(self, requirement: str) -> None:
         """The requirement's condition really arose, and it was kept."""

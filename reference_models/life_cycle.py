@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import Literal
 
-from ucm_cts.adapters.contract.scenario import Hook, Value
+from ucm_cts.adapters.contract.scenario import Hook
+from ucm_cts.adapters.contract.value import Value
 
 State = Literal["absent", "initialized", "configured", "ready"]
 """A component instance's state in the words of 11.2.3; ``absent`` before ``add_component`` and after removal."""

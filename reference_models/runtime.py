@@ -9,10 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario, Step
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
 from ucm_cts.reference_models.life_cycle import Row, State
+
+if TYPE_CHECKING:
+    from ucm_cts.reference_models.interactions import Interactions
 
 NO_ID = 2**64
 """The id of a connection whose id nobody was told."""
@@ -174,6 +178,7 @@ class Runtime:
     ``members``, ``connections`` and ``references`` are what variables hold now; ``everyone`` is every instance ever added.
     ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
     whose on_startup has returned during the operation in progress, ``last_run`` when run was entered last.
+    ``interactions`` are followed where port elements have interfaces or components policies.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -190,6 +195,7 @@ class Runtime:
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
         self.ports: dict[str, str] = {}
         self.destroyed = False
+        self.interactions: Interactions | None = None
 
     def member_of(self, component: str, instance: int) -> Member | None:
         """The instance whose body this is, if an ``add_component`` has returned for it."""

@@ -11,9 +11,15 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
+from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.contract.programming_model import Implementation, PortElementObject
 
 ContainerHandle = Any
+LinkHandle = Any
+
+
+class NotOffered(Exception):
+    """The adapter does not offer this optional operation."""
 
 
 class Adapter(ABC):
@@ -86,6 +92,34 @@ class Adapter(ABC):
     @abstractmethod
     def destroy(self, manager: ContainerHandle) -> None:
         """``destroy`` the runtime. Also called after a scenario that has not done so, with any outcome ignored."""
+
+    # What profile core needs beside; what an adapter does not override stays untested.
+
+    def link(self, manager: ContainerHandle, connector: str, interface: Interface) -> LinkHandle:
+        """Make a connection without ends (9.5.5.4) with a ``connector`` of 10.1, bound to ``interface``."""
+        raise NotOffered
+
+    def attach(
+        self, link: LinkHandle, role: str, container: ContainerHandle, comp_instance: int, port_name: str
+    ) -> None:
+        """Make the port element an end of ``link``, in the ``role`` of client, server, emitter or receiver."""
+        raise NotOffered
+
+    def detach(self, link: LinkHandle, container: ContainerHandle, comp_instance: int, port_name: str) -> None:
+        """The port element is no longer an end of ``link``."""
+        raise NotOffered
+
+    def break_link(self, link: LinkHandle, where: str) -> None:
+        """Break the ``transport`` of ``link``, or its connector ``inside``, until it is mended (10.1.2)."""
+        raise NotOffered
+
+    def mend_link(self, link: LinkHandle) -> None:
+        """Mend what was broken."""
+        raise NotOffered
+
+    def read_log(self, manager: ContainerHandle) -> Sequence[tuple[str, str]]:
+        """All records of the trace (10.1.4.2) so far, oldest first: severity and text."""
+        raise NotOffered
 
     def close(self) -> None:  # noqa: B027 - optional hook
         """Free what the adapter itself holds; called last, whatever happened."""

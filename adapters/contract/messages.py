@@ -13,8 +13,9 @@ from typing import Annotated, Any
 
 import msgspec
 
-from ucm_cts.adapters.contract.scenario import Int64, Scenario, Value
+from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.adapters.contract.value import Int64, Value
 
 PROTOCOL = 1
 

@@ -6,10 +6,11 @@ Names are those of 12.10. The SDK's probes implement these classes; a framework 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Protocol
 
+from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.scenario import Policy
 
 
@@ -25,12 +26,29 @@ class UcmError(Exception):
     """UCM_ERROR of 12.10."""
 
 
+class DeclaredException(Exception):
+    """An exception that the called method declares: its ``name`` and the values of its ``fields``."""
+
+    def __init__(self, name: str, fields: Sequence[Datum] = ()) -> None:
+        super().__init__(name)
+        self.name, self.fields = name, tuple(fields)
+
+
 class PortElementObject(ABC):
-    """A provided port element (11.2.1.1). Probes have one business method."""
+    """A provided port element (11.2.1.1). One without interface has one business method, ``exchange``."""
 
     @abstractmethod
     def exchange(self, value: int) -> int:
         """The business method of the probe models' only interface: a signed 32-bit value in, one out."""
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        """Any method of an interface, by name: takes IN and INOUT values, returns those of OUT, INOUT and RETURN, each in
+        the order of declaration. Raises ``DeclaredException``.
+
+        What stands between caller and body (connectors, proxies of protected components) offers it, too: it is what
+        generated code would be. Values are as ``data_types`` says; lists among them are the caller's own.
+        """
+        raise NotImplementedError(method)
 
 
 @dataclass(frozen=True)
@@ -113,7 +131,11 @@ class Implementation:
     """A component implementation a framework can instantiate: what its model says, and a factory for bodies.
 
     ``connectable`` bodies also implement Connectable, ``fragment`` bodies also FragmentObject. ``policies`` are the
-    technical policies that the container has to apply (10.1.3).
+    technical policies that the container has to apply (10.1.3, 10.1.4). ``interfaces`` are those of the port elements
+    that have one; the others have ``exchange``.
+
+    The port element that a component requires by a policy is handed over in ``on_startup`` like any other, under the
+    name ``policy.element``, and takes ``call``.
     """
 
     name: str
@@ -124,3 +146,4 @@ class Implementation:
     fragment: bool
     create: Callable[[], ComponentObject]
     policies: Sequence[Policy] = ()
+    interfaces: Mapping[str, Interface] = field(default_factory=dict)

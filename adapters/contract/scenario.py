@@ -9,26 +9,17 @@ identifier the framework never gave out, ``NIL`` a null reference. ``MANAGER`` i
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, get_args
+from typing import Literal, get_args
 
-import msgspec
+from ucm_cts.adapters.contract.data_types import Datum, Interface
+from ucm_cts.adapters.contract.value import Int32, Int64, Value
 
 MANAGER = "manager"
 UNKNOWN = "unknown"
 NIL = "nil"
 
-Int32 = Annotated[int, msgspec.Meta(ge=-(2**31), le=2**31 - 1)]
-"""A payload: what every framework's integers hold."""
-
-Int64 = Annotated[int, msgspec.Meta(ge=-(2**63), le=2**63 - 1)]
-"""Any other integer on the wire."""
-
 PortElementName = str
 """How a port element is spelled at the Container API, ``<port>_<element>`` unless the adapter says otherwise."""
-
-
-class Value(msgspec.Struct, frozen=True, forbid_unknown_fields=True, omit_defaults=True):
-    """Base of all scenario values: immutable, and an unknown or wrong-typed field is an error."""
 
 
 class RaiseError(Value, frozen=True, tag_field="do", tag="raise"):
@@ -58,7 +49,42 @@ class QuerySiblings(Value, frozen=True, tag_field="do", tag="siblings"):
     """A fragment asks the container interface it was given for ``get_components`` (11.2.1.4)."""
 
 
-Action = RaiseError | ReturnValue | CallPort | HoldAtGate | QuerySiblings
+class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
+    """The probe calls ``method`` with ``arguments`` (IN and INOUT) on every reference it holds for required port element
+    ``port``: one of its own, or of a technical policy (its ``element``).
+    """
+
+    port: PortElementName
+    method: str
+    arguments: tuple[Datum, ...] = ()
+
+
+class Answer(Value, frozen=True, tag_field="do", tag="answer"):
+    """How the probe answers ``method``: with ``results`` (OUT, INOUT and RETURN), with its own arguments if there are
+    none given, or with the declared ``exception`` whose fields are ``results``. Without an answer it gives no results.
+
+    With ``overwrite`` it then overwrites what it was given, as the owner of an IN parameter may.
+    """
+
+    method: str
+    results: tuple[Datum, ...] | None = None
+    exception: str | None = None
+    overwrite: bool = False
+
+
+class Burst(Value, frozen=True, tag_field="do", tag="burst"):
+    """The probe pushes ``count`` messages through ``port``: the ULONGs ``first``, ``first + 1``, ... One event tells of all."""
+
+    port: PortElementName
+    first: Int64
+    count: Int64
+
+
+class CountMessages(Value, frozen=True, tag_field="do", tag="count"):
+    """The probe counts the ULONGs that are pushed to it and records nothing of each; answers ``ok``."""
+
+
+Action = RaiseError | ReturnValue | CallPort | HoldAtGate | QuerySiblings | CallMethod | Answer | Burst | CountMessages
 
 Hook = Literal[
     "on_init",
@@ -70,9 +96,10 @@ Hook = Literal[
     "set_container_interface",
     "exchange",
     "run",
+    "method",
 ]
-"""Where a probe is entered: the callbacks of clause 11.2.1, ``exchange``, the probes' one business method, and ``run``
-of a self-executing component (10.1.3).
+"""Where a probe is entered: the callbacks of clause 11.2.1, ``exchange``, the one business method of port elements without
+interface, ``run`` of a self-executing component (10.1.3), and ``method``, any method of a port element with interface.
 """
 
 
@@ -86,12 +113,37 @@ SELF_EXECUTION_API = "self-execution_api"
 """The port element that a self-executing component provides to its container."""
 
 
+CLOCK = "clock"
+COMPONENT_TRACE = "component_trace"
+PORT_TRACE = "port_trace"
+"""The policies of the container services (10.1.4)."""
+
+REQUIRED_ELEMENTS = {CLOCK: "clock_api", COMPONENT_TRACE: "trace_api"}
+"""The port element that a component requires by such a policy."""
+
+SERVICE_CONNECTOR = "simple_service_connector"
+MESSAGE_CONNECTOR = "simple_message_connector"
+"""The connectors of 10.1.5 and 10.1.6."""
+
+PUSH = "push"
+STANDARD_METHODS = frozenset((PUSH, "get_local_time", "get_synchronized_time", "log"))
+"""The methods of 10.1's interfaces: of messages, the clock and the trace."""
+
+METHODS_TO_TRACE, LOG_SEVERITY = "methods_to_trace", "log_severity"
+"""The parameters of port_trace."""
+
+
 class Policy(Value, frozen=True):
-    """A technical policy of a component implementation (9.5.4.3): its ``definition`` and, of some, the ``port`` element."""
+    """A technical policy of a component implementation (9.5.4.3): its ``definition`` and, of some, the ``port`` element.
+
+    ``element`` is the name under which the component gets the port element that it requires by the policy
+    (``REQUIRED_ELEMENTS``): the policy instance and the element.
+    """
 
     definition: str
     port: PortElementName | None = None
     parameters: dict[str, str] = {}
+    element: PortElementName | None = None
 
 
 class Declaration(Value, frozen=True):
@@ -99,7 +151,8 @@ class Declaration(Value, frozen=True):
 
     ``provides`` and ``requires`` list port element names; ``attributes`` maps attribute names to configured values;
     ``connectable`` bodies implement Connectable (11.2.1.3), ``fragment`` bodies FragmentObject (11.2.1.4).
-    ``policies`` are its technical policies. ``plan`` lists, per hook, the actions the probe performs each time it is entered there. No port element twice.
+    ``policies`` are its technical policies. ``plan`` lists, per hook, the actions the probe performs each time it is
+    entered there. ``ports`` names the interface of each port element that has one. No port element twice.
     """
 
     provides: tuple[PortElementName, ...] = ()
@@ -109,6 +162,7 @@ class Declaration(Value, frozen=True):
     fragment: bool = False
     plan: dict[Hook, tuple[Action, ...]] = {}
     policies: tuple[Policy, ...] = ()
+    ports: dict[PortElementName, str] = {}
 
     def __post_init__(self) -> None:
         if len({*self.provides, *self.requires}) < len(self.provides) + len(self.requires):
@@ -215,11 +269,12 @@ class OpenGate(StepBase, frozen=True, tag_field="op", tag="open"):
 class ReachGate(StepBase, frozen=True, tag_field="op", tag="reach"):
     """Wait until some probe has arrived at ``gate``, open or not, for at most the scenario's patience.
 
-    With ``more`` so many must arrive after the step has begun.
+    With ``more`` so many must arrive after the step has begun, with ``total`` since the scenario has begun.
     """
 
     gate: str
     more: Int32 = 0
+    total: Int32 = 0
 
 
 class Settle(StepBase, frozen=True, tag_field="op", tag="settle"):
@@ -232,6 +287,80 @@ class Join(StepBase, frozen=True, tag_field="op", tag="join"):
     """Wait until worker ``worker`` has done all its steps, for at most the scenario's patience."""
 
     worker: str
+
+
+class Link(StepBase, frozen=True, tag_field="op", tag="link"):
+    """Make a connection (9.5.5.4) with a core ``connector``, bound to ``interface``; it has no ends yet.
+
+    Of the message connector ``interface`` is message_intf bound to a type: ``push`` alone.
+    """
+
+    connector: Literal["simple_service_connector", "simple_message_connector"]
+    interface: str
+    bind: str
+
+
+class Attach(StepBase, frozen=True, tag_field="op", tag="attach"):
+    """Make ``port`` of ``id`` an end of the connection bound to ``link``; clients and emitters have it as required port
+    element, servers and receivers as provided one.
+    """
+
+    link: str
+    role: Literal["client", "server", "emitter", "receiver"]
+    id: str
+    port: PortElementName
+    container: str = MANAGER
+
+
+class Detach(StepBase, frozen=True, tag_field="op", tag="detach"):
+    """``port`` of ``id`` is no longer an end of ``link``."""
+
+    link: str
+    id: str
+    port: PortElementName
+    container: str = MANAGER
+
+
+class Break(StepBase, frozen=True, tag_field="op", tag="break"):
+    """Break ``link``: its ``transport``, so that nothing can be transmitted, or the connector ``inside``."""
+
+    link: str
+    where: Literal["transport", "inside"] = "transport"
+
+
+class Mend(StepBase, frozen=True, tag_field="op", tag="mend"):
+    """Mend what was broken in ``link``."""
+
+    link: str
+
+
+class ReadLog(StepBase, frozen=True, tag_field="op", tag="read_log"):
+    """Read the trace (10.1.4.2) back, again and again until it has ``records`` records or patience runs out."""
+
+    records: Int32 = 0
+
+
+class Pause(StepBase, frozen=True, tag_field="op", tag="pause"):
+    """Let time pass: clocks are to be compared."""
+
+    milliseconds: Int32
+
+
+class AwaitMessages(StepBase, frozen=True, tag_field="op", tag="await_messages"):
+    """Wait until ``instance`` of ``component`` has counted ``count`` messages, at most patience; tells what it counted."""
+
+    component: str
+    count: Int64
+    instance: Int64 = 1
+
+
+class Stress(StepBase, frozen=True, tag_field="op", tag="stress"):
+    """For ``milliseconds`` call ``exchange`` through each of ``refs`` on a thread of its own, as fast as it can, and do the
+    same beside it to a body that nobody protects. Bodies count who meets whom and record nothing.
+    """
+
+    refs: tuple[str, ...]
+    milliseconds: Int32 = 100
 
 
 Step = (
@@ -251,6 +380,15 @@ Step = (
     | ReachGate
     | Settle
     | Join
+    | Link
+    | Attach
+    | Detach
+    | Break
+    | Mend
+    | ReadLog
+    | Pause
+    | AwaitMessages
+    | Stress
 )
 
 ContainerCall = (
@@ -268,13 +406,19 @@ ContainerCall = (
 )
 """The steps that are operations of Container or ContainerManager (12.10)."""
 
+ConnectorCall = Link | Attach | Detach | Break | Mend
+"""The steps that an adapter offers for connectors; one that does not skips them."""
+
 
 class Scenario(Value, frozen=True):
-    """Component declarations by name, steps in order, and ``patience``: milliseconds a wait step may take."""
+    """Component declarations by name, steps in order, ``patience``: milliseconds a wait step may take, and ``interfaces``
+    by name.
+    """
 
     components: dict[str, Declaration]
     steps: tuple[Step, ...]
     patience: Int64 = 2000
+    interfaces: dict[str, Interface] = {}
 
 
 def operation(step: Step) -> str:

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 from typing import Literal
 
-from ucm_cts.adapters.contract.scenario import Hook, Int64, PortElementName, Value
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.scenario import Hook, PortElementName
+from ucm_cts.adapters.contract.value import Int64, Value
 
 DeclaredError = Literal["NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"]
 """The three exceptions of 12.10."""
@@ -52,11 +54,21 @@ class Call(EventBase, frozen=True, tag="call"):
     step: Int64
 
 
+class LogRecord(Value, frozen=True):
+    """One record of the trace (10.1.4.2): ``severity`` is an enumerator of log_severity_t."""
+
+    severity: str
+    message: str
+
+
 class Return(EventBase, frozen=True, tag="return"):
-    """The step's operation came back; ``value`` is an id, a list of ids, a reference, or a business result."""
+    """The step's operation came back; ``value`` is an id, a list of ids, a reference, or a business result, ``records``
+    what was read from the trace.
+    """
 
     step: Int64
     value: Int64 | tuple[Int64, ...] | Reference | Opaque | None = None
+    records: tuple[LogRecord, ...] | None = None
 
 
 class Raise(EventBase, frozen=True, tag="raise"):
@@ -68,7 +80,9 @@ class Raise(EventBase, frozen=True, tag="raise"):
 
 
 class Skip(EventBase, frozen=True, tag="skip"):
-    """The step was not tried, because ``variable`` was never bound."""
+    """The step was not tried, because ``variable`` was never bound, or the adapter does not offer the operation of that
+    name.
+    """
 
     step: Int64
     variable: str
@@ -95,7 +109,8 @@ class Enter(BodyEvent, frozen=True, tag="enter"):
     """The framework entered the body at ``hook``.
 
     ``port`` and ``reference`` are the arguments of the Connectable callbacks, ``port`` and ``value`` those of
-    ``exchange``, ``dependencies`` that of ``on_startup``; ``attributes`` are the values the body holds at ``on_init``.
+    ``exchange``, ``dependencies`` that of ``on_startup``; ``attributes`` are the values the body holds at ``on_init``;
+    ``port``, ``method`` and ``arguments`` belong to ``method``.
     """
 
     hook: Hook
@@ -104,29 +119,56 @@ class Enter(BodyEvent, frozen=True, tag="enter"):
     reference: MaybeReference = None
     dependencies: tuple[Dependency, ...] | None = None
     attributes: dict[str, str] | None = None
+    method: str | None = None
+    arguments: tuple[Datum, ...] | None = None
 
 
 class Exit(BodyEvent, frozen=True, tag="exit"):
-    """The body left ``hook``: with ``value``, or with an exception when ``raised``."""
+    """The body left ``hook``: with ``value``, or with an exception when ``raised``.
+
+    ``method`` is left with ``results``; ``exception`` names a declared exception, whose fields are ``results``.
+    """
 
     hook: Hook
     value: Int64 | None = None
     raised: bool = False
+    results: tuple[Datum, ...] | None = None
+    exception: str | None = None
 
 
 class Request(BodyEvent, frozen=True, tag="request"):
-    """The body is about to call ``exchange(value)`` through its required port element ``port``."""
+    """The body is about to call ``exchange(value)``, or ``method`` with ``arguments``, through its required port element
+    ``port``.
+    """
 
     port: PortElementName
-    value: Int64
+    value: Int64 = 0
+    method: str | None = None
+    arguments: tuple[Datum, ...] | None = None
 
 
 class Reply(BodyEvent, frozen=True, tag="reply"):
-    """That call came back with ``value``, or with an exception when ``raised``."""
+    """That call came back with ``value``, or with an exception when ``raised``.
+
+    A method comes back with ``results``; ``exception`` names a declared exception, whose fields are ``results``.
+    """
 
     port: PortElementName
     value: Int64 | None = None
     raised: bool = False
+    results: tuple[Datum, ...] | None = None
+    exception: str | None = None
+
+
+class Pushed(BodyEvent, frozen=True, tag="pushed"):
+    """The body has pushed a burst of ``count`` messages, from ``first`` on; ``answers`` says how often it got which
+    return code, and under ``raised`` how many pushes ended with an exception.
+    """
+
+    port: PortElementName
+    first: Int64
+    count: Int64
+    answers: dict[str, Int64]
 
 
 class Siblings(BodyEvent, frozen=True, tag="siblings"):
@@ -157,6 +199,42 @@ class Settled(EventBase, frozen=True, tag="settled"):
     where: Literal["done", "held", "blocked", "running"]
 
 
+class Counted(EventBase, frozen=True, tag="counted"):
+    """What ``instance`` of ``component`` had counted when step ``step`` was done: how many messages it ``received``, how
+    many of them for the first time (``distinct``), how many after a greater one (``disordered``), and the least and the
+    greatest.
+    """
+
+    step: Int64
+    component: str
+    instance: Int64
+    received: Int64
+    distinct: Int64
+    disordered: Int64
+    least: Int64 = 0
+    greatest: Int64 = 0
+
+
+class Paused(EventBase, frozen=True, tag="paused"):
+    """Time has passed. ``calendar`` is the host's calendar clock in nanoseconds, read together with ``t``."""
+
+    step: Int64
+    calendar: Int64
+
+
+class Stressed(EventBase, frozen=True, tag="stressed"):
+    """What a stress found: ``calls`` made through the framework, how many ``failed``, how many ``overlaps`` bodies
+    counted, and the same for the body that nobody protects.
+    """
+
+    step: Int64
+    calls: Int64
+    overlaps: Int64
+    control_calls: Int64
+    control_overlaps: Int64
+    failed: Int64 = 0
+
+
 Event = (
     Call
     | Return
@@ -172,6 +250,10 @@ Event = (
     | Held
     | Opened
     | Settled
+    | Pushed
+    | Counted
+    | Paused
+    | Stressed
 )
 
 Trace = tuple[Event, ...]

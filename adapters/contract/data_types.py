@@ -1,0 +1,149 @@
+"""UCM data types (9.2.3 to 9.2.5) and interfaces (9.2.7) as data, and how their values travel.
+
+A value travels as plain JSON that says nothing of its type; the interface does. Integers and characters (code points) are
+integers, booleans booleans, strings strings, enumerators their names; a structure is the list of its fields, a union
+``[enumerator, value]``, arrays (dimension by dimension) and sequences are lists. A float is the hexadecimal digits of its
+IEEE 754 bits, most significant first, so that two values are the same exactly when they are written the same.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from ucm_cts.adapters.contract.value import Value
+
+Datum = bool | int | str | list[Any]
+"""A value as it travels."""
+
+IntegerKind = Literal["BYTE", "SHORT", "LONG", "LONGLONG", "UBYTE", "USHORT", "ULONG", "ULONGLONG"]
+"""The integer kinds of 9.2.3.2."""
+
+_BITS: dict[IntegerKind, int] = {
+    "BYTE": 8, "SHORT": 16, "LONG": 32, "LONGLONG": 64, "UBYTE": 8, "USHORT": 16, "ULONG": 32, "ULONGLONG": 64
+}  # fmt: skip
+
+
+def integer_range(kind: IntegerKind) -> tuple[int, int]:
+    """Lower and upper bound of an integer kind (9.2.3.2)."""
+    bits = _BITS[kind]
+    return (0, 2**bits - 1) if kind.startswith("U") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+
+
+class DataType(Value, frozen=True, tag_field="type"):
+    """Base of all data types."""
+
+
+class Integer(DataType, frozen=True, tag="integer"):
+    """PrimitiveInteger."""
+
+    kind: IntegerKind
+
+
+class Float(DataType, frozen=True, tag="float"):
+    """PrimitiveFloat; LONGDOUBLE has no portable form and is not sent."""
+
+    kind: Literal["FLOAT", "DOUBLE"]
+
+
+class Char(DataType, frozen=True, tag="char"):
+    """PrimitiveChar."""
+
+    kind: Literal["CHAR8", "CHAR32"]
+
+
+class Boolean(DataType, frozen=True, tag="boolean"):
+    """PrimitiveBoolean."""
+
+
+class String(DataType, frozen=True, tag="string"):
+    """StringType; ``size`` -1 is unbounded. The characters of a CHAR8 string have code points below 256."""
+
+    base: Literal["CHAR8", "CHAR32"]
+    size: int = -1
+
+
+class Enumeration(DataType, frozen=True, tag="enumeration"):
+    """Enumerators and their index values, in order."""
+
+    name: str
+    index: IntegerKind
+    values: dict[str, int]
+
+
+class Structure(DataType, frozen=True, tag="structure"):
+    """Named fields in order."""
+
+    name: str
+    fields: dict[str, AnyType]
+
+
+class UnionCase(Value, frozen=True):
+    """One alternative: active for the ``selectors``, or as ``default`` for every enumerator no other case names."""
+
+    name: str
+    of: AnyType
+    selectors: tuple[str, ...] = ()
+    default: bool = False
+
+
+class Union(DataType, frozen=True, tag="union"):
+    """A value of the case that the enumerator selects."""
+
+    name: str
+    selector: Enumeration
+    cases: tuple[UnionCase, ...]
+
+
+class Array(DataType, frozen=True, tag="array"):
+    """Elements of one type, ``sizes`` dimension by dimension."""
+
+    of: AnyType
+    sizes: tuple[int, ...]
+
+
+class Sequence(DataType, frozen=True, tag="sequence"):
+    """Up to ``size`` elements of one type; -1 is unbounded."""
+
+    of: AnyType
+    size: int = -1
+
+
+class Alias(DataType, frozen=True, tag="alias"):
+    """Another name of a type."""
+
+    name: str
+    of: AnyType
+
+
+AnyType = Integer | Float | Char | Boolean | String | Enumeration | Structure | Union | Array | Sequence | Alias
+
+
+class Parameter(Value, frozen=True):
+    """A parameter of a method; RETURN is the result."""
+
+    name: str
+    direction: Literal["IN", "OUT", "INOUT", "RETURN"]
+    of: AnyType
+
+
+class Method(Value, frozen=True):
+    """Parameters in order, and the exceptions it may raise."""
+
+    parameters: tuple[Parameter, ...] = ()
+    raises: tuple[Structure, ...] = ()
+
+    @property
+    def arguments(self) -> tuple[Parameter, ...]:
+        """What the caller sends: IN and INOUT."""
+        return tuple(p for p in self.parameters if p.direction in ("IN", "INOUT"))
+
+    @property
+    def results(self) -> tuple[Parameter, ...]:
+        """What comes back: OUT, INOUT and RETURN, in the order of declaration."""
+        return tuple(p for p in self.parameters if p.direction != "IN")
+
+
+class Interface(Value, frozen=True):
+    """Methods by name, its own and those of the interfaces it inherits (9.2.7.2)."""
+
+    methods: dict[str, Method]

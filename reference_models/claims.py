@@ -1,0 +1,37 @@
+"""What the vendor states of the framework, as far as rules need it: readings of unclear places, times and tolerances."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+TOLERANCES: Mapping[str, float] = {
+    "clock-tolerance": 20.0,
+    "clock-rate": 1.0,
+    "synchronization-tolerance": 20.0,
+    "epoch-tolerance": 1000.0,
+    "error-known-within": 500.0,
+}
+"""IXIT values that hold unless others are declared: milliseconds, ``clock-rate`` in percent."""
+
+OBSERVED = "observed"
+"""The value of an option that binds nobody."""
+
+
+@dataclass(frozen=True)
+class Claims:
+    """``readings`` are the values declared of options of the interpretations, ``tolerances`` those of the IXIT.
+
+    An option that is not declared has its first value, which the harness fills in.
+    """
+
+    readings: Mapping[str, str] = field(default_factory=dict)
+    tolerances: Mapping[str, float] = field(default_factory=dict)
+
+    def reading(self, option: str) -> str:
+        """The value that holds of ``option``; ``observed`` if nothing is known of it."""
+        return self.readings.get(option, OBSERVED)
+
+    def tolerance(self, name: str) -> float:
+        """A declared time in milliseconds, or percentage. Raises ``KeyError`` for one nobody knows."""
+        return self.tolerances.get(name, TOLERANCES[name])
