@@ -7,9 +7,25 @@ Every module of this package registers its own.
 import importlib
 import pkgutil
 
-from derived.registry import POLICY_SUBJECTS, POLICY_VARIANTS, SUBJECTS, VARIANTS, WrongSubject
+from derived.registry import (
+    CORE_SUBJECTS,
+    CORE_VARIANTS,
+    POLICY_SUBJECTS,
+    POLICY_VARIANTS,
+    SUBJECTS,
+    VARIANTS,
+    WrongSubject,
+)
 
-__all__ = ["POLICY_SUBJECTS", "POLICY_VARIANTS", "SUBJECTS", "VARIANTS", "WrongSubject"]
+__all__ = [
+    "CORE_SUBJECTS",
+    "CORE_VARIANTS",
+    "POLICY_SUBJECTS",
+    "POLICY_VARIANTS",
+    "SUBJECTS",
+    "VARIANTS",
+    "WrongSubject",
+]
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")

@@ -22,6 +22,7 @@ class WrongSubject:
     adapter: type[ReferenceAdapter]
     requirements: tuple[str, ...]
     also: tuple[str, ...]
+    clauses: tuple[str, ...] = ()
 
 
 SUBJECTS: dict[str, WrongSubject] = {}
@@ -32,6 +33,12 @@ POLICY_SUBJECTS: dict[str, WrongSubject] = {}
 """What only components with execution policies show; the container profile has none."""
 
 POLICY_VARIANTS: dict[str, type[ReferenceAdapter]] = {}
+
+
+CORE_SUBJECTS: dict[str, WrongSubject] = {}
+"""What only the test purposes of some ``clauses`` of the core show."""
+
+CORE_VARIANTS: dict[str, type[ReferenceAdapter]] = {}
 
 
 def bind(name: str, mixin: type, doc: str | None = None) -> type[ReferenceAdapter]:
@@ -72,6 +79,23 @@ def breaks_policy(*requirements: str, also: tuple[str, ...] = ()) -> Callable[[t
 def policy_variant(mixin: type) -> type:
     """Register the decorated mixin as a conformant framework that applies execution policies in its own way."""
     POLICY_VARIANTS[mixin.__name__] = bind(mixin.__name__, mixin, mixin.__doc__)
+    return mixin
+
+
+def breaks_core(*requirements: str, clauses: tuple[str, ...], also: tuple[str, ...] = ()) -> Callable[[type], type]:
+    """Register the decorated mixin as a wrong subject that the test purposes of ``clauses`` are to find out."""
+
+    def register(mixin: type) -> type:
+        adapter = bind(mixin.__name__, mixin, mixin.__doc__)
+        CORE_SUBJECTS[mixin.__name__] = WrongSubject(mixin.__name__, adapter, requirements, also, clauses)
+        return mixin
+
+    return register
+
+
+def core_variant(mixin: type) -> type:
+    """Register the decorated mixin as a conformant framework that does clause 10.1 in its own way."""
+    CORE_VARIANTS[mixin.__name__] = bind(mixin.__name__, mixin, mixin.__doc__)
     return mixin
 
 

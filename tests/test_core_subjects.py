@@ -1,0 +1,62 @@
+"""Frameworks that do clause 10.1 wrongly are found out, for the right reason; those that do it in their own way are not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import msgspec
+import pytest
+from derived import CORE_SUBJECTS, CORE_VARIANTS, WrongSubject
+from performing import answer
+
+from ucm_cts.adapters.contract.messages import Traced
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.integrity import contradiction
+from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.judgement import Judge
+
+CLAUSES = ("10.1.1", "10.1.2", "10.1.4", "10.1.5", "10.1.6")
+SHORT_PATIENCE = 400
+"""Milliseconds. What a wrong framework never does is not waited for longer."""
+
+
+def scenarios(clauses: tuple[str, ...]) -> Iterator[tuple[str, Scenario]]:
+    for purpose in load_purposes("core"):
+        if purpose.clause.startswith(clauses):
+            yield from purpose.scenarios
+
+
+def failing(adapter: type[ReferenceAdapter], clauses: tuple[str, ...], patience: int | None = None) -> dict[str, str]:
+    """Failing requirements, each with an example."""
+    judge = Judge(load_life_cycle())
+    found: dict[str, str] = {}
+    for name, whole in scenarios(clauses):
+        asked = whole if patience is None else msgspec.structs.replace(whole, patience=patience)
+        reply = answer(asked, adapter)
+        assert isinstance(reply, Traced), (name, reply)
+        problem = contradiction(asked, reply.events, bool(reply.stuck))
+        assert problem is None, (name, problem)
+        for finding in judge.judge(asked, reply.events).findings:
+            found.setdefault(finding.requirement, _told(name, finding))
+    return found
+
+
+def _told(name: str, finding: Finding) -> str:
+    return f"{name}: expected {finding.expected}; observed {finding.observed}"
+
+
+@pytest.mark.parametrize("adapter", [ReferenceAdapter, *CORE_VARIANTS.values()], ids=["reference", *CORE_VARIANTS])
+def test_conformant_framework_is_not_failed(adapter: type[ReferenceAdapter]) -> None:
+    assert failing(adapter, CLAUSES) == {}
+
+
+@pytest.mark.parametrize("subject", CORE_SUBJECTS.values(), ids=CORE_SUBJECTS.keys())
+def test_wrong_framework_fails_for_the_right_reason(subject: WrongSubject) -> None:
+    found = failing(subject.adapter, subject.clauses, SHORT_PATIENCE)
+    missed = set(subject.requirements) - set(found)
+    spilled = {k: v for k, v in found.items() if k not in subject.requirements and k not in subject.also}
+    assert not missed, f"{subject.name} survives {missed}; it fails {found}"
+    assert not spilled, f"{subject.name} also fails {spilled}"
