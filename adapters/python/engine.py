@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import time
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
@@ -10,7 +11,7 @@ from typing import Any
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.adapter import Adapter
+from ucm_cts.adapters.contract.adapter import Adapter, NotOffered
 from ucm_cts.adapters.contract.messages import (
     PROTOCOL,
     Happened,
@@ -25,7 +26,22 @@ from ucm_cts.adapters.contract.messages import (
 )
 from ucm_cts.adapters.contract.programming_model import BadParameter, NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import Scenario, Step
-from ucm_cts.adapters.contract.trace import Call, ErrorName, Event, Opened, Raise, Return, Settled, Skip, Timeout
+from ucm_cts.adapters.contract.trace import (
+    Call,
+    Counted,
+    ErrorName,
+    Event,
+    LogRecord,
+    Opened,
+    Paused,
+    Raise,
+    Return,
+    Settled,
+    Skip,
+    Stressed,
+    Timeout,
+)
+from ucm_cts.adapters.python.counting import Occupancy, Storm, switching_often
 from ucm_cts.adapters.python.probe import Stage, is_integer
 from ucm_cts.adapters.python.recorder import Recorder
 from ucm_cts.adapters.python.variables import Unbound, Variables
@@ -96,11 +112,15 @@ class Performance:
         patience = min(max(scenario.patience, 0), _LONGEST_PATIENCE) / 1000
         self.stuck: tuple[str, ...] = ()
         self._adapter = adapter
+        self._patience = patience
         self._scenario = scenario
         self._recorder = recorder
         self._stage = Stage(recorder, patience)
         self._workers = Workers(patience)
-        implementations = [self._stage.implementation(*declared) for declared in scenario.components.items()]
+        implementations = [
+            self._stage.implementation(name, declaration, scenario.interfaces)
+            for name, declaration in scenario.components.items()
+        ]
         self._manager = adapter.create_runtime(implementations)
         self._variables = Variables(self._manager)
         self._destroyed = False
@@ -131,15 +151,53 @@ class Performance:
             gate = step.gate
             self._stage.gates.open(gate, lambda: record(Opened, gate=gate))
         elif isinstance(step, s.ReachGate):
-            if not self._stage.gates.reach(step.gate, step.more):
+            if not self._stage.gates.reach(step.gate, step.more, step.total):
                 record(Timeout, step=number)
         elif isinstance(step, s.Join):
             if not self._workers.join(step.worker):
                 record(Timeout, step=number)
         elif isinstance(step, s.Settle):
             record(Settled, worker=step.worker, where=self._workers.settle(step.worker, self._stage.gates.is_held))
+        elif isinstance(step, s.Pause):
+            time.sleep(max(step.milliseconds, 0) / 1000)
+            record(Paused, step=number, calendar=time.time_ns())
+        elif isinstance(step, s.AwaitMessages):
+            counted = self._stage.messages.wait(step.component, step.instance, step.count)
+            record(Counted, step=number, component=step.component, instance=step.instance, **counted)
+        elif isinstance(step, s.Stress):
+            self._stress(number, step)
         else:
             self._call(number, step)
+
+    def _stress(self, number: int, step: s.Stress) -> None:
+        try:
+            references = [self._variables.reference(ref) for ref in step.refs]
+        except Unbound as missing:
+            self._recorder.record(Skip, step=number, variable=missing.variable)
+            return
+        free = Occupancy()
+        visits = [partial(reference.exchange, 1) for reference in references if reference is not None]
+        with switching_often():
+            with self._stage.stressing() as occupancies:
+                through = self._storm(Storm(visits, step.milliseconds), "stress")
+            control = self._storm(Storm([free.visit for _ in visits], step.milliseconds), "control")
+        self._recorder.record(
+            Stressed,
+            step=number,
+            calls=through.calls,
+            overlaps=sum(occupancy.overlaps for occupancy in occupancies.values()),
+            control_calls=control.calls,
+            control_overlaps=free.overlaps,
+            failed=through.failed,
+        )
+
+    def _storm(self, storm: Storm, name: str) -> Storm:
+        workers = [f"{name} {index}" for index in range(len(storm.tasks()))]
+        for worker, task in zip(workers, storm.tasks(), strict=True):
+            self._workers.queue(worker, task)
+        for worker in workers:
+            self._workers.join(worker)
+        return storm
 
     def _call(self, number: int, step: Step) -> None:
         record = self._recorder.record
@@ -151,6 +209,8 @@ class Performance:
         record(Call, step=number)
         try:
             value = operate()
+        except NotOffered:
+            record(Skip, step=number, variable=s.operation(step))
         except ContractBroken as error:
             self._recorder.complain(f"{s.operation(step)} {error}")
             record(Return, step=number)
@@ -159,7 +219,10 @@ class Performance:
             detail = _text(error) if declared else _describe(error)
             record(Raise, step=number, error=declared or "UNDECLARED", detail=detail)
         else:
-            record(Return, step=number, value=value if isinstance(step, _WITH_RESULT) else None)
+            if isinstance(step, s.ReadLog):
+                record(Return, step=number, records=value)
+            else:
+                record(Return, step=number, value=value if isinstance(step, _WITH_RESULT) else None)
 
     # Each looks up what its step needs, raising Unbound, and returns the call that is then made and recorded.
 
@@ -249,6 +312,43 @@ class Performance:
             raise Unbound(step.ref)
         return lambda: _integer(reference.exchange(step.value))
 
+    # Those that an adapter need not offer.
+
+    def _link(self, step: s.Link) -> Callable[[], Any]:
+        interface = self._scenario.interfaces[step.interface]
+
+        def operate() -> None:
+            self._variables.bind_link(step.bind, self._adapter.link(self._manager, step.connector, interface))
+
+        return operate
+
+    def _attach(self, step: s.Attach) -> Callable[[], Any]:
+        link, container = self._variables.link(step.link), self._variables.container(step.container)
+        member = self._variables.id(step.id)
+        return partial(self._adapter.attach, link, step.role, container, member, step.port)
+
+    def _detach(self, step: s.Detach) -> Callable[[], Any]:
+        link, container = self._variables.link(step.link), self._variables.container(step.container)
+        member = self._variables.id(step.id)
+        return partial(self._adapter.detach, link, container, member, step.port)
+
+    def _break(self, step: s.Break) -> Callable[[], Any]:
+        return partial(self._adapter.break_link, self._variables.link(step.link), step.where)
+
+    def _mend(self, step: s.Mend) -> Callable[[], Any]:
+        return partial(self._adapter.mend_link, self._variables.link(step.link))
+
+    def _read_log(self, step: s.ReadLog) -> Callable[[], Any]:
+        def operate() -> tuple[LogRecord, ...]:
+            until = time.monotonic() + self._patience
+            while True:
+                records = tuple(_records(self._adapter.read_log(self._manager)))
+                if len(records) >= step.records or time.monotonic() >= until:
+                    return records
+                time.sleep(_BETWEEN_READINGS)
+
+        return operate
+
 
 _OPERATIONS: dict[type[Any], Callable[[Performance, Any], Callable[[], Any]]] = {
     s.AddComponent: Performance._add_component,
@@ -263,10 +363,30 @@ _OPERATIONS: dict[type[Any], Callable[[Performance, Any], Callable[[], Any]]] = 
     s.RemoveContainer: Performance._remove_container,
     s.Destroy: Performance._destroy,
     s.Invoke: Performance._invoke,
+    s.Link: Performance._link,
+    s.Attach: Performance._attach,
+    s.Detach: Performance._detach,
+    s.Break: Performance._break,
+    s.Mend: Performance._mend,
+    s.ReadLog: Performance._read_log,
 }
 
 
 _WITH_RESULT = (s.AddComponent, s.GetPortElement, s.Connect, s.GetComponents, s.Invoke)
+
+
+_BETWEEN_READINGS = 0.001
+"""Seconds. Nobody tells when a record has been written."""
+
+
+def _records(given: Any) -> list[LogRecord]:
+    try:
+        records = [(severity, message) for severity, message in given]
+    except (TypeError, ValueError):
+        raise ContractBroken(f"returned {given!r}; it returns pairs of severity and text") from None
+    if not all(isinstance(text, str) for record in records for text in record):
+        raise ContractBroken(f"returned {records!r}; it returns pairs of severity and text")
+    return [LogRecord(severity, message) for severity, message in records]
 
 
 def _integer(value: Any) -> int:

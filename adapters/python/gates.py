@@ -35,10 +35,13 @@ class Gates:
             gate = self._holding.get(thread.ident)
             return gate is not None and not self._is_open(gate)
 
-    def reach(self, gate: str, more: int = 0) -> bool:
-        """Wait until a probe has arrived at ``gate``, or ``more`` have from now on; False when patience runs out."""
+    def reach(self, gate: str, more: int = 0, total: int = 0) -> bool:
+        """Wait until a probe has arrived at ``gate``, or ``more`` have from now on, or ``total`` in all.
+
+        False when patience runs out.
+        """
         with self._changed:
-            enough = self._arrivals[gate] + more if more > 0 else 1
+            enough = max(self._arrivals[gate] + more if more > 0 else 1, total)
             return self._changed.wait_for(lambda: self._arrivals[gate] >= enough, self._patience)
 
     def open(self, gate: str, record: Callable[[], None]) -> None:

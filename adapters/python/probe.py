@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.programming_model import (
     ComponentExecution,
     ComponentObject,
     Connectable,
     ContainerInterface,
+    DeclaredException,
     FragmentObject,
     Implementation,
     PortConnection,
@@ -25,11 +28,14 @@ from ucm_cts.adapters.contract.trace import (
     Exit,
     Held,
     MaybeReference,
+    Pushed,
     Reference,
     Reply,
     Request,
     Siblings,
 )
+from ucm_cts.adapters.python.counting import MessageCounts, Occupancy
+from ucm_cts.adapters.python.data import is_datum, overwrite, snapshot
 from ucm_cts.adapters.python.gates import Gates
 from ucm_cts.adapters.python.recorder import Recorder
 
@@ -49,10 +55,14 @@ class Stage:
     def __init__(self, recorder: Recorder, patience: float) -> None:
         self.recorder = recorder
         self.gates = Gates(patience)
+        self.messages = MessageCounts(patience)
+        self.occupancies: dict[int, Occupancy] | None = None
         self._lock = threading.Lock()
         self._instances: dict[str, int] = {}
 
-    def implementation(self, name: str, declaration: Declaration) -> Implementation:
+    def implementation(
+        self, name: str, declaration: Declaration, interfaces: Mapping[str, Interface] = {}
+    ) -> Implementation:
         """The declaration as a framework sees it: an implementation whose bodies are probes on this stage."""
         kind = _KINDS[declaration.connectable, declaration.fragment]
         return Implementation(
@@ -64,7 +74,17 @@ class Stage:
             declaration.fragment,
             lambda: kind(self, name, declaration),
             declaration.policies,
+            {port: interfaces[interface] for port, interface in declaration.ports.items()},
         )
+
+    @contextmanager
+    def stressing(self) -> Iterator[dict[int, Occupancy]]:
+        """Meanwhile probes record and do nothing, and count who meets whom: occupancies by probe."""
+        occupancies = self.occupancies = {}
+        try:
+            yield occupancies
+        finally:
+            self.occupancies = None
 
     def count(self, component: str) -> int:
         """Number the next body made for ``component``, from 1, and record its creation."""
@@ -91,6 +111,9 @@ class ProbePort(PortElementObject):
 
     def exchange(self, value: int) -> int:
         return self.probe.exchange(self.identity.port, value)
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return self.probe.call(self.identity.port, method, arguments)
 
 
 class ProbeExecution(ComponentExecution):
@@ -156,16 +179,57 @@ class Probe(ComponentObject):
 
     def run(self) -> None:
         """What the container of a self-executing probe calls."""
-        self._visit("run")
+        if not self._is_stressed():
+            self._visit("run")
+
+    def _is_stressed(self) -> bool:
+        """Under stress: count who is met here, and tell that there is nothing else to do."""
+        occupancies = self.stage.occupancies
+        if occupancies is None:
+            return False
+        occupancies.setdefault(id(self), Occupancy()).visit()
+        return True
 
     def exchange(self, port: str, value: int) -> int:
         """The business method of provided port element ``port``."""
+        if self._is_stressed():
+            return ~value
         if not is_integer(value):
             self.stage.recorder.complain(f"exchange was called with {value!r}, which is no integer")
             value = 0
         result = self._visit("exchange", result=~value, port=port, value=value)
         assert result is not None
         return result
+
+    def call(self, port: str, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        """Any method of provided port element ``port``, which has an interface."""
+        plan = self._plan.get("method", ())
+        if not self.stage.recorder.recording:
+            return []
+        if not (isinstance(arguments, list | tuple) and is_datum(arguments)):
+            self.stage.recorder.complain(f"{method} was called with {arguments!r}, which are no values")
+            return []
+        if any(isinstance(action, s.CountMessages) for action in plan):
+            self.stage.messages.add(self.component, self.instance, int(arguments[0]))
+            return ["ok"]
+        given = snapshot(arguments)
+        self._record(Enter, hook="method", port=port, method=method, arguments=given)
+        answer = s.Answer(method, ())
+        for action in plan:
+            if isinstance(action, s.RaiseError):
+                self._record(Exit, hook="method", raised=True)
+                raise PlannedFailure(f"{self.component} fails in {method}, as planned")
+            if not isinstance(action, s.Answer):
+                self._act(action)
+            elif action.method == method:
+                answer = action
+        results = snapshot(given if answer.results is None else answer.results)
+        self._record(Exit, hook="method", results=snapshot(results), exception=answer.exception)
+        if answer.overwrite and isinstance(arguments, list):
+            overwrite(arguments)
+        if answer.exception is not None:
+            raise DeclaredException(answer.exception, results)
+        return list(results)
 
     def _visit(self, hook: Hook, result: int | None = None, **arguments: Any) -> int | None:
         """Record ``enter``, carry out the plan, record ``exit``; returns what the hook returns."""
@@ -188,6 +252,12 @@ class Probe(ComponentObject):
         if isinstance(action, s.CallPort):
             for reference in tuple(self._references.get(action.port, ())):
                 self._call(action.port, reference, action.value)
+        elif isinstance(action, s.CallMethod):
+            for reference in tuple(self._references.get(action.port, ())):
+                self._call_method(action, reference)
+        elif isinstance(action, s.Burst):
+            for reference in tuple(self._references.get(action.port, ())):
+                self._push(action, reference)
         elif isinstance(action, s.HoldAtGate):
             gate = action.gate
             self.stage.gates.hold(gate, lambda: self._record(Held, gate=gate))
@@ -205,6 +275,36 @@ class Probe(ComponentObject):
             self.stage.recorder.complain(f"exchange returned {result!r} to a probe; it returns an integer")
             return
         self._record(Reply, port=port, value=result)
+
+    def _call_method(self, action: s.CallMethod, reference: PortElementObject) -> None:
+        arguments = list(snapshot(action.arguments))
+        self._record(Request, port=action.port, method=action.method, arguments=action.arguments)
+        try:
+            results = reference.call(action.method, arguments)
+        except DeclaredException as error:
+            self._reply(action, error.fields, error.name)
+        except Exception:  # noqa: BLE001 - whatever the callee raised
+            self._record(Reply, port=action.port, raised=True)
+        else:
+            self._reply(action, results)
+        overwrite(arguments)  # they are the caller's own
+
+    def _reply(self, action: s.CallMethod, results: Any, exception: str | None = None) -> None:
+        if not (isinstance(results, list | tuple) and is_datum(results)):
+            self.stage.recorder.complain(f"{action.method} gave {results!r} to a probe, which are no values")
+            results = ()
+        self._record(Reply, port=action.port, results=snapshot(results), exception=exception)
+
+    def _push(self, action: s.Burst, reference: PortElementObject) -> None:
+        answers: dict[str, int] = {}
+        for value in range(action.first, action.first + action.count):
+            try:
+                results = reference.call(s.PUSH, [value])
+                code = str(results[0]) if results else ""
+            except Exception:  # noqa: BLE001 - whatever the callee raised
+                code = "raised"
+            answers[code] = answers.get(code, 0) + 1
+        self._record(Pushed, port=action.port, first=action.first, count=action.count, answers=answers)
 
     def _query_siblings(self) -> None:
         try:

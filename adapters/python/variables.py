@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ucm_cts.adapters.contract.adapter import ContainerHandle
+from ucm_cts.adapters.contract.adapter import ContainerHandle, LinkHandle
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN
 
@@ -26,6 +26,7 @@ class Variables:
         self._ids: dict[str, int] = {}
         self._references: dict[str, PortElementObject | None] = {}
         self._containers: dict[str, ContainerHandle] = {MANAGER: manager}
+        self._links: dict[str, LinkHandle] = {}
         self._given: set[int] = set()
 
     def bind_id(self, name: str, value: int) -> None:
@@ -43,6 +44,11 @@ class Variables:
         """``name`` is a container from now on."""
         self._forget(name)
         self._containers[name] = container
+
+    def bind_link(self, name: str, link: LinkHandle) -> None:
+        """``name`` is a connection with a connector from now on."""
+        self._forget(name)
+        self._links[name] = link
 
     def saw(self, ids: Iterable[int]) -> None:
         """The framework has let these ids be known, so none of them can serve as unknown."""
@@ -72,7 +78,14 @@ class Variables:
             raise Unbound(name)
         return self._containers[name]
 
+    def link(self, name: str) -> LinkHandle:
+        """The connection with a connector ``name``."""
+        if name not in self._links:
+            raise Unbound(name)
+        return self._links[name]
+
     def _forget(self, name: str) -> None:
         self._ids.pop(name, None)
         self._references.pop(name, None)
         self._containers.pop(name, None)
+        self._links.pop(name, None)

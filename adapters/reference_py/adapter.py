@@ -6,7 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 from ucm_cts.adapters.contract.adapter import Adapter
+from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.contract.programming_model import Implementation, PortElementObject
+from ucm_cts.adapters.reference_py.connectors import Link
 from ucm_cts.adapters.reference_py.framework import Container, ContainerManager
 
 
@@ -49,6 +51,21 @@ class ReferenceAdapter(Adapter):
 
     def remove_container(self, manager: ContainerManager, sub_container: Container | None) -> None:
         manager.remove_container(sub_container)
+
+    def link(self, manager: ContainerManager, connector: str, interface: Interface) -> Link:
+        return manager.link(connector, interface)
+
+    def attach(self, link: Link, role: str, container: Container, comp_instance: int, port_name: str) -> None:
+        link.attach(role, container, comp_instance, port_name)
+
+    def detach(self, link: Link, container: Container, comp_instance: int, port_name: str) -> None:
+        link.detach(container, comp_instance, port_name)
+
+    def break_link(self, link: Link, where: str) -> None:
+        link.break_link(where)
+
+    def mend_link(self, link: Link) -> None:
+        link.mend_link()
 
     def destroy(self, manager: ContainerManager) -> None:
         manager.destroy()

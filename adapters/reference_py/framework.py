@@ -27,6 +27,7 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
     UcmError,
 )
+from ucm_cts.adapters.reference_py.connectors import Link, UsesConnectors
 from ucm_cts.adapters.reference_py.policies import ExecutesComponents, Execution
 
 
@@ -82,7 +83,7 @@ class Failures:
             raise UcmError(self.first)
 
 
-class Container(ExecutesComponents):
+class Container(ExecutesComponents, UsesConnectors):
     """Members with a common life cycle (11.2.2.1)."""
 
     def __init__(self, manager: ContainerManager | None) -> None:
@@ -135,9 +136,7 @@ class Container(ExecutesComponents):
             self._check_configuring()
             if self._is_connected(member, port_name):
                 raise UcmError(f"{port_name!r} is connected already")
-            connection = Connection(self._new_id(), member, port_name, to_port)
-            self._connect(connection)
-            return connection.id
+            return self._connect_to(member, port_name, to_port)
 
     def disconnect(self, connection: int) -> None:
         with self._operation():
@@ -145,9 +144,7 @@ class Container(ExecutesComponents):
             if found is None or found.client.container is not self:
                 raise NotFound(f"no connection {connection}")
             self._check_configuring()
-            failures = Failures()
-            self._disconnect(found, failures)
-            failures.report()
+            self._undo(found)
 
     def start(self) -> None:
         with self._operation():
@@ -234,6 +231,16 @@ class Container(ExecutesComponents):
     def _initialise(self, member: Member) -> None:
         member.body.on_init()
 
+    def _connect_to(self, member: Member, port: str, target: PortElementObject) -> int:
+        connection = Connection(self._new_id(), member, port, target)
+        self._connect(connection)
+        return connection.id
+
+    def _undo(self, connection: Connection) -> None:
+        failures = Failures()
+        self._disconnect(connection, failures)
+        failures.report()
+
     def _connect(self, connection: Connection) -> None:
         body = connection.client.body
         if isinstance(body, Connectable):
@@ -265,11 +272,13 @@ class Container(ExecutesComponents):
         """All members have been started."""
         self.is_started = True
         for member in self.started:
+            self._open_entrances(member)
             self._begin_execution(member)
 
     def _shut_down_started(self, failures: Failures) -> None:
         """Shut down, last started first, what has been started."""
         for member in self.started:
+            self._close_entrances(member)
             self._end_execution(member)
         while self.started:
             self._shut_down(self.started.pop(), failures)
@@ -281,6 +290,7 @@ class Container(ExecutesComponents):
         failures.attempt(member.body.on_shutdown)
 
     def _remove(self, member: Member, failures: Failures) -> None:
+        self._leave_links(member)
         failures.attempt(member.body.on_remove)
         member.execution.executor.close()
         del self.members[member.id]
@@ -343,6 +353,7 @@ class ContainerManager(Container):
         self.implementations = {implementation.name: implementation for implementation in implementations}
         self.sub_containers: list[Container] = []
         self.connections: dict[int, Connection] = {}
+        self.links: list[Link] = []
         self.numbers = itertools.count(1)
         self.lock = threading.Lock()
         self.busy_thread: int | None = None

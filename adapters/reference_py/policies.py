@@ -13,6 +13,7 @@ from concurrent.futures import Future
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, TypeVar
 
+from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import (
     ComponentExecution,
     Implementation,
@@ -121,6 +122,9 @@ class ProtectedElement(PortElementObject):
 
     def exchange(self, value: int) -> int:
         return self.member.container._execute(self.member, self.port, lambda: self.element.exchange(value))
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return self.member.container._execute(self.member, self.port, lambda: self.element.call(method, arguments))
 
 
 class ExecutesComponents:

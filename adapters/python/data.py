@@ -1,0 +1,38 @@
+"""Values of UCM types on their way through a probe: what was given is copied before anybody can change it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ucm_cts.adapters.contract.data_types import Datum
+
+
+def is_datum(value: object) -> bool:
+    """Can it stand for a value of a UCM type?"""
+    if isinstance(value, list | tuple):
+        return all(map(is_datum, value))
+    return isinstance(value, bool | int | str)
+
+
+def snapshot(values: Sequence[Any]) -> tuple[Datum, ...]:
+    """``values`` as they are now, in lists of their own."""
+    return tuple(_copy(value) for value in values)
+
+
+def overwrite(values: list[Datum]) -> None:
+    """Put something else in every place of ``values``, as the owner of a buffer may."""
+    for index, value in enumerate(values):
+        if isinstance(value, list):
+            overwrite(value)
+            value.append(0)
+        elif isinstance(value, bool):
+            values[index] = not value
+        elif isinstance(value, int):
+            values[index] = int(value == 0)
+        else:
+            values[index] = value + "?"
+
+
+def _copy(value: Any) -> Datum:
+    return [_copy(one) for one in value] if isinstance(value, list | tuple) else value
