@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import msgspec
 import pytest
@@ -15,6 +15,7 @@ from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.integrity import contradiction
 from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
 
@@ -29,9 +30,14 @@ def scenarios(clauses: tuple[str, ...]) -> Iterator[tuple[str, Scenario]]:
             yield from purpose.scenarios
 
 
-def failing(adapter: type[ReferenceAdapter], clauses: tuple[str, ...], patience: int | None = None) -> dict[str, str]:
+def failing(
+    adapter: type[ReferenceAdapter],
+    clauses: tuple[str, ...],
+    patience: int | None = None,
+    readings: Mapping[str, str] = {},
+) -> dict[str, str]:
     """Failing requirements, each with an example."""
-    judge = Judge(load_life_cycle())
+    judge = Judge(load_life_cycle(), Claims(readings))
     found: dict[str, str] = {}
     for name, whole in scenarios(clauses):
         asked = whole if patience is None else msgspec.structs.replace(whole, patience=patience)
@@ -55,7 +61,7 @@ def test_conformant_framework_is_not_failed(adapter: type[ReferenceAdapter]) -> 
 
 @pytest.mark.parametrize("subject", CORE_SUBJECTS.values(), ids=CORE_SUBJECTS.keys())
 def test_wrong_framework_fails_for_the_right_reason(subject: WrongSubject) -> None:
-    found = failing(subject.adapter, subject.clauses, SHORT_PATIENCE)
+    found = failing(subject.adapter, subject.clauses, SHORT_PATIENCE, subject.readings)
     missed = set(subject.requirements) - set(found)
     spilled = {k: v for k, v in found.items() if k not in subject.requirements and k not in subject.also}
     assert not missed, f"{subject.name} survives {missed}; it fails {found}"

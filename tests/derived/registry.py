@@ -6,8 +6,8 @@ in ``also``: requirements that are truly broken by the same defect.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
@@ -23,6 +23,7 @@ class WrongSubject:
     requirements: tuple[str, ...]
     also: tuple[str, ...]
     clauses: tuple[str, ...] = ()
+    readings: Mapping[str, str] = field(default_factory=dict)
 
 
 SUBJECTS: dict[str, WrongSubject] = {}
@@ -82,12 +83,17 @@ def policy_variant(mixin: type) -> type:
     return mixin
 
 
-def breaks_core(*requirements: str, clauses: tuple[str, ...], also: tuple[str, ...] = ()) -> Callable[[type], type]:
-    """Register the decorated mixin as a wrong subject that the test purposes of ``clauses`` are to find out."""
+def breaks_core(
+    *requirements: str, clauses: tuple[str, ...], also: tuple[str, ...] = (), readings: Mapping[str, str] = {}
+) -> Callable[[type], type]:
+    """Register the decorated mixin as a wrong subject that the test purposes of ``clauses`` are to find out.
+
+    ``readings`` are what its vendor declares of options.
+    """
 
     def register(mixin: type) -> type:
         adapter = bind(mixin.__name__, mixin, mixin.__doc__)
-        CORE_SUBJECTS[mixin.__name__] = WrongSubject(mixin.__name__, adapter, requirements, also, clauses)
+        CORE_SUBJECTS[mixin.__name__] = WrongSubject(mixin.__name__, adapter, requirements, also, clauses, readings)
         return mixin
 
     return register
