@@ -11,8 +11,10 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "ucm_cts/data_types.hpp"
 #include "ucm_cts/scenario.hpp"
 
 namespace ucm_cts {
@@ -34,6 +36,22 @@ class UcmError : public std::runtime_error {
     explicit UcmError(const std::string& why) : std::runtime_error(why) {}
 };
 
+/// An exception that the called method declares: its name and the values of its fields.
+class DeclaredException : public std::runtime_error {
+  public:
+    explicit DeclaredException(const std::string& its_name, Data its_fields = Data())
+        : std::runtime_error(its_name), name(its_name), fields(std::move(its_fields)) {}
+
+    std::string name;
+    Data fields;
+};
+
+/// The adapter does not offer this optional operation.
+class NotOffered : public std::logic_error {
+  public:
+    NotOffered() : std::logic_error("the adapter does not offer this operation") {}
+};
+
 /// Component and connection ids. 12.10 has 32 bits; that they fit is judged, so wider ones must come through.
 typedef std::int64_t Id;
 
@@ -44,11 +62,20 @@ struct Identity {
     std::string port;
 };
 
-/// A provided port element (11.2.1.1), independent of any framework.
+/// A provided port element (11.2.1.1), independent of any framework. One without interface has one business method,
+/// `exchange`: a signed 32-bit value in, one out.
 class PortElement {
   public:
     virtual ~PortElement() = default;
     virtual std::int32_t exchange(std::int32_t value) = 0;
+
+    /// Any method of an interface, by name: takes IN and INOUT values, returns those of OUT, INOUT and RETURN, each in the
+    /// order of declaration; may throw DeclaredException. What stands between caller and body (connectors, proxies of
+    /// protected components) offers it, too: it is what generated code would be. `arguments` are the caller's own, who
+    /// may overwrite them as soon as the call is over.
+    virtual Data call(const std::string& method, const Data& /*arguments*/) {
+        throw std::logic_error("the port element cannot be called by name: " + method);
+    }
 
     /// Null unless this is a probe's own port element.
     virtual const Identity* identity() const { return nullptr; }
@@ -103,7 +130,11 @@ class Body {
 };
 
 /// A component implementation the framework shall be able to instantiate. Its bodies may outlive the scenario.
-/// `policies` are the technical policies that the container has to apply (10.1.3).
+/// `policies` are the technical policies that the container has to apply (10.1.3, 10.1.4). `interfaces` are those of the
+/// port elements that have one; the others have `exchange`.
+///
+/// The port element that a component requires by a policy is handed over in `on_startup` like any other, under the name
+/// `policy.element`, and takes `call`.
 struct Implementation {
     std::string name;
     std::vector<std::string> provided;
@@ -113,10 +144,20 @@ struct Implementation {
     bool fragment;
     std::function<std::shared_ptr<Body>()> create;
     std::vector<Policy> policies;
+    Interfaces interfaces;
 };
 
 /// Whatever the adapter uses for a container.
 typedef std::shared_ptr<void> ContainerHandle;
+
+/// Whatever the adapter uses for a connection with a connector.
+typedef std::shared_ptr<void> LinkHandle;
+
+/// A record of the trace (10.1.4.2): `severity` is an enumerator of log_severity_t.
+struct LogRecord {
+    std::string severity;
+    std::string message;
+};
 
 /// Binds one framework. One instance is made for each scenario and serves one runtime. Scenarios with threads call
 /// operations from several threads at once.
@@ -147,6 +188,36 @@ class Adapter {
 
     /// How the framework spells the name of a port element at its API.
     virtual std::string port_element_name() const { return "{port}_{element}"; }
+
+    // What profile core needs beside; what an adapter does not override stays untested.
+
+    /// Makes a connection without ends (9.5.5.4) with a `connector` of 10.1, `simple_service_connector` or
+    /// `simple_message_connector`, bound to `interface`.
+    virtual LinkHandle link(const ContainerHandle& /*manager*/, const std::string& /*connector*/,
+                            const SharedInterface& /*interface*/) {
+        throw NotOffered();
+    }
+
+    /// Makes the port element an end of `link`, in the `role` of `client`, `server`, `emitter` or `receiver`.
+    virtual void attach(const LinkHandle& /*link*/, const std::string& /*role*/, const ContainerHandle& /*container*/,
+                        Id /*comp_instance*/, const std::string& /*port_name*/) {
+        throw NotOffered();
+    }
+
+    /// The port element is no longer an end of `link`.
+    virtual void detach(const LinkHandle& /*link*/, const ContainerHandle& /*container*/, Id /*comp_instance*/,
+                        const std::string& /*port_name*/) {
+        throw NotOffered();
+    }
+
+    /// Breaks the `transport` of `link`, or its connector `inside`, until it is mended (10.1.2).
+    virtual void break_link(const LinkHandle& /*link*/, const std::string& /*where*/) { throw NotOffered(); }
+
+    /// Mends what was broken.
+    virtual void mend_link(const LinkHandle& /*link*/) { throw NotOffered(); }
+
+    /// All records of the trace (10.1.4.2) so far, oldest first.
+    virtual std::vector<LogRecord> read_log(const ContainerHandle& /*manager*/) { throw NotOffered(); }
 };
 
 typedef std::function<std::shared_ptr<Adapter>()> AdapterFactory;

@@ -82,7 +82,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
             all.push_back(Implementation{declaration.name, declaration.provided, declaration.required,
                                          std::move(attributes), declaration.connectable, declaration.fragment,
                                          [what, stage, scenario, cast] { return make(*what, stage, scenario, *cast); },
-                                         declaration.policies});
+                                         declaration.policies, Interfaces()});
         }
         return all;
     }

@@ -48,10 +48,13 @@ struct Action {
 typedef std::map<std::string, std::string> Attributes;
 
 /// A technical policy of a component implementation (9.5.4.3). `port` is empty unless the policy is that of a port element.
+/// `element` is the name under which the component gets the port element that it requires by the policy (10.1.4), empty if
+/// it requires none.
 struct Policy {
     std::string definition;
     std::string port;
     std::map<std::string, std::string> parameters;
+    std::string element;
 };
 
 /// The execution policy (10.1.3) that makes a component provide a port element to its container, and that port element.
@@ -186,6 +189,11 @@ inline Policy read_policy(const json::Value& value) {
         }
     });
     fields.optional("parameters", [&policy](const json::Value& values) { policy.parameters = read_texts(values); });
+    fields.optional("element", [&policy](const json::Value& element) {
+        if (element.kind() != json::Kind::null) {
+            policy.element = element.text();
+        }
+    });
     fields.end();
     return policy;
 }

@@ -34,6 +34,17 @@ Properties properties(const std::string& name, const std::string& implementation
 ///     exceptions NOT_FOUND, BAD_PARAMETER, UCM_ERROR;
 ///   - `static std::shared_ptr<ContainerManager> create_runtime(const std::vector<ShapedImplementation<Traits>>&)`;
 ///   - `static Properties configuration(const std::string& implementation, const Attributes&)`, what add_component takes.
+///
+/// For port elements with interfaces (profile core) it also has
+///   - `static std::shared_ptr<PortElementObject> typed(const Reference& own, const SharedInterface&)`: a port element of
+///     the framework, each method of which is `own->call(method, arguments)`; what that throws as DeclaredException, it
+///     throws in the framework's way. Its class also derives from `ProbesOwn(own)`, so that the SDK recognises it. Asked
+///     for once a port element. The null pointer stands for a port element without interface.
+///   - `static Data call(PortElementObject&, const std::string& method, const Data& arguments)`: calls a method of
+///     whatever the framework handed over: what `typed` made, what stands before it, or the framework's own port element
+///     for a policy. A declared exception leaves it as DeclaredException, any other as it is.
+/// Connectors and the rest of profile core are operations of Adapter: derive from ShapedAdapter and override `link`,
+/// `attach`, ..., with `of`, `manager_` and `translate` at hand.
 template <class Traits>
 class ShapedAdapter : public Adapter {
   public:

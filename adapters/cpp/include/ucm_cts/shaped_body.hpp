@@ -83,6 +83,27 @@ auto references_of(const Connection& connection, long) -> decltype((connection.r
     return connection.ref;
 }
 
+/// Traits::typed, if the Traits have it: null makes the port element one without interface.
+template <class Traits>
+auto typed(const Reference& own, const SharedInterface& interface, int) -> decltype(Traits::typed(own, interface)) {
+    return Traits::typed(own, interface);
+}
+template <class Traits>
+std::shared_ptr<typename Traits::PortElementObject> typed(const Reference&, const SharedInterface&, long) {
+    return nullptr;
+}
+
+/// Traits::call, if the Traits have it.
+template <class Traits, class Element>
+auto call(Element& element, const std::string& method, const Data& arguments, int)
+    -> decltype(Traits::call(element, method, arguments)) {
+    return Traits::call(element, method, arguments);
+}
+template <class Traits, class Element>
+Data call(Element&, const std::string& method, const Data&, long) {
+    throw std::logic_error("the adapter cannot call by name: " + method);
+}
+
 /// The framework's component_execution_intf (12.11.1) if the Traits name it as ComponentExecution, else the SDK's.
 template <class Traits>
 typename Traits::ComponentExecution* execution_of(int);
@@ -113,6 +134,15 @@ class ShapedPort final : public ShapedExchange<Traits> {
     const Reference port_;
 };
 
+/// For what Traits::typed makes: a second base class, by which the SDK recognises the probe's own port element.
+class ProbesOwn {
+  public:
+    explicit ProbesOwn(Reference its_element) : element(std::move(its_element)) {}
+    virtual ~ProbesOwn() = default;
+
+    const Reference element;
+};
+
 /// A reference of the framework as the SDK sees it.
 template <class Traits>
 class ShapedReference final : public PortElement {
@@ -138,7 +168,17 @@ class ShapedReference final : public PortElement {
         return exchange_->exchange(value);
     }
 
-    const Identity* identity() const override { return exchange_ != nullptr ? exchange_->identity() : nullptr; }
+    Data call(const std::string& method, const Data& arguments) override {
+        return detail::call<Traits>(*pointer_, method, arguments, 0);
+    }
+
+    const Identity* identity() const override {
+        if (exchange_ != nullptr) {
+            return exchange_->identity();
+        }
+        const ProbesOwn* const own = dynamic_cast<const ProbesOwn*>(pointer_.get());
+        return own != nullptr ? own->element->identity() : nullptr;
+    }
 
   private:
     const Pointer pointer_;
@@ -172,7 +212,8 @@ class ShapedBody : public Base, public NamedFeatures {
     typedef typename Traits::ComponentObject Object;
 
   public:
-    explicit ShapedBody(std::shared_ptr<Body> body) : body_(std::move(body)) {}
+    ShapedBody(std::shared_ptr<Body> body, Interfaces interfaces)
+        : body_(std::move(body)), interfaces_(std::move(interfaces)) {}
 
     void set_attribute(const std::string& name, const std::string& value) override {
         body_->set_attribute(name, value);
@@ -215,7 +256,7 @@ class ShapedBody : public Base, public NamedFeatures {
         if (!reference) {
             return nullptr;
         }
-        ports_.emplace_back(provided, std::make_shared<ShapedPort<Traits>>(reference));
+        ports_.emplace_back(provided, shaped(provided, reference));
         return ports_.back().second;
     }
 
@@ -223,8 +264,18 @@ class ShapedBody : public Base, public NamedFeatures {
     const std::shared_ptr<Body> body_;
 
   private:
+    typedef std::shared_ptr<typename Traits::PortElementObject> Pointer;
+
+    Pointer shaped(const std::string& provided, const Reference& reference) const {
+        const auto interface = interfaces_.find(provided);
+        const Pointer typed = interface != interfaces_.end() ? Pointer(detail::typed<Traits>(reference, interface->second, 0))
+                                                             : nullptr;
+        return typed ? typed : std::make_shared<ShapedPort<Traits>>(reference);
+    }
+
+    const Interfaces interfaces_;
     std::mutex mutex_;
-    std::vector<std::pair<std::string, std::shared_ptr<ShapedPort<Traits>>>> ports_;
+    std::vector<std::pair<std::string, Pointer>> ports_;
 };
 
 /// ComponentObject and FragmentObject in one, whether FragmentObject extends ComponentObject (11.2.1.4) or not (12.10).
@@ -253,8 +304,8 @@ class ShapedFragment : public ShapedBody<Traits, FragmentBase<Traits>> {
     };
 
   public:
-    explicit ShapedFragment(std::shared_ptr<Body> body)
-        : ShapedBody<Traits, FragmentBase<Traits>>(std::move(body)) {}
+    ShapedFragment(std::shared_ptr<Body> body, Interfaces interfaces)
+        : ShapedBody<Traits, FragmentBase<Traits>>(std::move(body), std::move(interfaces)) {}
 
     void set_container_interface(ContainerArgument container) override {
         this->body_->set_container_interface(container ? std::make_shared<Access>(container) : nullptr);
@@ -267,7 +318,8 @@ class ShapedConnectable final : public Base, public Traits::Connectable {
     typedef typename Traits::Connectable Callbacks;
 
   public:
-    explicit ShapedConnectable(std::shared_ptr<Body> body) : Base(std::move(body)) {}
+    ShapedConnectable(std::shared_ptr<Body> body, Interfaces interfaces)
+        : Base(std::move(body), std::move(interfaces)) {}
 
     void on_connect(detail::Argument<decltype(&Callbacks::on_connect), 0> port_name,
                     detail::Argument<decltype(&Callbacks::on_connect), 1> required) override {
@@ -300,6 +352,9 @@ struct ShapedImplementation {
     std::function<std::shared_ptr<Execution>(ComponentObject&, const std::string&, const std::string&)>
         get_policy_element;
 
+    /// For frameworks with typed interfaces: those of the port elements that have one.
+    Interfaces interfaces;
+
     explicit ShapedImplementation(const Implementation& from)
         : name(from.name),
           provided(from.provided),
@@ -315,22 +370,27 @@ struct ShapedImplementation {
           get_policy_element([](ComponentObject& body, const std::string& policy, const std::string& element) {
               const auto execution = dynamic_cast<NamedFeatures&>(body).get_policy_element(policy, element);
               return execution ? std::make_shared<ShapedExecution<Execution>>(execution) : nullptr;
-          }) {}
+          }),
+          interfaces(from.interfaces) {}
 
   private:
     static std::function<std::shared_ptr<ComponentObject>()> maker(const Implementation& from) {
         typedef ShapedBody<Traits, ComponentObject> Plain;
         typedef ShapedFragment<Traits> Fragment;
         if (from.connectable) {
-            return from.fragment ? make<ShapedConnectable<Traits, Fragment>>(from.create)
-                                 : make<ShapedConnectable<Traits, Plain>>(from.create);
+            return from.fragment ? make<ShapedConnectable<Traits, Fragment>>(from)
+                                 : make<ShapedConnectable<Traits, Plain>>(from);
         }
-        return from.fragment ? make<Fragment>(from.create) : make<Plain>(from.create);
+        return from.fragment ? make<Fragment>(from) : make<Plain>(from);
     }
 
     template <class Shaped>
-    static std::function<std::shared_ptr<ComponentObject>()> make(const std::function<std::shared_ptr<Body>()>& create) {
-        return [create] { return std::shared_ptr<ComponentObject>(std::make_shared<Shaped>(create())); };
+    static std::function<std::shared_ptr<ComponentObject>()> make(const Implementation& from) {
+        const std::function<std::shared_ptr<Body>()> create = from.create;
+        const Interfaces its_interfaces = from.interfaces;
+        return [create, its_interfaces] {
+            return std::shared_ptr<ComponentObject>(std::make_shared<Shaped>(create(), its_interfaces));
+        };
     }
 };
 
