@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Call, Enter, Exit, Raise, Reply, Request, Return
+from ucm_cts.adapters.contract.trace import Call, Enter, Exit, Held, Opened, Raise, Reply, Request, Return
 from ucm_cts.reference_models.executions import BusinessCall, connections_behind
-from ucm_cts.reference_models.runtime import NO_ID, Connection, Member, Runtime
+from ucm_cts.reference_models.runtime import NO_ID, Connection, Container, Member, Runtime
 
 Fit = Literal["same", "altered", "repeated", "stray"]
 """How an entry fits the calls made so far: as one was made; as one was made, but for its values; like one that had been
@@ -18,6 +18,7 @@ delivered here before; like none.
 """
 
 _SENDERS = ("client", "emitter")
+_TAKERS = ("server", "receiver")
 
 
 @dataclass(slots=True, eq=False)
@@ -36,7 +37,9 @@ class End:
 
 @dataclass(slots=True, eq=False)
 class LinkState:
-    """A connection with a core connector. ``broken`` says where it is broken now, ``broken_at`` since when (``t``)."""
+    """A connection with a core connector. ``broken`` says where it is broken now, ``broken_at`` since when (``t``), and
+    ``mended_at`` when it was mended last.
+    """
 
     name: str
     connector: str
@@ -44,6 +47,7 @@ class LinkState:
     ends: list[End] = field(default_factory=list)
     broken: str = ""
     broken_at: int = 0
+    mended_at: int = 0
 
     def live(self, *roles: str) -> list[End]:
         """The ends of these roles that are attached now."""
@@ -52,7 +56,9 @@ class LinkState:
 
 @dataclass(slots=True, eq=False)
 class Delivery:
-    """A body was entered at a method. ``call`` is the call that it belongs to, None for a stray one."""
+    """A body was entered at a method. ``call`` is the call that it belongs to, None for a stray one. ``was_held`` says that
+    it had to wait there at a gate.
+    """
 
     enter: Enter
     receiver: Member | None
@@ -60,12 +66,14 @@ class Delivery:
     call: MethodCall | None
     fit: Fit
     exit: Exit | None = None
+    was_held: bool = False
 
 
 @dataclass(slots=True, eq=False)
 class MethodCall:
     """A body's call of a method. ``broken`` says where its link was broken when it was made, ``targets`` are the other ends
-    that were attached then, with whether each was operational.
+    that were attached then, with whether each was operational. ``idle`` are those that certainly were not. A message is
+    ``crowded`` if another one was on its way when it was pushed, or pushed before it was answered.
     """
 
     request: Request
@@ -74,8 +82,15 @@ class MethodCall:
     link: LinkState | None
     broken: str = ""
     targets: list[tuple[End, bool]] = field(default_factory=list)
+    idle: list[End] = field(default_factory=list)
+    crowded: bool = False
     deliveries: list[Delivery] = field(default_factory=list)
     reply: Reply | None = None
+
+    @property
+    def is_message(self) -> bool:
+        """Was it pushed through a message connector?"""
+        return self.link is not None and self.link.connector == s.MESSAGE_CONNECTOR and self.request.method == s.PUSH
 
     @property
     def code(self) -> object:
@@ -83,19 +98,24 @@ class MethodCall:
         results = self.reply.results if self.reply is not None and self.reply.exception is None else None
         return results[0] if results else None
 
-    def delivered_to(self, receiver: Member | None) -> list[Delivery]:
-        """The entries into that receiver that belong to this call."""
-        return [d for d in self.deliveries if d.receiver is receiver]
+    def delivered_to(self, receiver: Member | None, port: str | None = None) -> list[Delivery]:
+        """The entries into that receiver, at ``port`` or anywhere, that belong to this call."""
+        return [d for d in self.deliveries if d.receiver is receiver and port in (None, d.enter.port)]
 
 
 class Interactions:
-    """All links, calls and deliveries of one trace."""
+    """All links, calls and deliveries of one trace. ``held`` are bodies at gates that are closed, ``released_at`` is when the
+    last of them was let go.
+    """
 
     def __init__(self, runtime: Runtime) -> None:
         self._runtime = runtime
         self.links: dict[str, LinkState] = {}
         self.calls: list[MethodCall] = []
         self.deliveries: list[Delivery] = []
+        self.held: list[Held] = []
+        self.released_at = 0
+        self._opened: set[str] = set()
         self._open: dict[int, list[MethodCall]] = {}
         self._inside: dict[int, list[Delivery]] = {}
 
@@ -111,7 +131,7 @@ class Interactions:
         if isinstance(step, s.Break):
             link.broken, link.broken_at = step.where, end.t
         elif isinstance(step, s.Mend):
-            link.broken = ""
+            link.broken, link.mended_at = "", end.t
         elif isinstance(step, s.Attach):
             self._attach(link, step, begin)
         else:
@@ -146,7 +166,10 @@ class Interactions:
         call = MethodCall(event, business, caller, self._link_of(caller, event.port, _SENDERS))
         if call.link is not None:
             call.broken = call.link.broken
-            call.targets = [(end, end.member.serving) for end in call.link.live("server", "receiver")]
+            call.targets = [(end, end.member.serving) for end in call.link.live(*_TAKERS)]
+            call.idle = [end for end, _ in call.targets if _is_idle(self._runtime, end.member)]
+        if call.is_message:
+            self._look_around(call)
         self.calls.append(call)
         self._open.setdefault(event.thread, []).append(call)
 
@@ -162,7 +185,7 @@ class Interactions:
     def enter(self, event: Enter) -> Delivery:
         """A body is entered at a method."""
         receiver = self._runtime.member_of(event.component, event.instance)
-        link = self._link_of(receiver, event.port or "", ("server", "receiver"))
+        link = self._link_of(receiver, event.port or "", _TAKERS)
         call, fit = self._call_behind(event, receiver, link)
         delivery = Delivery(event, receiver, link, call, fit)
         if call is not None:
@@ -176,6 +199,38 @@ class Interactions:
         inside = self._inside.get(event.thread)
         if inside:
             inside.pop().exit = event
+
+    def hold(self, event: Held) -> None:
+        """A body is held at a gate, if the gate is closed."""
+        if event.gate in self._opened:
+            return
+        self.held.append(event)
+        for delivery in self._inside.get(event.thread, ()):
+            delivery.was_held = True
+
+    def open(self, event: Opened) -> None:
+        """A gate is opened for good."""
+        self._opened.add(event.gate)
+        if any(held.gate == event.gate for held in self.held):
+            self.released_at = event.t
+        self.held = [held for held in self.held if held.gate != event.gate]
+
+    def incomplete(self, container: Container) -> list[LinkState]:
+        """Links that members of ``container`` are ends of and that lack one of their two sides."""
+        return [
+            link
+            for link in self.links.values()
+            if any(end.member.container is container for end in link.live(*_SENDERS, *_TAKERS))
+            and not (link.live(*_SENDERS) and link.live(*_TAKERS))
+        ]
+
+    def _look_around(self, call: MethodCall) -> None:
+        """Is another message on its way?"""
+        for other in self.calls:
+            if other.is_message and other.reply is None:
+                call.crowded = other.crowded = True
+            elif other.is_message and not other.broken and other.code == "ok":
+                call.crowded = call.crowded or any(ready and not _is_done(other, end) for end, ready in other.targets)
 
     def _link_of(self, member: Member | None, port: str, roles: tuple[str, ...]) -> LinkState | None:
         """The link that ``port`` of ``member`` is, or was last, an end of."""
@@ -191,17 +246,43 @@ class Interactions:
         self, event: Enter, receiver: Member | None, link: LinkState | None
     ) -> tuple[MethodCall | None, Fit]:
         """The call that led to this entry. Services answer before the next call of the client; messages may come late."""
+        is_message = link is not None and link.connector == s.MESSAGE_CONNECTOR
         candidates = [c for c in self.calls if c.request.method == event.method and self._leads_to(c, receiver, link)]
-        if link is None or link.connector == s.SERVICE_CONNECTOR:
+        if not is_message:
             candidates = [c for c in candidates if c.reply is None] or candidates
         same = [c for c in candidates if c.request.arguments == event.arguments]
-        undelivered = [c for c in same if not c.delivered_to(receiver)]
+        undelivered = [c for c in same if not c.delivered_to(receiver, event.port)]
         if undelivered:
-            return undelivered[0], "same"
+            return min(undelivered, key=lambda call: self._doubt(call, receiver)), "same"
+        mistaken = [d for c in same for d in c.delivered_to(receiver, event.port) if d.fit == "altered"]
+        if mistaken and is_message:
+            return self._give_back(mistaken[0], candidates), "same"
         if same:
             return same[-1], "repeated"
-        altered = [c for c in candidates if not c.delivered_to(receiver)]
+        if is_message and any(c.request.arguments == event.arguments for c in self.calls if c.is_message):
+            return None, "stray"
+        altered = [c for c in candidates if not c.delivered_to(receiver, event.port)]
         return (altered[0], "altered") if altered else (None, "stray")
+
+    def _doubt(self, call: MethodCall, receiver: Member | None) -> tuple[bool, bool, bool]:
+        """What speaks against a message's delivery: a phase that is over, a broken link, another code than ok."""
+        body = (receiver.component, receiver.instance or 0) if receiver is not None else ("", 0)
+        since = self._runtime.startups.get(body, (0, 0))[0]
+        refused = call.reply is not None and call.code != "ok"
+        return call.request.n < since, bool(call.broken), refused
+
+    def _give_back(self, mistaken: Delivery, candidates: list[MethodCall]) -> MethodCall | None:
+        """What seemed to be this call's message was another one: find another call for it, and give the call back."""
+        call = mistaken.call
+        if call is not None:
+            call.deliveries.remove(mistaken)
+        others = [c for c in candidates if c is not call and not c.delivered_to(mistaken.receiver, mistaken.enter.port)]
+        mistaken.call = others[0] if others else None
+        if mistaken.call is not None:
+            mistaken.call.deliveries.append(mistaken)
+        else:
+            mistaken.fit = "stray"
+        return call
 
     def _leads_to(self, call: MethodCall, receiver: Member | None, link: LinkState | None) -> bool:
         if link is not None or call.link is not None:
@@ -209,3 +290,16 @@ class Interactions:
         if call.caller is None or receiver is None:
             return False
         return any(c.provider is receiver for c in connections_behind(call.caller, call.request.port))
+
+
+def _is_idle(runtime: Runtime, member: Member) -> bool:
+    """Is it certain that it is not operational, and not being started?"""
+    being_started = (member.component, member.instance or 0) in runtime.startups and not member.closing
+    return member.container.started is False and not (member.operational or member.suspended or being_started)
+
+
+def _is_done(call: MethodCall, end: End) -> bool:
+    """Has the message been dealt with at that end, or can it no longer be?"""
+    if not end.member.serving:
+        return True
+    return any(delivery.exit is not None for delivery in call.delivered_to(end.member, end.port))
