@@ -48,7 +48,10 @@ class Disguise:
             tuple(self._step(step) for step in scenario.steps),
             scenario.patience,
             {
-                self._name(name): Interface({self._method(m): what for m, what in interface.methods.items()})
+                self._name(name): Interface(
+                    {self._method(m): what for m, what in interface.methods.items()},
+                    tuple(map(self._method, interface.inherited)),
+                )
                 for name, interface in scenario.interfaces.items()
             },
         )

@@ -84,6 +84,7 @@ class _Check:
         self.null = {s.NIL}
         self.holds: dict[tuple[str, int], dict[str, int]] = {}
         self.acts: dict[int, list[list[Action]]] = {}
+        self.held_before: dict[int, list[dict[str, int]]] = {}
         self.turns = Turns(scenario)
         self.waiting: dict[int, Held] = {}
         self.arrivals: Counter[str] = Counter()
@@ -292,7 +293,10 @@ class _Check:
         if isinstance(event, Enter):
             frames.append(event)
             acts.append([])
-            return self.check_enter(declaration, event)
+            problem = self.check_enter(declaration, event)
+            held = self.holds.get((event.component, event.instance), {})
+            self.held_before.setdefault(event.thread, []).append(held)
+            return problem
         if isinstance(event, Request):
             if acts:
                 acts[-1].append(
@@ -353,6 +357,7 @@ class _Check:
         return None
 
     def check_exit(self, declaration: s.Declaration, enter: Enter, event: Exit, acts: list[Action]) -> str | None:
+        before = self.held_before[event.thread].pop()
         if enter.hook != event.hook:
             return f"{event.hook} is left where {enter.hook} was entered"
         plan = declaration.plan.get(enter.hook, ())
@@ -367,7 +372,8 @@ class _Check:
                 due_results, due_exception = enter.arguments if own is None else own, answers[-1].exception
             if not event.raised and (event.results, event.exception) != (due_results, due_exception):
                 return f"{enter.method} gave {event.results!r}, its plan says {due_results!r}"
-        if acts != self.due(plan, event):
+        now = self.holds.get((event.component, event.instance), {})
+        if not _as_planned(plan, acts, (now,) if now is before else (now, before)):
             return f"{event.component} did not act in {event.hook} as its plan says"
         if event.hook == "on_shutdown":
             self.holds.pop((event.component, event.instance), None)
@@ -377,15 +383,22 @@ class _Check:
         due = planned[-1] if planned else ~enter.value
         return None if event.value == due else f"exchange returned {event.value}, its plan says {due}"
 
-    def due(self, plan: Sequence[Action], event: Exit) -> list[Action]:
-        """What the plan has the body do, given the references it holds."""
-        held = self.holds.get((event.component, event.instance), {})
-        due: list[Action] = []
-        for action in plan:
-            if isinstance(action, s.RaiseError):
-                break
-            if isinstance(action, s.CallPort | s.CallMethod | s.Burst):
-                due.extend([action] * held.get(action.port, 0))
-            elif not isinstance(action, s.ReturnValue | s.Answer | s.CountMessages):
-                due.append(action)
-        return due
+
+def _as_planned(plan: Sequence[Action], acts: list[Action], held: tuple[dict[str, int], ...]) -> bool:
+    """Are ``acts`` what the plan has a body do that held these references, by number, at one moment or another?"""
+    for index, action in enumerate(plan):
+        if isinstance(action, s.RaiseError):
+            break
+        if isinstance(action, s.ReturnValue | s.Answer | s.CountMessages):
+            continue
+        times = {1}
+        if isinstance(action, s.CallPort | s.CallMethod | s.Burst):
+            times = {one.get(action.port, 0) for one in held}
+        if len(times) > 1:
+            rest = plan[index + 1 :]
+            return any(acts[:n] == [action] * n and _as_planned(rest, acts[n:], held) for n in times)
+        (n,) = times
+        if acts[:n] != [action] * n:
+            return False
+        acts = acts[n:]
+    return not acts

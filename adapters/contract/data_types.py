@@ -144,6 +144,7 @@ class Method(Value, frozen=True):
 
 
 class Interface(Value, frozen=True):
-    """Methods by name, its own and those of the interfaces it inherits (9.2.7.2)."""
+    """Methods by name, its own and those of the interfaces it inherits (9.2.7.2), whose names are ``inherited``."""
 
     methods: dict[str, Method]
+    inherited: tuple[str, ...] = ()

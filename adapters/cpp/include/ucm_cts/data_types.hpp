@@ -97,9 +97,10 @@ struct Method {
     }
 };
 
-/// Methods by name, its own and those of the interfaces it inherits (9.2.7.2).
+/// Methods by name, its own and those of the interfaces it inherits (9.2.7.2), whose names are `inherited`.
 struct Interface {
     std::map<std::string, Method> methods;
+    std::vector<std::string> inherited;
 };
 
 typedef std::shared_ptr<const Interface> SharedInterface;
