@@ -67,5 +67,8 @@ class ReferenceAdapter(Adapter):
     def mend_link(self, link: Link) -> None:
         link.mend_link()
 
+    def read_log(self, manager: ContainerManager) -> list[tuple[str, str]]:
+        return manager.read_log()
+
     def destroy(self, manager: ContainerManager) -> None:
         manager.destroy()

@@ -28,7 +28,8 @@ from ucm_cts.adapters.contract.programming_model import (
     UcmError,
 )
 from ucm_cts.adapters.reference_py.connectors import Link, UsesConnectors
-from ucm_cts.adapters.reference_py.policies import ExecutesComponents, Execution
+from ucm_cts.adapters.reference_py.container_services import OffersServices, Record, TracedElement
+from ucm_cts.adapters.reference_py.policies import Execution
 
 
 class State(Enum):
@@ -50,6 +51,7 @@ class Member:
         self.container = container
         self.state = State.CONFIGURING
         self.execution = Execution(implementation.policies)
+        self.traced: dict[str, TracedElement] = {}
 
 
 @dataclass(frozen=True)
@@ -83,7 +85,7 @@ class Failures:
             raise UcmError(self.first)
 
 
-class Container(ExecutesComponents, UsesConnectors):
+class Container(OffersServices, UsesConnectors):
     """Members with a common life cycle (11.2.2.1)."""
 
     def __init__(self, manager: ContainerManager | None) -> None:
@@ -266,7 +268,8 @@ class Container(ExecutesComponents, UsesConnectors):
         return True
 
     def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        return [PortConnection(connection.port, (connection.target,)) for connection in self._connections_from(member)]
+        connections = self._connections_from(member)
+        return self._with_services(member, [PortConnection(c.port, (c.target,)) for c in connections])
 
     def _begin_operation(self) -> None:
         """All members have been started."""
@@ -354,6 +357,7 @@ class ContainerManager(Container):
         self.sub_containers: list[Container] = []
         self.connections: dict[int, Connection] = {}
         self.links: list[Link] = []
+        self.log: list[Record] = []
         self.numbers = itertools.count(1)
         self.lock = threading.Lock()
         self.busy_thread: int | None = None
@@ -371,6 +375,10 @@ class ContainerManager(Container):
             failures = Failures()
             self._remove_container(sub_container, failures)
             failures.report()
+
+    def read_log(self) -> list[Record]:
+        """All records of the trace, oldest first (10.1.4.2)."""
+        return list(self.log)
 
     def destroy(self) -> None:
         with self._operation():

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from ucm_cts.adapters.reference_py.framework import Member
 
 _PROTECTED = {SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE}
+_POLICIES = {*_PROTECTED, UNPROTECTED_PASSIVE}
 
 T = TypeVar("T")
 
@@ -41,7 +42,7 @@ class Execution:
     """How one component is executed: what its policies say, and the lock and threads it takes."""
 
     def __init__(self, policies: Sequence[Policy]) -> None:
-        self.definition = policies[0].definition if policies else ""
+        self.definition = next((p.definition for p in policies if p.definition in _POLICIES), "")
         self.managed = {policy.port for policy in policies if policy.definition == ACTIVE}
         self.lock = threading.RLock()
         self.thread_inside: int | None = None
@@ -136,7 +137,7 @@ class ExecutesComponents:
     def _check_policies(self, implementation: Implementation) -> None:
         policies = implementation.policies
         for policy in policies:
-            if policy.definition not in {*_PROTECTED, UNPROTECTED_PASSIVE} or policy.parameters:
+            if policy.definition not in _POLICIES or policy.parameters:
                 raise UcmError(f"{implementation.name!r} has an unknown policy: {policy}")
             due = implementation.provides if policy.definition == ACTIVE else (None,)
             if policy.port not in due:
