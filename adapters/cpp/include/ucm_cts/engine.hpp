@@ -2,27 +2,24 @@
 #ifndef UCM_CTS_ENGINE_HPP
 #define UCM_CTS_ENGINE_HPP
 
-#include <atomic>
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
-#if defined(__GNUG__)
-#include <cxxabi.h>
-#endif
-
 #include "ucm_cts/adapter.hpp"
-#include "ucm_cts/probe.hpp"
+#include "ucm_cts/operations.hpp"
+#include "ucm_cts/probe_body.hpp"
 #include "ucm_cts/scenario.hpp"
-#include "ucm_cts/variables.hpp"
+#include "ucm_cts/stress.hpp"
 #include "ucm_cts/workers.hpp"
 
 namespace ucm_cts {
@@ -36,7 +33,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
           stage_(std::make_shared<Stage>(std::move(sink), scenario_->patience)),
           cast_(std::make_shared<Cast>()),
           manager_(adapter_->create_runtime(implementations())),
-          variables_(manager_),
+          operations_(adapter_, scenario_, stage_, manager_),
           workers_(patience_of(scenario_->patience)) {}
 
     /// Runs all steps, appends the events to `trace` as a JSON array, and returns the names of the threads that are stuck.
@@ -58,6 +55,9 @@ class Engine : public std::enable_shared_from_this<Engine> {
         }
         return stuck;
     }
+
+    /// How the adapter broke the contract; empty if it did not.
+    std::string complaint() const { return stage_->complaint(); }
 
   private:
     // the probes that the framework has had made
@@ -82,7 +82,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
             all.push_back(Implementation{declaration.name, declaration.provided, declaration.required,
                                          std::move(attributes), declaration.connectable, declaration.fragment,
                                          [what, stage, scenario, cast] { return make(*what, stage, scenario, *cast); },
-                                         declaration.policies, Interfaces()});
+                                         declaration.policies, declaration.interfaces});
         }
         return all;
     }
@@ -98,7 +98,6 @@ class Engine : public std::enable_shared_from_this<Engine> {
 
     void perform(std::size_t number) {
         const Step& step = scenario_->steps[number];
-        Arguments arguments;
         switch (step.operation) {
             case Operation::open:
                 stage_->gates.open(step.subject, [this, &step] {
@@ -109,7 +108,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
                 });
                 return;
             case Operation::reach:
-                check_patience(number, stage_->gates.reach(step.subject, step.value));
+                check_patience(number, stage_->gates.reach(step.subject, step.value, step.count));
                 return;
             case Operation::settle:
                 settle(step.subject);
@@ -117,11 +116,73 @@ class Engine : public std::enable_shared_from_this<Engine> {
             case Operation::join:
                 check_patience(number, workers_.join(step.subject));
                 return;
+            case Operation::pause:
+                pause(number, step.value);
+                return;
+            case Operation::await_messages:
+                await_messages(number, step);
+                return;
+            case Operation::stress:
+                stress(number, step);
+                return;
             default:
-                if (resolve(number, step, arguments)) {
-                    call(number, step, arguments);
-                }
+                operations_.perform(number, step);
         }
+    }
+
+    void pause(std::size_t number, std::int32_t milliseconds) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(std::max(milliseconds, 0)));
+        stage_->recorder.record("paused", [number](std::string& out) {
+            const auto calendar = std::chrono::system_clock::now().time_since_epoch();
+            append_step(out, number);
+            append_number(out, "calendar", std::chrono::duration_cast<std::chrono::nanoseconds>(calendar).count());
+        });
+    }
+
+    void await_messages(std::size_t number, const Step& step) {
+        const MessageCount::Numbers counted = stage_->messages.of(step.component, step.instance)
+                                                  ->wait(step.count, std::chrono::steady_clock::now() + stage_->patience);
+        stage_->recorder.record("counted", [number, &step, &counted](std::string& out) {
+            append_step(out, number);
+            json::append_name(out, "component");
+            json::append_text(out, step.component);
+            append_number(out, "instance", step.instance);
+            append_number(out, "received", counted.received);
+            append_number(out, "distinct", counted.distinct);
+            append_number(out, "disordered", counted.disordered);
+            append_number(out, "least", counted.least);
+            append_number(out, "greatest", counted.greatest);
+        });
+    }
+
+    void stress(std::size_t number, const Step& step) {
+        std::vector<Reference> references;
+        if (!operations_.references(number, step.refs, references)) {
+            return;
+        }
+        const std::shared_ptr<Stress> storm = std::make_shared<Stress>(references);
+        std::vector<std::string> workers;
+        for (const std::function<void()>& task : storm->tasks()) {
+            workers.push_back("stress " + std::to_string(workers.size()));
+            workers_.queue(workers.back(), task);
+        }
+        stage_->overlaps = 0;
+        stage_->stressed = true;
+        storm->conduct(std::chrono::milliseconds(std::max(step.value, 0)), stage_->patience);
+        for (const std::string& worker : workers) {
+            workers_.join(worker);
+        }
+        stage_->stressed = false;
+        const Stress::Numbers found = storm->numbers();
+        const std::int64_t overlaps = stage_->overlaps;
+        stage_->recorder.record("stressed", [number, &found, overlaps](std::string& out) {
+            append_step(out, number);
+            append_number(out, "calls", found.calls);
+            append_number(out, "overlaps", overlaps);
+            append_number(out, "control_calls", found.control_calls);
+            append_number(out, "control_overlaps", found.control_overlaps);
+            append_number(out, "failed", found.failed);
+        });
     }
 
     void settle(const std::string& worker) {
@@ -141,176 +202,8 @@ class Engine : public std::enable_shared_from_this<Engine> {
         }
     }
 
-    struct Arguments {
-        ContainerHandle container;
-        ContainerHandle sub_container;
-        Id id = 0;
-        Reference reference;
-    };
-
-    // Looks up what the step needs, in the order of its arguments; records `skip` for the first that is not there.
-    bool resolve(std::size_t number, const Step& step, Arguments& arguments) {
-        if (!variables_.container(step.container, arguments.container)) {
-            return skip(number, step.container);
-        }
-        switch (step.operation) {
-            case Operation::remove_component:
-            case Operation::get_port_element:
-            case Operation::disconnect:
-                return variables_.id(step.subject, arguments.id) || skip(number, step.subject);
-            case Operation::connect:
-                return (variables_.id(step.subject, arguments.id) || skip(number, step.subject)) &&
-                       (variables_.reference(step.to, arguments.reference) || skip(number, step.to));
-            case Operation::remove_container:
-                return variables_.container(step.subject, arguments.sub_container) || skip(number, step.subject);
-            case Operation::invoke:  // nothing can be called through a null reference
-                return (variables_.reference(step.subject, arguments.reference) && arguments.reference) ||
-                       skip(number, step.subject);
-            default:
-                return true;
-        }
-    }
-
-    bool skip(std::size_t number, const std::string& variable) {
-        stage_->recorder.record("skip", [number, &variable](std::string& out) {
-            append_step(out, number);
-            json::append_name(out, "variable");
-            json::append_text(out, variable);
-        });
-        return false;
-    }
-
-    void call(std::size_t number, const Step& step, const Arguments& arguments) {
-        stage_->recorder.record("call", [number](std::string& out) { append_step(out, number); });
-        try {
-            operate(number, step, arguments);
-        } catch (const NotFound& error) {
-            raised(number, "NOT_FOUND", error.what());
-        } catch (const BadParameter& error) {
-            raised(number, "BAD_PARAMETER", error.what());
-        } catch (const UcmError& error) {
-            raised(number, "UCM_ERROR", error.what());
-        } catch (const std::exception& error) {
-            raised(number, "UNDECLARED", (type_of(error) + ": " + error.what()).c_str());
-        } catch (...) {
-            raised(number, "UNDECLARED", "an exception that is no std::exception");
-        }
-    }
-
-    static std::string type_of(const std::exception& error) {
-        const char* const name = typeid(error).name();
-#if defined(__GNUG__)
-        int status = 0;
-        const std::unique_ptr<char, void (*)(void*)> readable(abi::__cxa_demangle(name, nullptr, nullptr, &status),
-                                                              std::free);
-        if (readable) {
-            return readable.get();
-        }
-#endif
-        return name;
-    }
-
-    void operate(std::size_t number, const Step& step, const Arguments& with) {
-        switch (step.operation) {
-            case Operation::add_component: {
-                const Declaration* const declaration = scenario_->find(step.component);
-                const Id id = adapter_->add_component(
-                    with.container, step.component, declaration != nullptr ? declaration->attributes : Attributes());
-                variables_.bind_id(step.bind, id);
-                returned(number, [id](std::string& out) { json::append_integer(out, id); });
-                break;
-            }
-            case Operation::remove_component:
-                adapter_->remove_component(with.container, with.id);
-                returned(number);
-                break;
-            case Operation::get_port_element: {
-                const Reference reference = adapter_->get_port_element(with.container, with.id, step.port);
-                variables_.bind_reference(step.bind, reference);
-                returned(number, [&reference](std::string& out) { append_reference(out, reference); });
-                break;
-            }
-            case Operation::connect: {
-                const Id id = adapter_->connect(with.container, with.id, step.port, with.reference);
-                variables_.bind_id(step.bind, id);
-                returned(number, [id](std::string& out) { json::append_integer(out, id); });
-                break;
-            }
-            case Operation::disconnect:
-                adapter_->disconnect(with.container, with.id);
-                returned(number);
-                break;
-            case Operation::start:
-                adapter_->start(with.container);
-                returned(number);
-                break;
-            case Operation::stop:
-                adapter_->stop(with.container);
-                returned(number);
-                break;
-            case Operation::get_components: {
-                const std::vector<Id> ids = adapter_->get_components(with.container);
-                variables_.saw(ids);
-                returned(number, [&ids](std::string& out) { json::append_array(out, ids, json::append_integer); });
-                break;
-            }
-            case Operation::create_container:
-                variables_.bind_container(step.bind, adapter_->create_container(manager_));
-                returned(number);
-                break;
-            case Operation::remove_container:
-                adapter_->remove_container(manager_, with.sub_container);
-                returned(number);
-                break;
-            case Operation::destroy:
-                adapter_->destroy(manager_);
-                destroyed_ = true;
-                returned(number);
-                break;
-            case Operation::invoke: {
-                const std::int32_t result = with.reference->exchange(step.value);
-                returned(number, [result](std::string& out) { json::append_integer(out, result); });
-                break;
-            }
-            case Operation::open:
-            case Operation::reach:
-            case Operation::settle:
-            case Operation::join:
-                break;
-        }
-    }
-
-    void returned(std::size_t number) {
-        stage_->recorder.record("return", [number](std::string& out) { append_step(out, number); });
-    }
-
-    template <class AppendValue>
-    void returned(std::size_t number, AppendValue append_value) {
-        stage_->recorder.record("return", [number, &append_value](std::string& out) {
-            append_step(out, number);
-            json::append_name(out, "value");
-            append_value(out);
-        });
-    }
-
-    void raised(std::size_t number, const char* error, const char* detail) {
-        const std::string text = json::shortened(detail != nullptr ? detail : "", 200);
-        stage_->recorder.record("raise", [number, error, &text](std::string& out) {
-            append_step(out, number);
-            json::append_name(out, "error");
-            json::append_text(out, error);
-            json::append_name(out, "detail");
-            json::append_text(out, text);
-        });
-    }
-
-    static void append_step(std::string& out, std::size_t number) {
-        json::append_name(out, "step");
-        json::append_integer(out, static_cast<std::int64_t>(number));
-    }
-
     void clean_up() {
-        if (!destroyed_) {
+        if (!operations_.destroyed()) {
             try {
                 adapter_->destroy(manager_);
             } catch (...) {  // the scenario did not ask for it, so nobody asks what came of it
@@ -329,9 +222,8 @@ class Engine : public std::enable_shared_from_this<Engine> {
     const std::shared_ptr<Stage> stage_;
     const std::shared_ptr<Cast> cast_;
     const ContainerHandle manager_;
-    Variables variables_;
+    Operations operations_;
     Workers workers_;
-    std::atomic<bool> destroyed_{false};
 };
 
 }  // namespace ucm_cts

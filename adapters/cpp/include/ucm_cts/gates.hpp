@@ -2,6 +2,7 @@
 #ifndef UCM_CTS_GATES_HPP
 #define UCM_CTS_GATES_HPP
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -42,11 +43,12 @@ class Gates {
         return found != held_.end() && !found->second->open && !all_open_;
     }
 
-    /// Waits until a probe has arrived at the gate, or `more` have from now on; false when patience runs out.
-    bool reach(const std::string& name, std::int64_t more) {
+    /// Waits until a probe has arrived at the gate, or `more` have from now on, or `total` in all; false when patience
+    /// runs out.
+    bool reach(const std::string& name, std::int64_t more, std::int64_t total) {
         std::unique_lock<std::mutex> lock(mutex_);
         Gate& gate = gates_[name];
-        const std::int64_t enough = more > 0 ? gate.arrivals + more : 1;
+        const std::int64_t enough = std::max(more > 0 ? gate.arrivals + more : 1, total);
         return changed_.wait_for(lock, patience_, [&gate, enough] { return gate.arrivals >= enough; });
     }
 

@@ -39,7 +39,7 @@ class Document {
         std::size_t text;    // where a string begins
         std::size_t key;     // where its key begins, if it is a member of an object
         std::uint32_t key_size;
-        std::int64_t integer;
+        std::int64_t integer;  // of one that is too large or floating, the bits
     };
 
     /// Replaces the content. Throws ProtocolError if `text` is not one JSON value in UTF-8.
@@ -65,10 +65,14 @@ class Document {
         bool number_integer(std::int64_t value) { return document_.add(Kind::integer, value); }
         bool number_unsigned(std::uint64_t value) {
             const std::uint64_t largest = static_cast<std::uint64_t>(INT64_MAX);
-            return value > largest ? document_.add(Kind::too_large)
-                                   : document_.add(Kind::integer, static_cast<std::int64_t>(value));
+            return document_.add(value > largest ? Kind::too_large : Kind::integer, static_cast<std::int64_t>(value));
         }
-        bool number_float(double, const std::string&) { return document_.add(Kind::floating); }
+        bool number_float(double value, const std::string&) {
+            std::int64_t bits = 0;
+            static_assert(sizeof bits == sizeof value, "a double has 64 bits");
+            std::memcpy(&bits, &value, sizeof bits);
+            return document_.add(Kind::floating, bits);
+        }
         bool string(const std::string& value) { return document_.add_string(value); }
         bool binary(const std::vector<std::uint8_t>&) { return false; }
         bool start_object(std::size_t) { return document_.open(Kind::object); }
@@ -108,6 +112,9 @@ class Document {
     }
 
     bool open(Kind kind) {
+        if (open_.size() >= DEEPEST) {
+            throw ProtocolError("JSON is nested too deeply");
+        }
         add(kind);
         open_.push_back(nodes_.size() - 1);
         return true;
@@ -118,6 +125,8 @@ class Document {
         open_.pop_back();
         return true;
     }
+
+    static const std::size_t DEEPEST = 500;  // what is nested is read by functions that call themselves
 
     std::vector<Node> nodes_;
     std::vector<std::size_t> open_;
@@ -144,6 +153,18 @@ class Value {
         return kind() == Kind::string && equal(document_->text(node().text), node().size, other);
     }
 
+    /// A string that is one of `known`.
+    template <std::size_t N>
+    std::string choice(const char* const (&known)[N]) const {
+        const std::string word = text();
+        for (const char* const one : known) {
+            if (word == one) {
+                return word;
+            }
+        }
+        fail("Invalid enum value '" + word + "'");
+    }
+
     bool boolean() const {
         expect(Kind::boolean, "bool");
         return node().integer != 0;
@@ -155,6 +176,38 @@ class Value {
         }
         expect(Kind::integer, "int");
         return node().integer;
+    }
+
+    /// Whatever stands there, as a tree.
+    nlohmann::json tree() const {
+        switch (kind()) {
+            case Kind::null:
+                return nullptr;
+            case Kind::boolean:
+                return boolean();
+            case Kind::integer:
+                return integer();
+            case Kind::too_large:
+                return static_cast<std::uint64_t>(node().integer);
+            case Kind::floating: {
+                double value = 0;
+                std::memcpy(&value, &node().integer, sizeof value);
+                return value;
+            }
+            case Kind::string:
+                return text();
+            case Kind::array: {
+                nlohmann::json all = nlohmann::json::array();
+                for_each_element([&all](const Value& value) { all.push_back(value.tree()); });
+                return all;
+            }
+            case Kind::object: {
+                nlohmann::json all = nlohmann::json::object();
+                for_each_member([&all](const Value& value) { all[value.key()] = value.tree(); });
+                return all;
+            }
+        }
+        return nullptr;
     }
 
     std::int32_t integer32() const {
@@ -269,6 +322,37 @@ class Fields {
 
     void integer32(const char* name, std::int32_t& into) {
         required(name, [&into](const Value& value) { into = value.integer32(); });
+    }
+
+    void optional_integer32(const char* name, std::int32_t& into) {
+        optional(name, [&into](const Value& value) { into = value.integer32(); });
+    }
+
+    void integer(const char* name, std::int64_t& into) {
+        required(name, [&into](const Value& value) { into = value.integer(); });
+    }
+
+    void optional_integer(const char* name, std::int64_t& into) {
+        optional(name, [&into](const Value& value) { into = value.integer(); });
+    }
+
+    void optional_boolean(const char* name, bool& into) {
+        optional(name, [&into](const Value& value) { into = value.boolean(); });
+    }
+
+    /// One that may be null, which leaves `into` as it is.
+    void optional_nullable_text(const char* name, std::string& into) {
+        optional(name, [&into](const Value& value) {
+            if (value.kind() != Kind::null) {
+                into = value.text();
+            }
+        });
+    }
+
+    /// One of the words in `known`.
+    template <std::size_t N>
+    void choice(const char* name, const char* const (&known)[N], std::string& into) {
+        required(name, [&into, &known](const Value& value) { into = value.choice(known); });
     }
 
     /// To be called when all members that the protocol knows have been asked for.

@@ -14,6 +14,7 @@
 #include "ucm_cts/engine.hpp"
 #include "ucm_cts/json.hpp"
 #include "ucm_cts/json_text.hpp"
+#include "ucm_cts/scenario_reading.hpp"
 
 namespace ucm_cts {
 
@@ -120,6 +121,10 @@ class Answerer {
                                [](std::string& out, const std::string& name) { json::append_text(out, name); });
         }
         out_ += '}';
+        const std::string complaint = engine->complaint();
+        if (!complaint.empty()) {
+            refuse("the adapter broke its contract: " + complaint);
+        }
     }
 
     // Null, and the answer says why, if the adapter cannot set up its framework.

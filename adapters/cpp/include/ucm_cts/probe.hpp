@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -12,41 +14,17 @@
 #include <vector>
 
 #include "ucm_cts/adapter.hpp"
-#include "ucm_cts/gates.hpp"
+#include "ucm_cts/data.hpp"
 #include "ucm_cts/scenario.hpp"
-#include "ucm_cts/trace.hpp"
+#include "ucm_cts/stage.hpp"
 
 namespace ucm_cts {
-
-/// What all probes of one scenario share. Probes keep it alive, so that a framework may keep probes.
-struct Stage {
-    Stage(Recorder::Sink sink, std::int64_t patience) : recorder(std::move(sink)), gates(patience_of(patience)) {}
-
-    Recorder recorder;
-    Gates gates;
-};
 
 /// What a probe leaves a hook with when its plan says `raise`: no interface declares it.
 class ProbeFailure : public std::runtime_error {
   public:
     explicit ProbeFailure(Hook hook) : std::runtime_error(std::string("the probe fails in ") + name_of(hook)) {}
 };
-
-/// Appends a reference as it stands in a trace: whose it is, `"opaque"`, or null.
-inline void append_reference(std::string& out, const Reference& reference) {
-    const Identity* const identity = reference ? reference->identity() : nullptr;
-    if (identity == nullptr) {
-        out += reference ? "\"opaque\"" : "null";
-        return;
-    }
-    out += "{\"component\":";
-    json::append_text(out, identity->component);
-    json::append_name(out, "instance");
-    json::append_integer(out, identity->instance);
-    json::append_name(out, "port");
-    json::append_text(out, identity->port);
-    out += '}';
-}
 
 /// What all faces of one body, itself and its port elements, have in common.
 class Probe {
@@ -58,6 +36,11 @@ class Probe {
         json::append_text(whose_, declaration_.name);
         json::append_name(whose_, "instance");
         json::append_integer(whose_, instance_);
+        for (const Action& action : plan_of(Hook::method)) {
+            if (action.kind == Action::Kind::count) {
+                messages_ = stage_->messages.of(declaration_.name, instance_);
+            }
+        }
         stage_->recorder.record("create", [this](std::string& out) { out += whose_; });
     }
 
@@ -78,9 +61,15 @@ class Probe {
         leave(hook, [](std::string&) {});
     }
 
+    void run() {
+        if (!is_stressed()) {
+            visit(Hook::run, [](std::string&) {});
+        }
+    }
+
     std::int32_t exchange(const std::string& port, std::int32_t value) {
         std::int32_t result = ~value;
-        if (over()) {
+        if (is_stressed() || over()) {
             return result;
         }
         enter(Hook::exchange, [&port, value](std::string& out) {
@@ -95,6 +84,27 @@ class Probe {
             json::append_integer(out, result);
         });
         return result;
+    }
+
+    /// Any method of provided port element `port`, which has an interface.
+    Data call(const std::string& port, const std::string& method, const Data& arguments) {
+        if (over()) {
+            return Data();
+        }
+        if (!are_data(arguments)) {
+            complain(method + " was called with what are no values: ", arguments);
+            return Data();
+        }
+        if (messages_) {
+            count(method, arguments);
+            return Data{"ok"};
+        }
+        enter(Hook::method, [&port, &method, &arguments](std::string& out) {
+            append_port(out, port);
+            append_method(out, method, arguments);
+        });
+        perform(Hook::method, nullptr);
+        return answer(method, arguments);
     }
 
     void keep(const std::vector<PortConnection>& connections) {
@@ -114,9 +124,57 @@ class Probe {
         std::lock_guard<std::mutex> lock(mutex_);
         connections.swap(connections_);
         container.swap(container_);
+        sent_.clear();
     }
 
   private:
+    const std::vector<Action>& plan_of(Hook hook) const { return declaration_.plan[static_cast<std::size_t>(hook)]; }
+
+    // Under stress: counts who is met here, and tells that there is nothing else to do.
+    bool is_stressed() {
+        if (!stage_->stressed.load(std::memory_order_relaxed)) {
+            return false;
+        }
+        occupancy_.visit(stage_->overlaps);
+        return true;
+    }
+
+    void complain(const std::string& problem, const Data& data) {
+        std::string text = problem;
+        append_data(text, data);
+        stage_->complain(json::shortened(text, 200));
+    }
+
+    void count(const std::string& method, const Data& arguments) {
+        if (arguments.empty() || !arguments[0].is_number_integer() || arguments[0] < 0 || arguments[0] > UINT32_MAX) {
+            complain(method + " was called with what is no ULONG: ", arguments);
+            return;
+        }
+        messages_->add(arguments[0].get<std::uint32_t>());
+    }
+
+    // Leaves `method` as the plan says.
+    Data answer(const std::string& method, const Data& arguments) {
+        const Action* planned = nullptr;
+        for (const Action& action : plan_of(Hook::method)) {
+            if (action.kind == Action::Kind::answer && action.method == method) {
+                planned = &action;
+            }
+        }
+        const Data results = planned == nullptr ? Data() : planned->echoes ? arguments : planned->data;
+        const bool is_exception = planned != nullptr && planned->is_exception;
+        leave(Hook::method, [&results, planned, is_exception](std::string& out) {
+            append_results(out, results);
+            if (is_exception) {
+                append_exception(out, planned->exception);
+            }
+        });
+        if (is_exception) {
+            throw DeclaredException(planned->exception, results);
+        }
+        return results;
+    }
+
     template <class AppendArguments>
     void enter(Hook hook, AppendArguments append_arguments) {
         event("enter", [hook, &append_arguments](std::string& out) {
@@ -142,7 +200,7 @@ class Probe {
     }
 
     void perform(Hook hook, std::int32_t* result) {
-        for (const Action& action : declaration_.plan[static_cast<std::size_t>(hook)]) {
+        for (const Action& action : plan_of(hook)) {
             switch (action.kind) {
                 case Action::Kind::raise:
                     leave(hook, append_raised);
@@ -160,6 +218,19 @@ class Probe {
                     break;
                 case Action::Kind::siblings:
                     query_siblings();
+                    break;
+                case Action::Kind::call_method:
+                    for (const Reference& reference : references(action.name)) {
+                        call_method(action, *reference);
+                    }
+                    break;
+                case Action::Kind::burst:
+                    for (const Reference& reference : references(action.name)) {
+                        push(action, *reference);
+                    }
+                    break;
+                case Action::Kind::answer:
+                case Action::Kind::count:
                     break;
             }
         }
@@ -186,6 +257,76 @@ class Probe {
                 });
             }
         }
+    }
+
+    void call_method(const Action& action, PortElement& callee) {
+        const std::shared_ptr<Data> arguments = buffer(action.data);
+        event("request", [&action](std::string& out) {
+            append_port(out, action.name);
+            append_method(out, action.method, action.data);
+        });
+        try {
+            const Data results = callee.call(action.method, *arguments);
+            reply(action, results, [](std::string&) {});
+        } catch (const DeclaredException& error) {
+            reply(action, error.fields, [&error](std::string& out) { append_exception(out, error.name); });
+        } catch (...) {
+            event("reply", [&action](std::string& out) {
+                append_port(out, action.name);
+                append_raised(out);
+            });
+        }
+        overwrite(*arguments);
+    }
+
+    template <class AppendException>
+    void reply(const Action& action, const Data& results, AppendException append) {
+        const bool sound = are_data(results);
+        if (!sound) {
+            complain(action.method + " gave to a probe what are no values: ", results);
+        }
+        event("reply", [&action, &results, &append, sound](std::string& out) {
+            append_port(out, action.name);
+            append_results(out, sound ? results : Data());
+            append(out);
+        });
+    }
+
+    // One buffer for all messages: an emitter overwrites a message with the next one.
+    void push(const Action& action, PortElement& callee) {
+        const std::shared_ptr<Data> buffered = buffer(Data(1));
+        Data& message = *buffered;
+        std::map<std::string, std::int64_t> answers;
+        for (std::int64_t n = 0; n < action.count; ++n) {
+            message[0] = action.first + n;
+            std::string code;
+            try {
+                const Data results = callee.call(PUSH, message);
+                code = results.empty() ? "" : results[0].is_string() ? results[0].get<std::string>() : json_of(results[0]);
+            } catch (...) {
+                code = "raised";
+            }
+            ++answers[code];
+        }
+        overwrite(message);
+        event("pushed", [&action, &answers](std::string& out) {
+            append_port(out, action.name);
+            json::append_name(out, "first");
+            json::append_integer(out, action.first);
+            json::append_name(out, "count");
+            json::append_integer(out, action.count);
+            json::append_name(out, "answers");
+            out += json_of(answers);
+        });
+    }
+
+    // What a caller sends is its own, which it overwrites when the call is over. It stays where it is, so that a framework
+    // that reads it later reads wrong values and does not crash.
+    std::shared_ptr<Data> buffer(const Data& content) {
+        const std::shared_ptr<Data> own = std::make_shared<Data>(content);
+        std::lock_guard<std::mutex> lock(mutex_);
+        sent_.push_back(own);
+        return own;
     }
 
     std::vector<Reference> references(const std::string& port) {
@@ -241,6 +382,23 @@ class Probe {
         json::append_text(out, port);
     }
 
+    static void append_method(std::string& out, const std::string& method, const Data& arguments) {
+        json::append_name(out, "method");
+        json::append_text(out, method);
+        json::append_name(out, "arguments");
+        append_data(out, arguments);
+    }
+
+    static void append_results(std::string& out, const Data& results) {
+        json::append_name(out, "results");
+        append_data(out, results);
+    }
+
+    static void append_exception(std::string& out, const std::string& name) {
+        json::append_name(out, "exception");
+        json::append_text(out, name);
+    }
+
     static void append_raised(std::string& out) { out += ",\"raised\":true"; }
 
     const std::shared_ptr<Stage> stage_;
@@ -248,140 +406,12 @@ class Probe {
     const Declaration& declaration_;
     const int instance_;
     std::string whose_;
+    Occupancy occupancy_;
+    std::shared_ptr<MessageCount> messages_;  // if the plan says so
     std::mutex mutex_;
     std::vector<PortConnection> connections_;
     std::shared_ptr<ContainerInterface> container_;
-};
-
-/// A port element that a probe provides.
-class ProbePort final : public PortElement {
-  public:
-    ProbePort(std::shared_ptr<Probe> probe, const std::string& port)
-        : probe_(std::move(probe)), identity_(Identity{probe_->declaration().name, probe_->instance(), port}) {}
-
-    std::int32_t exchange(std::int32_t value) override { return probe_->exchange(identity_.port, value); }
-    const std::string& port() const { return identity_.port; }
-
-    /// A port element of an earlier scenario is a stranger in this one.
-    const Identity* identity() const override { return probe_->over() ? nullptr : &identity_; }
-
-  private:
-    const std::shared_ptr<Probe> probe_;
-    const Identity identity_;
-};
-
-/// What a self-executing probe provides to its container.
-class ProbeExecution final : public ComponentExecution {
-  public:
-    explicit ProbeExecution(std::shared_ptr<Probe> probe) : probe_(std::move(probe)) {}
-    void run() override {
-        probe_->visit(Hook::run, [](std::string&) {});
-    }
-
-  private:
-    const std::shared_ptr<Probe> probe_;
-};
-
-/// The probe as a component body.
-class ProbeBody final : public Body {
-  public:
-    explicit ProbeBody(std::shared_ptr<Probe> probe) : probe_(std::move(probe)) {
-        for (const std::string& port : probe_->declaration().provided) {
-            ports_.push_back(std::make_shared<ProbePort>(probe_, port));
-        }
-    }
-
-    void set_attribute(const std::string& name, const std::string& value) override { attributes_[name] = value; }
-
-    void on_init() override {
-        probe_->visit(Hook::on_init, [this](std::string& out) {
-            json::append_name(out, "attributes");
-            char separator = '{';
-            for (const auto& attribute : attributes_) {
-                out += separator;
-                json::append_text(out, attribute.first);
-                out += ':';
-                json::append_text(out, attribute.second);
-                separator = ',';
-            }
-            out += attributes_.empty() ? "{}" : "}";
-        });
-    }
-
-    void on_startup(const std::vector<PortConnection>& dependencies) override {
-        probe_->keep(dependencies);
-        probe_->visit(Hook::on_startup, [&dependencies](std::string& out) {
-            json::append_name(out, "dependencies");
-            json::append_array(out, dependencies, [](std::string& text, const PortConnection& connection) {
-                text += "{\"port\":";
-                json::append_text(text, connection.from_port);
-                json::append_name(text, "references");
-                json::append_array(text, connection.to_port, append_reference);
-                text += '}';
-            });
-        });
-    }
-
-    void on_shutdown() override {
-        const Forgetting forgetting = {*probe_};
-        probe_->visit(Hook::on_shutdown, [](std::string&) {});
-    }
-
-    void on_remove() override {
-        probe_->visit(Hook::on_remove, [](std::string&) {});
-        probe_->keep(std::shared_ptr<ContainerInterface>());
-    }
-
-    void on_connect(const std::string& port_name, const Reference& required) override {
-        probe_->visit(Hook::on_connect, [&port_name, &required](std::string& out) {
-            json::append_name(out, "port");
-            json::append_text(out, port_name);
-            json::append_name(out, "reference");
-            append_reference(out, required);
-        });
-    }
-
-    void on_disconnect(const std::string& port_name) override {
-        probe_->visit(Hook::on_disconnect, [&port_name](std::string& out) {
-            json::append_name(out, "port");
-            json::append_text(out, port_name);
-        });
-    }
-
-    void set_container_interface(const std::shared_ptr<ContainerInterface>& container) override {
-        probe_->keep(container);
-        probe_->visit(Hook::set_container_interface, [](std::string&) {});
-    }
-
-    Reference get_portElement(const std::string& provided) override {
-        for (const std::shared_ptr<ProbePort>& port : ports_) {
-            if (port->port() == provided) {
-                return port;
-            }
-        }
-        return nullptr;
-    }
-
-    std::shared_ptr<ComponentExecution> get_policy_element(const std::string& policy,
-                                                           const std::string& element) override {
-        for (const Policy& own : probe_->declaration().policies) {
-            if (own.definition == policy && policy == SELF_EXECUTING && element == SELF_EXECUTION_API) {
-                return std::make_shared<ProbeExecution>(probe_);
-            }
-        }
-        return nullptr;
-    }
-
-  private:
-    // references given at on_startup are dropped when on_shutdown is over, however it ends
-    struct Forgetting {
-        Probe& probe;
-        ~Forgetting() { probe.keep(std::vector<PortConnection>()); }
-    };
-
-    const std::shared_ptr<Probe> probe_;
-    std::vector<std::shared_ptr<ProbePort>> ports_;
-    Attributes attributes_;
+    std::vector<std::shared_ptr<Data>> sent_;
 };
 
 }  // namespace ucm_cts

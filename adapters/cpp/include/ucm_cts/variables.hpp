@@ -37,6 +37,12 @@ class Variables {
         containers_[name] = container;
     }
 
+    void bind_link(const std::string& name, const LinkHandle& link) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        clear(name);
+        links_[name] = link;
+    }
+
     /// An id of a component or connection; `unknown` gives one that the framework has not given out.
     bool id(const std::string& name, Id& value) const {
         std::lock_guard<std::mutex> lock(mutex_);
@@ -61,6 +67,12 @@ class Variables {
         return name == "nil" || look_up(containers_, name, value);
     }
 
+    /// A connection with a connector.
+    bool link(const std::string& name, LinkHandle& value) const {
+        std::lock_guard<std::mutex> lock(mutex_);
+        return look_up(links_, name, value);
+    }
+
     void saw(const std::vector<Id>& ids) {
         std::lock_guard<std::mutex> lock(mutex_);
         given_.insert(ids.begin(), ids.end());
@@ -81,12 +93,14 @@ class Variables {
         ids_.erase(name);
         references_.erase(name);
         containers_.erase(name);
+        links_.erase(name);
     }
 
     mutable std::mutex mutex_;
     std::unordered_map<std::string, Id> ids_;
     std::unordered_map<std::string, Reference> references_;
     std::unordered_map<std::string, ContainerHandle> containers_;
+    std::unordered_map<std::string, LinkHandle> links_;
     std::set<Id> given_;
 };
 

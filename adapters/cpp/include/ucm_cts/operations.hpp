@@ -1,0 +1,312 @@
+// Operations: the steps that the adapter carries out, and what is recorded of them.
+#ifndef UCM_CTS_OPERATIONS_HPP
+#define UCM_CTS_OPERATIONS_HPP
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <exception>
+#include <memory>
+#include <string>
+#include <thread>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#if defined(__GNUG__)
+#include <cxxabi.h>
+#endif
+
+#include "ucm_cts/adapter.hpp"
+#include "ucm_cts/scenario.hpp"
+#include "ucm_cts/stage.hpp"
+#include "ucm_cts/variables.hpp"
+
+namespace ucm_cts {
+
+inline void append_number(std::string& out, const char* name, std::int64_t value) {
+    json::append_name(out, name);
+    json::append_integer(out, value);
+}
+
+inline void append_step(std::string& out, std::size_t number) {
+    append_number(out, "step", static_cast<std::int64_t>(number));
+}
+
+/// Looks up what a step needs, has the adapter do it, and records call and outcome. Steps of several threads come at once.
+class Operations {
+  public:
+    Operations(std::shared_ptr<Adapter> adapter, std::shared_ptr<const Scenario> scenario, std::shared_ptr<Stage> stage,
+               ContainerHandle manager)
+        : adapter_(std::move(adapter)),
+          scenario_(std::move(scenario)),
+          stage_(std::move(stage)),
+          manager_(std::move(manager)),
+          variables_(manager_) {}
+
+    void perform(std::size_t number, const Step& step) {
+        Arguments arguments;
+        if (resolve(number, step, arguments)) {
+            call(number, step, arguments);
+        }
+    }
+
+    /// The references of these names that are not null; false, and `skip` is recorded, if one was never bound.
+    bool references(std::size_t number, const std::vector<std::string>& names, std::vector<Reference>& found) {
+        for (const std::string& name : names) {
+            Reference reference;
+            if (!variables_.reference(name, reference)) {
+                return skip(number, name);
+            }
+            if (reference) {
+                found.push_back(reference);
+            }
+        }
+        return true;
+    }
+
+    /// Has the scenario destroyed the runtime?
+    bool destroyed() const { return destroyed_; }
+
+  private:
+    struct Arguments {
+        LinkHandle link;
+        ContainerHandle container;
+        ContainerHandle sub_container;
+        Id id = 0;
+        Reference reference;
+    };
+
+    // Looks up what the step needs, in the order of its arguments; records `skip` for the first that is not there.
+    bool resolve(std::size_t number, const Step& step, Arguments& arguments) {
+        if (is_about_a_link(step.operation) && !variables_.link(step.to, arguments.link)) {
+            return skip(number, step.to);
+        }
+        if (!variables_.container(step.container, arguments.container)) {
+            return skip(number, step.container);
+        }
+        switch (step.operation) {
+            case Operation::attach:
+            case Operation::detach:
+            case Operation::remove_component:
+            case Operation::get_port_element:
+            case Operation::disconnect:
+                return variables_.id(step.subject, arguments.id) || skip(number, step.subject);
+            case Operation::connect:
+                return (variables_.id(step.subject, arguments.id) || skip(number, step.subject)) &&
+                       (variables_.reference(step.to, arguments.reference) || skip(number, step.to));
+            case Operation::remove_container:
+                return variables_.container(step.subject, arguments.sub_container) || skip(number, step.subject);
+            case Operation::invoke:  // nothing can be called through a null reference
+                return (variables_.reference(step.subject, arguments.reference) && arguments.reference) ||
+                       skip(number, step.subject);
+            default:
+                return true;
+        }
+    }
+
+    static bool is_about_a_link(Operation operation) {
+        return operation == Operation::attach || operation == Operation::detach || operation == Operation::break_link ||
+               operation == Operation::mend_link;
+    }
+
+    bool skip(std::size_t number, const std::string& variable) {
+        stage_->recorder.record("skip", [number, &variable](std::string& out) {
+            append_step(out, number);
+            json::append_name(out, "variable");
+            json::append_text(out, variable);
+        });
+        return false;
+    }
+
+    void call(std::size_t number, const Step& step, const Arguments& arguments) {
+        stage_->recorder.record("call", [number](std::string& out) { append_step(out, number); });
+        try {
+            operate(number, step, arguments);
+        } catch (const NotOffered&) {
+            skip(number, name_of(step.operation));
+        } catch (const NotFound& error) {
+            raised(number, "NOT_FOUND", error.what());
+        } catch (const BadParameter& error) {
+            raised(number, "BAD_PARAMETER", error.what());
+        } catch (const UcmError& error) {
+            raised(number, "UCM_ERROR", error.what());
+        } catch (const std::exception& error) {
+            raised(number, "UNDECLARED", (type_of(error) + ": " + error.what()).c_str());
+        } catch (...) {
+            raised(number, "UNDECLARED", "an exception that is no std::exception");
+        }
+    }
+
+    static std::string type_of(const std::exception& error) {
+        const char* const name = typeid(error).name();
+#if defined(__GNUG__)
+        int status = 0;
+        const std::unique_ptr<char, void (*)(void*)> readable(abi::__cxa_demangle(name, nullptr, nullptr, &status),
+                                                              std::free);
+        if (readable) {
+            return readable.get();
+        }
+#endif
+        return name;
+    }
+
+    void operate(std::size_t number, const Step& step, const Arguments& with) {
+        switch (step.operation) {
+            case Operation::add_component: {
+                const Declaration* const declaration = scenario_->find(step.component);
+                const Id id = adapter_->add_component(
+                    with.container, step.component, declaration != nullptr ? declaration->attributes : Attributes());
+                variables_.bind_id(step.bind, id);
+                returned(number, [id](std::string& out) { json::append_integer(out, id); });
+                break;
+            }
+            case Operation::remove_component:
+                adapter_->remove_component(with.container, with.id);
+                returned(number);
+                break;
+            case Operation::get_port_element: {
+                const Reference reference = adapter_->get_port_element(with.container, with.id, step.port);
+                variables_.bind_reference(step.bind, reference);
+                returned(number, [&reference](std::string& out) { append_reference(out, reference); });
+                break;
+            }
+            case Operation::connect: {
+                const Id id = adapter_->connect(with.container, with.id, step.port, with.reference);
+                variables_.bind_id(step.bind, id);
+                returned(number, [id](std::string& out) { json::append_integer(out, id); });
+                break;
+            }
+            case Operation::disconnect:
+                adapter_->disconnect(with.container, with.id);
+                returned(number);
+                break;
+            case Operation::start:
+                adapter_->start(with.container);
+                returned(number);
+                break;
+            case Operation::stop:
+                adapter_->stop(with.container);
+                returned(number);
+                break;
+            case Operation::get_components: {
+                const std::vector<Id> ids = adapter_->get_components(with.container);
+                variables_.saw(ids);
+                returned(number, [&ids](std::string& out) { json::append_array(out, ids, json::append_integer); });
+                break;
+            }
+            case Operation::create_container:
+                variables_.bind_container(step.bind, adapter_->create_container(manager_));
+                returned(number);
+                break;
+            case Operation::remove_container:
+                adapter_->remove_container(manager_, with.sub_container);
+                returned(number);
+                break;
+            case Operation::destroy:
+                adapter_->destroy(manager_);
+                destroyed_ = true;
+                returned(number);
+                break;
+            case Operation::invoke: {
+                const std::int32_t result = with.reference->exchange(step.value);
+                returned(number, [result](std::string& out) { json::append_integer(out, result); });
+                break;
+            }
+            case Operation::link:
+                variables_.bind_link(step.bind, adapter_->link(manager_, step.word, step.interface));
+                returned(number);
+                break;
+            case Operation::attach:
+                adapter_->attach(with.link, step.word, with.container, with.id, step.port);
+                returned(number);
+                break;
+            case Operation::detach:
+                adapter_->detach(with.link, with.container, with.id, step.port);
+                returned(number);
+                break;
+            case Operation::break_link:
+                adapter_->break_link(with.link, step.word);
+                returned(number);
+                break;
+            case Operation::mend_link:
+                adapter_->mend_link(with.link);
+                returned(number);
+                break;
+            case Operation::read_log:
+                read(number, read_log(step.value));
+                break;
+            case Operation::open:
+            case Operation::reach:
+            case Operation::settle:
+            case Operation::join:
+            case Operation::pause:
+            case Operation::await_messages:
+            case Operation::stress:
+                break;
+        }
+    }
+
+    // Nobody tells when a record has been written, so this looks again and again.
+    std::vector<LogRecord> read_log(std::int64_t enough) {
+        const auto deadline = std::chrono::steady_clock::now() + stage_->patience;
+        while (true) {
+            std::vector<LogRecord> records = adapter_->read_log(manager_);
+            if (static_cast<std::int64_t>(records.size()) >= enough || std::chrono::steady_clock::now() >= deadline) {
+                return records;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+
+    void read(std::size_t number, const std::vector<LogRecord>& records) {
+        stage_->recorder.record("return", [number, &records](std::string& out) {
+            append_step(out, number);
+            json::append_name(out, "records");
+            json::append_array(out, records, [](std::string& text, const LogRecord& record) {
+                text += "{\"severity\":";
+                json::append_text(text, record.severity);
+                json::append_name(text, "message");
+                json::append_text(text, record.message);
+                text += '}';
+            });
+        });
+    }
+
+    void returned(std::size_t number) {
+        stage_->recorder.record("return", [number](std::string& out) { append_step(out, number); });
+    }
+
+    template <class AppendValue>
+    void returned(std::size_t number, AppendValue append_value) {
+        stage_->recorder.record("return", [number, &append_value](std::string& out) {
+            append_step(out, number);
+            json::append_name(out, "value");
+            append_value(out);
+        });
+    }
+
+    void raised(std::size_t number, const char* error, const char* detail) {
+        const std::string text = json::shortened(detail != nullptr ? detail : "", 200);
+        stage_->recorder.record("raise", [number, error, &text](std::string& out) {
+            append_step(out, number);
+            json::append_name(out, "error");
+            json::append_text(out, error);
+            json::append_name(out, "detail");
+            json::append_text(out, text);
+        });
+    }
+
+    const std::shared_ptr<Adapter> adapter_;
+    const std::shared_ptr<const Scenario> scenario_;
+    const std::shared_ptr<Stage> stage_;
+    const ContainerHandle manager_;
+    Variables variables_;
+    std::atomic<bool> destroyed_{false};
+};
+
+}  // namespace ucm_cts
+
+#endif
