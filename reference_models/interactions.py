@@ -8,7 +8,19 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Call, Enter, Exit, Held, Opened, Raise, Reply, Request, Return
+from ucm_cts.adapters.contract.trace import (
+    Call,
+    Enter,
+    Exit,
+    Held,
+    Opened,
+    Raise,
+    Reply,
+    Request,
+    Return,
+    Settled,
+    Timeout,
+)
 from ucm_cts.reference_models.executions import BusinessCall, connections_behind
 from ucm_cts.reference_models.runtime import NO_ID, Connection, Container, Member, Runtime
 
@@ -70,16 +82,41 @@ class Delivery:
 
 
 @dataclass(slots=True, eq=False)
+class Operation:
+    """A step that was handed to the framework; ``end`` is None while it has not ended."""
+
+    step: s.Step
+    begin: Call
+    end: Return | Raise | None = None
+
+    def overlaps(self, begin: int, end: int) -> bool:
+        """Was it in progress somewhere between the events ``begin`` and ``end``?"""
+        return self.begin.n < end and (self.end is None or self.end.n > begin)
+
+
+@dataclass(slots=True, eq=False)
+class Wait:
+    """A wait ran out of patience: nothing had happened since ``quiet_since`` (``t``), and somebody was ``held`` or not."""
+
+    step: s.Step
+    timeout: Timeout
+    quiet_since: int
+    held: bool
+
+
+@dataclass(slots=True, eq=False)
 class MethodCall:
     """A body's call of a method. ``broken`` says where its link was broken when it was made, ``targets`` are the other ends
-    that were attached then, with whether each was operational. ``idle`` are those that certainly were not. A message is
-    ``crowded`` if another one was on its way when it was pushed, or pushed before it was answered.
+    that were attached then, with whether each was operational. ``idle`` are those that certainly were not. ``ready`` says
+    that the caller was operational. A message is ``crowded`` if another one was on its way when it was pushed, or pushed
+    before it was answered.
     """
 
     request: Request
     business: BusinessCall
     caller: Member | None
     link: LinkState | None
+    ready: bool
     broken: str = ""
     targets: list[tuple[End, bool]] = field(default_factory=list)
     idle: list[End] = field(default_factory=list)
@@ -105,7 +142,8 @@ class MethodCall:
 
 class Interactions:
     """All links, calls and deliveries of one trace. ``held`` are bodies at gates that are closed, ``released_at`` is when the
-    last of them was let go.
+    last of them was let go. ``operations`` are the steps handed to the framework, ``settled`` where workers were found,
+    ``waits`` those that ran out of patience, and ``latest`` is when something happened last.
     """
 
     def __init__(self, runtime: Runtime) -> None:
@@ -115,6 +153,10 @@ class Interactions:
         self.deliveries: list[Delivery] = []
         self.held: list[Held] = []
         self.released_at = 0
+        self.operations: list[Operation] = []
+        self.settled: list[Settled] = []
+        self.waits: list[Wait] = []
+        self.latest = 0
         self._opened: set[str] = set()
         self._open: dict[int, list[MethodCall]] = {}
         self._inside: dict[int, list[Delivery]] = {}
@@ -137,6 +179,22 @@ class Interactions:
         else:
             self._detach(link, step, begin)
         return link
+
+    def operate(self, step: s.Step, begin: Call) -> None:
+        """A step is handed to the framework."""
+        self.operations.append(Operation(step, begin))
+
+    def operated(self, end: Return | Raise) -> None:
+        """A step has ended."""
+        for operation in reversed(self.operations):
+            if operation.begin.step == end.step:
+                operation.end = end
+                return
+
+    def wait(self, event: Timeout) -> None:
+        """A wait ran out of patience."""
+        step = self._runtime.scenario.steps[event.step]
+        self.waits.append(Wait(step, event, self.latest, bool(self.held)))
 
     def _attach(self, link: LinkState, step: s.Attach, begin: Call) -> None:
         member = self._runtime.members.get(step.id)
@@ -163,7 +221,8 @@ class Interactions:
     def request(self, event: Request, business: BusinessCall) -> None:
         """A body calls a method."""
         caller = self._runtime.member_of(event.component, event.instance)
-        call = MethodCall(event, business, caller, self._link_of(caller, event.port, _SENDERS))
+        ready = caller is not None and caller.serving
+        call = MethodCall(event, business, caller, self._link_of(caller, event.port, _SENDERS), ready)
         if call.link is not None:
             call.broken = call.link.broken
             call.targets = [(end, end.member.serving) for end in call.link.live(*_TAKERS)]

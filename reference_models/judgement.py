@@ -82,6 +82,8 @@ class Judge:
             take = _TAKE.get(type(event))
             if take is not None:
                 take(reading, event)
+            if reading.interactions is not None and not isinstance(event, Timeout | Settled):
+                reading.interactions.latest = event.t
         reading.close()
         return reading.ledger
 
@@ -99,7 +101,7 @@ class _Reading:
         self.hooks: dict[int, list[s.Hook]] = {}
         self.served: dict[int, list[BusinessCall | None]] = {}
         policies = any(declaration.policies for declaration in scenario.components.values())
-        self.executions = Executions(self.runtime) if policies else None
+        self.executions = Executions(self.runtime) if policies or scenario.interfaces else None
         self.interactions = Interactions(self.runtime) if policies or scenario.interfaces else None
         self.runtime.interactions = self.interactions
         self.connecting: dict[int, Call] = {}
@@ -116,6 +118,8 @@ class _Reading:
 
     def call(self, event: Call) -> None:
         step = self.ledger.scenario.steps[event.step]
+        if self.interactions is not None:
+            self.interactions.operate(step, event)
         if isinstance(step, s.Invoke):
             self.begin(event.thread, BusinessCall(step.value, event.n, step=step))
         elif isinstance(step, s.ContainerCall):
@@ -126,6 +130,8 @@ class _Reading:
 
     def end(self, event: Return | Raise) -> None:
         window, ledger, runtime = self.window, self.ledger, self.runtime
+        if self.interactions is not None:
+            self.interactions.operated(event)
         if window is not None and window.step_number == event.step:
             for check in self.judge.ended[window.operation]:
                 check(ledger, runtime, window, event)
@@ -284,18 +290,26 @@ class _Reading:
     def held(self, event: Held) -> None:
         if self.executions is not None:
             self.executions.hold(event)
+        if self.interactions is not None:
+            self.interactions.hold(event)
 
     def opened(self, event: Opened) -> None:
         if self.executions is not None:
             self.executions.open(event)
+        if self.interactions is not None:
+            self.interactions.open(event)
 
     def settled(self, event: Settled) -> None:
         if self.executions is not None:
             self.executions.settle(event)
+        if self.interactions is not None:
+            self.interactions.settled.append(event)
 
     def timeout(self, event: Timeout) -> None:
         if self.executions is None and self.interactions is None:
             return
+        if self.interactions is not None:
+            self.interactions.wait(event)
         for check in self.judge.waited:
             check(self.ledger, self.runtime, event)
         if self.executions is not None and isinstance(self.ledger.scenario.steps[event.step], s.Join):
