@@ -101,7 +101,7 @@ class Driver:
                 for reply in replies:
                     yield from untried()
                     case = waiting.popleft()
-                    trace, incident = self._examine(case.run, reply, insist)
+                    trace, incident = self._examine(case, reply, insist)
                     lost = incident is not None and incident.kind in _HOST_IS_GONE
                     if incident is not None and lost:
                         self._patience.spend(time.monotonic() - began, case.run.scenario, incident, trace)
@@ -138,13 +138,13 @@ class Driver:
     def _reveal_trace(self, trace: Trace) -> Trace:
         return self.reveal(_Whole(trace)).trace
 
-    def _examine(self, run: Run, answer: HostAnswer, insist: bool) -> tuple[Trace, Incident | None]:
-        reply = answer.reply
+    def _examine(self, case: _Case, answer: HostAnswer, insist: bool) -> tuple[Trace, Incident | None]:
+        run, reply = case.run, answer.reply
         if isinstance(reply, Traced):
             problem = contradiction(run.scenario, reply.events, bool(reply.stuck))
             if problem is not None:
                 return reply.events, Incident("contradiction", problem)
-            if reply.stuck:
+            if not set(reply.stuck) <= set(case.scenario.may_stay):
                 return reply.events, Incident("hang", f"threads that never came back: {', '.join(reply.stuck)}")
             return reply.events, None
         if isinstance(reply, Refused):

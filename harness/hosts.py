@@ -218,17 +218,23 @@ class Hosts:
 def waits(scenario: s.Scenario) -> float:
     """How many seconds ``scenario`` itself may have a host wait, at most, if each probe is held at a gate once."""
     waiting = 0
+    milliseconds = 0
     threads = False
     for step in scenario.steps:
         threads = threads or step.thread is not None
         waiting += type(step) in _WAITING_STEPS
+        if isinstance(step, s.Pause):
+            milliseconds += step.milliseconds
+        elif isinstance(step, s.Stress):
+            milliseconds += 2 * step.milliseconds
+            waiting += 2
     for declaration in scenario.components.values():
         for actions in declaration.plan.values():
             waiting += sum(isinstance(action, s.HoldAtGate) for action in actions)
-    return (waiting + threads) * scenario.patience / 1000
+    return ((waiting + threads) * scenario.patience + milliseconds) / 1000
 
 
-_WAITING_STEPS = (s.ReachGate, s.Settle, s.Join)
+_WAITING_STEPS = (s.ReachGate, s.Settle, s.Join, s.AwaitMessages, s.ReadLog)
 
 
 def _decode(host: Host, line: bytes) -> FromHost:

@@ -71,6 +71,7 @@ def with_payloads(scenario: Scenario, change: Callable[[int], int]) -> Scenario:
         tuple(map(step, scenario.steps)),
         scenario.patience,
         scenario.interfaces,
+        scenario.may_stay,
     )
 
 

@@ -3,18 +3,28 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.circles import circle_purposes
 from ucm_cts.harness.generate import generated_purposes
 from ucm_cts.harness.probes import load_probe_types
 from ucm_cts.harness.schedules import overlap_purposes
 from ucm_cts.harness.scripts import TestPurpose, load_scripts, to_scenario
+from ucm_cts.harness.stress import stress_purposes
 
 PROFILES = ("container",)
 """What a run can choose: profiles that are complete."""
 
 PARTS = {"container": ("container",), "core": ("container", "core")}
 """The requirements that belong to a profile, by what the catalogue files them under."""
+
+_CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
+    overlap_purposes,
+    circle_purposes,
+    stress_purposes,
+)
+"""Where the purposes of profile core come from, beside scripts."""
 
 
 @functools.cache
@@ -33,8 +43,8 @@ def load_purposes(profile: str) -> tuple[TestPurpose, ...]:
         for script in load_scripts()
         if script.exercises[0] in clauses
     ]
-    schedules = overlap_purposes() if "core" in PARTS[profile] else ()
-    return (*scripted, *generated_purposes(load_life_cycle()), *schedules)
+    combined = [purpose for source in _CORE for purpose in source()] if "core" in PARTS[profile] else []
+    return (*scripted, *generated_purposes(load_life_cycle()), *combined)
 
 
 def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:

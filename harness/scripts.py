@@ -40,6 +40,7 @@ class Script(Value, frozen=True):
     exercises: tuple[str, ...] = ()
     patience: int = 2000
     interfaces: dict[str, Interface] = {}
+    may_stay: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -101,7 +102,7 @@ def to_scenario(script: Script, probes: dict[str, ProbeType] | None = None) -> S
             policies=part.policies,
             ports=part.ports,
         )
-    return Scenario(components, script.steps, script.patience, script.interfaces)
+    return Scenario(components, script.steps, script.patience, script.interfaces, script.may_stay)
 
 
 def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list[tuple[str, str]]:

@@ -6,6 +6,7 @@ for and found waiting, while the execution was held at a gate that had not been 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -23,6 +24,19 @@ _PROTECTIONS: dict[str, Protection] = {
     s.UNPROTECTED_PASSIVE: "unprotected",
 }
 
+
+EXCLUSIONS = (
+    "R-10.1.3.2-05",
+    "R-10.1.3.2-06",
+    "R-10.1.3.2-09",
+    "R-10.1.3.2-10",
+    "R-10.1.3.2-13",
+    "R-10.1.3.2-16",
+)
+"""The requirements that keep executions of a component apart."""
+
+CALL_EXCLUSIONS = tuple(requirement for requirement in EXCLUSIONS if requirement != "R-10.1.3.2-05")
+"""Those that have to do with calls; the other one keeps runs apart."""
 
 _PROMISES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
 
@@ -64,6 +78,13 @@ class BusinessCall:
             self.possible = self.callee is not None and self.callee.serving
         else:
             self.possible = all(p.serving for p in providers_of(runtime, self))
+
+    def callers(self) -> Iterator[Execution]:
+        """The executions that wait for this call, the innermost first."""
+        caller = self.caller
+        while caller is not None:
+            yield caller
+            caller = caller.call.caller if caller.call is not None else None
 
     def close(self, end: Exit) -> None:
         """The innermost entry of that body came to its end."""
@@ -125,6 +146,11 @@ class Executions:
             del self.waiting[n]
         return list(lost.values())
 
+    @property
+    def on_their_way(self) -> tuple[BusinessCall, ...]:
+        """The calls that have not entered a body yet and not come back."""
+        return tuple(self._pending)
+
     def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
         """A body is entered: the execution, and those it meets there that are not its own callers."""
         inside = self._inside.setdefault((enter.component, enter.instance), [])
@@ -133,11 +159,7 @@ class Executions:
             runs = self._runs.setdefault((enter.component, enter.instance), [])
             execution.earlier = runs.copy()
             runs.append(execution)
-        callers = set()
-        cause = call
-        while cause is not None and cause.caller is not None:
-            callers.add(id(cause.caller))
-            cause = cause.caller.call
+        callers = {id(caller) for caller in call.callers()} if call is not None else set()
         met = [other for other in inside if id(other) not in callers and other.enter.thread != enter.thread]
         inside.append(execution)
         if call in self._pending:
@@ -196,6 +218,18 @@ def protection_of(declaration: Declaration | None) -> Protection:
 def managed_ports(declaration: Declaration) -> set[str]:
     """The port elements that an active policy applies to."""
     return {p.port for p in declaration.policies if p.definition == s.ACTIVE and p.port is not None}
+
+
+def exclusion(declaration: Declaration, one: str, other: str) -> str:
+    """The requirement that keeps two ways into a component apart; empty if none does."""
+    protection = protection_of(declaration)
+    if protection == "self-executing":
+        return "R-10.1.3.2-05" if one == other == "run" else "R-10.1.3.2-06"
+    if protection == "active":
+        return "R-10.1.3.2-09" if {one, other} <= managed_ports(declaration) else "R-10.1.3.2-10"
+    if protection == "passive":
+        return "R-10.1.3.2-13" if one == other else "R-10.1.3.2-16"
+    return ""
 
 
 def is_contradictory(declaration: Declaration) -> bool:

@@ -32,6 +32,8 @@ from ucm_cts.reference_models import (
     rules_execution,
     rules_interactions,
     rules_operations,
+    rules_policies,
+    rules_stress,
 )
 from ucm_cts.reference_models.adoption import adopt
 from ucm_cts.reference_models.claims import Claims
@@ -43,7 +45,15 @@ from ucm_cts.reference_models.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
 from ucm_cts.reference_models.situations import Situations
 
-RULE_MODULES = (rules_operations, rules_dependencies, rules_interactions, rules_callbacks, rules_execution)
+RULE_MODULES = (
+    rules_operations,
+    rules_dependencies,
+    rules_interactions,
+    rules_callbacks,
+    rules_execution,
+    rules_policies,
+    rules_stress,
+)
 """Importing these registers all rules; rules of one moment look in this order."""
 
 
@@ -104,6 +114,7 @@ class _Reading:
         self.executions = Executions(self.runtime) if policies or scenario.interfaces else None
         self.interactions = Interactions(self.runtime) if policies or scenario.interfaces else None
         self.runtime.interactions = self.interactions
+        self.runtime.executions = self.executions
         self.connecting: dict[int, Call] = {}
 
     def close(self) -> None:
@@ -207,6 +218,7 @@ class _Reading:
         else:
             call = self.call_behind(event) if event.hook == "exchange" else None
         self.served.setdefault(event.thread, []).append(call)
+        self.runtime.inside.setdefault(event.thread, []).append((event.component, event.instance))
         if self.executions is not None:
             execution, met = self.executions.begin(event, call)
             for check in self.judge.began:
@@ -235,6 +247,7 @@ class _Reading:
         served = self.served.get(event.thread)
         if event.hook not in ("exchange", "run", "method") or not served:
             return
+        self.runtime.inside[event.thread].pop()
         if event.hook == "method" and self.interactions is not None:
             self.interactions.exit(event)
         call = served.pop()

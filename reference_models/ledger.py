@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.reference_models.claims import OBSERVED, Claims
+from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.duties import Duties, Fit
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.life_cycle import Row
@@ -92,11 +92,16 @@ class Ledger:
     fits: dict[Fit, int] = field(default_factory=dict)
     claims: Claims = field(default_factory=Claims)
     readings: dict[str, set[str]] = field(default_factory=dict)
+    measures: dict[str, int] = field(default_factory=dict)
+
+    def measured(self, what: str, amount: int = 1) -> None:
+        """Something worth adding up over a run: how much effort was behind verdicts."""
+        self.measures[what] = self.measures.get(what, 0) + amount
 
     def observed(self, option: str, value: str) -> bool:
         """The framework took reading ``value`` of ``option``; False if its vendor declared another one."""
         self.readings.setdefault(option, set()).add(value)
-        return self.claims.reading(option) in (value, OBSERVED)
+        return self.claims.permits(option, value)
 
     def exercised(self, requirement: str) -> None:
         """The requirement's condition really arose, and it was kept."""
@@ -130,13 +135,24 @@ class Ledger:
         tally.exercised += 1
         tally.violated += 1
 
-    def fitted(self, row: Row, fit: Fit) -> None:
-        """An instance went a way that ``row`` permits."""
+    def fitted(self, row: Row, fit: Fit, chosen: bool = True) -> bool:
+        """An instance went a way that ``row`` permits; False if it is of a reading that the vendor has not declared.
+
+        It was not ``chosen`` where the operation leaves no choice.
+        """
         tally = self.row(row)
         tally.exercised += 1
-        if fit.reading:
-            tally.readings.add(fit.reading)
         self.fits[fit] = self.fits.get(fit, 0) + 1
+        if not fit.readings:
+            return True
+        if len(fit.readings) == 1:
+            tally.readings.add(fit.readings[0])
+        if not chosen:
+            return True
+        taken = [(option, value) for option, _, value in (reading.partition("=") for reading in fit.readings)]
+        if len(taken) == 1:
+            return self.observed(*taken[0])
+        return any(self.claims.permits(option, value) for option, value in taken)
 
     def close(self) -> None:
         """The trace is over: add up what the fits exercised."""

@@ -9,9 +9,11 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, HoldAtGate
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
 from ucm_cts.reference_models.executions import (
+    EXCLUSIONS,
     BusinessCall,
     Execution,
     calls_promised,
+    exclusion,
     goals_of,
     is_contradictory,
     managed_ports,
@@ -27,39 +29,17 @@ _SUPPORT = {
     "unprotected": "R-10.1.3.1-15",
 }
 _BY_ITSELF = {"passive": "R-10.1.3.2-14", "unprotected": "R-10.1.3.2-19"}
-_EXCLUSIONS = (
-    "R-10.1.3.2-05",
-    "R-10.1.3.2-06",
-    "R-10.1.3.2-09",
-    "R-10.1.3.2-10",
-    "R-10.1.3.2-13",
-    "R-10.1.3.2-16",
-)
-
-
 _INTERVALS = 3
 """So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
 
 
-def _exclusion(declaration: Declaration, one: str, other: str) -> str:
-    """The requirement that keeps two ways into a component apart; empty if none does."""
-    protection = protection_of(declaration)
-    if protection == "self-executing":
-        return "R-10.1.3.2-05" if one == other == "run" else "R-10.1.3.2-06"
-    if protection == "active":
-        return "R-10.1.3.2-09" if {one, other} <= managed_ports(declaration) else "R-10.1.3.2-10"
-    if protection == "passive":
-        return "R-10.1.3.2-13" if one == other else "R-10.1.3.2-16"
-    return ""
-
-
-@rule("began", *_EXCLUSIONS)
+@rule("began", *EXCLUSIONS)
 def no_reentry(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
     """A protected component is not entered while it is executed, unless the execution's own calls lead back into it."""
     enter = execution.enter
     declaration = runtime.scenario.components[enter.component]
     for other in met:
-        requirement = _exclusion(declaration, execution.way, other.way)
+        requirement = exclusion(declaration, execution.way, other.way)
         if requirement:
             ledger.violated(
                 requirement,
@@ -77,19 +57,21 @@ def overlap_possible(ledger: Ledger, runtime: Runtime, execution: Execution, met
     """Two callers may be inside an unprotected passive component, which is told and never demanded."""
     if met and protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
         ledger.exercised("R-10.1.3.2-20")
+        ledger.measured("overlaps provoked")
 
 
-@rule("over", *_EXCLUSIONS)
+@rule("over", *EXCLUSIONS)
 def kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, end: int) -> None:
     """An execution was held, a call that was to execute the same body had been made, and did not until the first ended."""
     enter = execution.enter
     for call in execution.waited:
         for member, port in goals_of(runtime, call):
             own = (member.component, member.instance) == (enter.component, enter.instance)
-            requirement = _exclusion(member.declaration, execution.way, port) if own else ""
+            requirement = exclusion(member.declaration, execution.way, port) if own else ""
             inside = any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries)
             if requirement and not inside:
                 ledger.exercised(requirement)
+                ledger.measured("exclusions proved")
 
 
 @rule("began", "R-10.1.3.2-05")

@@ -16,6 +16,7 @@ from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
 from ucm_cts.reference_models.life_cycle import Row, State
 
 if TYPE_CHECKING:
+    from ucm_cts.reference_models.executions import Executions
     from ucm_cts.reference_models.interactions import Interactions
 
 NO_ID = 2**64
@@ -177,8 +178,10 @@ class Runtime:
 
     ``members``, ``connections`` and ``references`` are what variables hold now; ``everyone`` is every instance ever added.
     ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
-    whose on_startup has returned during the operation in progress, ``last_run`` when run was entered last.
-    ``interactions`` are followed where port elements have interfaces or components policies.
+    whose on_startup has returned during the operation in progress, ``last_run`` when run was entered last. ``inside`` are
+    the bodies in which a thread is carrying out business methods or run, the innermost last.
+    ``interactions`` are followed where port elements have interfaces or components policies, ``executions`` where
+    components have policies.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -191,11 +194,13 @@ class Runtime:
         self.startups: dict[tuple[str, int], tuple[int, int]] = {}
         self.starting: set[tuple[str, int]] = set()
         self.last_run: dict[tuple[str, int], int] = {}
+        self.inside: dict[int, list[tuple[str, int]]] = {}
         self.connections: dict[str, Connection] = {}
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
         self.ports: dict[str, str] = {}
         self.destroyed = False
         self.interactions: Interactions | None = None
+        self.executions: Executions | None = None
 
     def member_of(self, component: str, instance: int) -> Member | None:
         """The instance whose body this is, if an ``add_component`` has returned for it."""

@@ -412,13 +412,14 @@ ConnectorCall = Link | Attach | Detach | Break | Mend
 
 class Scenario(Value, frozen=True):
     """Component declarations by name, steps in order, ``patience``: milliseconds a wait step may take, and ``interfaces``
-    by name.
+    by name. Workers in ``may_stay`` need not come back; no host is told so.
     """
 
     components: dict[str, Declaration]
     steps: tuple[Step, ...]
     patience: Int64 = 2000
     interfaces: dict[str, Interface] = {}
+    may_stay: tuple[str, ...] = ()
 
 
 def operation(step: Step) -> str:

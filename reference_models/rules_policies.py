@@ -1,0 +1,102 @@
+"""Rules about which execution policy a component has, and about what is left to the framework (10.1.3)."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract.trace import Raise, Return
+from ucm_cts.reference_models.executions import (
+    CALL_EXCLUSIONS,
+    BusinessCall,
+    Execution,
+    exclusion,
+    goals_of,
+    protection_of,
+)
+from ucm_cts.reference_models.interactions import MethodCall
+from ucm_cts.reference_models.ledger import Ledger, rule
+from ucm_cts.reference_models.runtime import Member, Runtime, Window
+
+
+@rule("ended", "R-10.1.3-02", at=("add_component", "start"))
+def execution_policy_given(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """A component that says nothing of its execution is refused, or is given a policy by the framework."""
+    declarations = runtime.scenario.components
+    if not any(protection_of(declaration) for declaration in declarations.values()):
+        return  # a scenario of profile container, which knows no policies
+    if window.operation == "add_component":
+        component = getattr(window.step, "component", "")
+        declaration = declarations.get(component)
+        if declaration is None or protection_of(declaration) or not isinstance(end, Raise) or declaration.plan:
+            return
+        _note(ledger, window, component, "refuse", end)
+        return
+    without = [m for m in window.container.live_members() if not protection_of(m.declaration)]
+    if not without or not window.judged or isinstance(end, Raise):
+        return
+    _note(ledger, window, without[0].lane, "default", end)
+
+
+def _note(ledger: Ledger, window: Window, who: str, reading: str, end: Return | Raise) -> None:
+    if ledger.observed("missing-execution-policy", reading):
+        ledger.exercised("R-10.1.3-02")
+        return
+    refuses = reading == "refuse"
+    ledger.violated(
+        "R-10.1.3-02",
+        "execution_policy_given",
+        reading,
+        f"'{who}', which has no execution policy, is {'given a default one' if refuses else 'refused'}, as declared",
+        f"it was {'refused' if refuses else 'started'}",
+        (end.n,),
+        window.step_number,
+    )
+
+
+@rule("began", *CALL_EXCLUSIONS)
+def circle_entered(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+    """A call came back to the component whose execution waits for it, and was let in, which is the framework's choice."""
+    body = execution.enter.component, execution.enter.instance
+    callers = execution.call.callers() if execution.call is not None else ()
+    waiting = [c for c in callers if (c.enter.component, c.enter.instance) == body]
+    member = runtime.member_of(*body)
+    if waiting and member is not None:
+        _came_round(ledger, member, waiting[0], execution.way, "enter", (waiting[0].enter.n, execution.enter.n))
+
+
+@rule("completed", *CALL_EXCLUSIONS)
+def circle_refused(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+    """A call came back to the component whose execution waits for it, and was refused."""
+    reply = call.reply
+    if reply is not None and reply.raised and not call.deliveries:
+        _look_round(ledger, runtime, call.business, "refuse", (call.business.n, reply.n))
+
+
+@rule("closed", *CALL_EXCLUSIONS)
+def circle_waits(ledger: Ledger, runtime: Runtime) -> None:
+    """A call came back to the component whose execution waits for it, and both were still waiting in the end."""
+    for call in runtime.executions.on_their_way if runtime.executions is not None else ():
+        _look_round(ledger, runtime, call, "wait", (call.n,))
+
+
+def _look_round(ledger: Ledger, runtime: Runtime, call: BusinessCall, reading: str, events: tuple[int, ...]) -> None:
+    callers = list(call.callers())
+    for member, port in goals_of(runtime, call):
+        body = member.component, member.instance
+        for caller in callers:
+            if (caller.enter.component, caller.enter.instance) == body:
+                _came_round(ledger, member, caller, port, reading, events)
+                return
+
+
+def _came_round(
+    ledger: Ledger, member: Member, waiting: Execution, port: str, reading: str, events: tuple[int, ...]
+) -> None:
+    requirement = exclusion(member.declaration, waiting.way, port)
+    if requirement and not ledger.observed("protected-recursion", reading):
+        ledger.violated(
+            requirement,
+            "circle",
+            reading,
+            f"calls that come back to '{member.lane}' while it waits for them fare as declared",
+            {"enter": "one was let in", "refuse": "one was refused", "wait": "one waited for ever"}[reading],
+            events,
+        )

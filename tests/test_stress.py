@@ -1,0 +1,150 @@
+"""Tiny holes in the protection of components are found by stress, and circles of calls are told of (10.1.3.2)."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import threading
+from collections.abc import Callable
+from typing import TypeVar
+
+import msgspec
+import pytest
+from derived.registry import Base, bind
+from performing import answer
+
+from ucm_cts.adapters.contract.messages import Traced
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Stressed, Trace
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference_py.framework import Member
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.circles import circle_purposes
+from ucm_cts.harness.integrity import contradiction
+from ucm_cts.harness.scripts import TestPurpose, load_scripts, to_scenario
+from ucm_cts.harness.stress import stress_purposes
+from ucm_cts.reference_models.claims import Claims
+from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.reference_models.ledger import Ledger
+
+T = TypeVar("T")
+
+
+def played(asked: Scenario, adapter: type[ReferenceAdapter]) -> Trace:
+    reply = answer(asked, adapter)
+    assert isinstance(reply, Traced), reply
+    assert contradiction(asked, reply.events, bool(reply.stuck)) is None
+    assert set(reply.stuck) <= set(asked.may_stay)
+    return reply.events
+
+
+def judged(
+    purposes: list[TestPurpose], adapter: type[ReferenceAdapter], claims: dict[str, str] | None = None
+) -> dict[str, Ledger]:
+    judge = Judge(load_life_cycle(), Claims(claims or {}))
+    cases = [case for purpose in purposes for case in purpose.scenarios]
+    return {name: judge.judge(asked, played(asked, adapter)) for name, asked in cases}
+
+
+class leaves_the_lock_out(Base):
+    """One of a hundred executions is not protected."""
+
+    executions = itertools.count(1)
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if next(self.executions) % 100 == 0:
+            return work()
+        return super()._execute_alone(member, port, work)
+
+
+class checks_and_then_enters(Base):
+    """Whether somebody is inside is looked up, and set afterwards."""
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        while member.__dict__.get("occupied"):
+            pass
+        member.__dict__["occupied"] = True
+        try:
+            return work()
+        finally:
+            member.__dict__["occupied"] = False
+
+
+def test_reference_framework_withstands_stress() -> None:
+    ledgers = judged(stress_purposes(), ReferenceAdapter)
+    assert not [finding for ledger in ledgers.values() for finding in ledger.findings]
+
+
+@pytest.mark.parametrize("mixin", [leaves_the_lock_out, checks_and_then_enters])
+def test_framework_with_a_tiny_hole_is_found_out(mixin: type) -> None:
+    adapter = bind(mixin.__name__, mixin)
+    purposes = [p for p in stress_purposes() if p.id == "stress/protected passive, two ports"]
+    found = [judged(purposes, adapter) for _ in range(20)]
+    broken = {f.requirement for ledgers in found for ledger in ledgers.values() for f in ledger.findings}
+    assert broken == {"R-10.1.3.2-16"}
+
+
+@functools.cache
+def stressed() -> tuple[Scenario, Trace]:
+    (purpose,) = [p for p in stress_purposes() if p.id == "stress/protected passive, one port"]
+    ((_, asked),) = purpose.scenarios
+    return asked, played(asked, ReferenceAdapter)
+
+
+@pytest.mark.parametrize(
+    ("counted", "exercised"),
+    [({"overlaps": 0, "control_overlaps": 3}, True), ({"overlaps": 0, "control_overlaps": 0}, False)],
+)
+def test_who_finds_nothing_where_nobody_protects_has_proved_nothing(counted: dict[str, int], exercised: bool) -> None:
+    asked, trace = stressed()
+    told = tuple(msgspec.structs.replace(e, **counted) if isinstance(e, Stressed) else e for e in trace)
+    ledger = Judge(load_life_cycle()).judge(asked, told)
+    assert ("R-10.1.3.2-13" in ledger.exercises) == exercised
+    assert not ledger.findings
+
+
+class refuses_to_come_round(Base):
+    """Calls that come back to a protected component are refused."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.execution.is_inside:
+            raise RuntimeError("the component waits for this very call")
+        return super()._execute(member, port, work)
+
+
+class waits_for_itself(Base):
+    """Calls that come back to a protected component wait for it."""
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        with member.__dict__.setdefault("plain lock", threading.Lock()):
+            return work()
+
+
+CIRCLES = {"enter": ReferenceAdapter} | {
+    reading: bind(mixin.__name__, mixin)
+    for reading, mixin in (("refuse", refuses_to_come_round), ("wait", waits_for_itself))
+}
+
+
+@pytest.mark.parametrize(("reading", "adapter"), CIRCLES.items())
+def test_circle_is_told_and_not_judged_unless_declared(reading: str, adapter: type[ReferenceAdapter]) -> None:
+    passive = [p for p in circle_purposes() if p.id == "circle/protected passive"]
+    for name, ledger in judged(passive, adapter).items():
+        assert ledger.readings["protected-recursion"] == {reading}, name
+        assert not ledger.findings
+        assert "R-10.1.3.2-15" in ledger.exercises, "the component beside the circle is served"
+    for other in CIRCLES.keys() - {reading}:
+        for ledger in judged(passive, adapter, {"protected-recursion": other}).values():
+            assert {f.requirement for f in ledger.findings} <= {"R-10.1.3.2-13", "R-10.1.3.2-16"}
+            assert ledger.findings
+
+
+@pytest.mark.parametrize(("declared", "kept"), [("observed", True), ("default", True), ("refuse", False)])
+def test_component_without_execution_policy_fares_as_declared(declared: str, kept: bool) -> None:
+    (script,) = [script for script in load_scripts() if script.scenario == "without-execution-policy"]
+    asked = to_scenario(script)
+    ledger = Judge(load_life_cycle(), Claims({"missing-execution-policy": declared})).judge(
+        asked, played(asked, ReferenceAdapter)
+    )
+    assert [f.requirement for f in ledger.findings] == ([] if kept else ["R-10.1.3-02"])
+    assert "R-10.1.3-02" in ledger.exercises
