@@ -14,6 +14,7 @@ from ucm_cts.adapters.contract.trace import (
     Exit,
     Held,
     Opened,
+    Paused,
     Raise,
     Reply,
     Request,
@@ -143,7 +144,8 @@ class MethodCall:
 class Interactions:
     """All links, calls and deliveries of one trace. ``held`` are bodies at gates that are closed, ``released_at`` is when the
     last of them was let go. ``operations`` are the steps handed to the framework, ``settled`` where workers were found,
-    ``waits`` those that ran out of patience, and ``latest`` is when something happened last.
+    ``waits`` those that ran out of patience, and ``latest`` is when something happened last. ``pauses`` show the calendar
+    clock.
     """
 
     def __init__(self, runtime: Runtime) -> None:
@@ -157,6 +159,7 @@ class Interactions:
         self.settled: list[Settled] = []
         self.waits: list[Wait] = []
         self.latest = 0
+        self.pauses: list[Paused] = []
         self._opened: set[str] = set()
         self._open: dict[int, list[MethodCall]] = {}
         self._inside: dict[int, list[Delivery]] = {}

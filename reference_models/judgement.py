@@ -176,6 +176,11 @@ class _Reading:
         for check in self.judge.told if self.interactions is not None else ():
             check(self.ledger, self.runtime, event)
 
+    def paused(self, event: Paused) -> None:
+        if self.interactions is not None:
+            self.interactions.pauses.append(event)
+        self.tell(event)
+
     def create(self, event: Create) -> None:
         if self.window is not None:
             self.window.created.append((event.component, event.instance))
@@ -351,7 +356,7 @@ _TAKE: dict[type[Any], Callable[[_Reading, Any], None]] = {
     Timeout: _Reading.timeout,
     Pushed: _Reading.tell,
     Counted: _Reading.tell,
-    Paused: _Reading.tell,
+    Paused: _Reading.paused,
     Stressed: _Reading.tell,
 }
 """What to do with each kind of event; the other kinds say nothing to the rules."""
