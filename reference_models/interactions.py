@@ -64,7 +64,12 @@ class LinkState:
 
     def live(self, *roles: str) -> list[End]:
         """The ends of these roles that are attached now."""
-        return [end for end in self.ends if end.until is None and end.role in roles]
+        return [end for end in self.ends if end.until is None and end.role in roles and not end.member.gone]
+
+    @property
+    def is_proper(self) -> bool:
+        """Has it both sides, and no second server?"""
+        return bool(self.live(*_SENDERS) and self.live(*_TAKERS)) and len(self.live("server")) < 2
 
 
 @dataclass(slots=True, eq=False)
@@ -208,10 +213,17 @@ class Interactions:
             end.connection = Connection(link.name, NO_ID, member, step.port, "opaque", None)
             member.connections.append(end.connection)
         link.ends.append(end)
-        server = next(iter(link.live("server")), None)
-        for client in link.live("client") if server is not None else ():
-            if client.connection is not None and server is not None:
-                client.connection.provider, client.connection.provided = server.member, server.port
+        self._connect_ends(link)
+
+    def _connect_ends(self, link: LinkState) -> None:
+        """Whether clients and emitters are connected depends on the other side; of two servers nobody knows which serves."""
+        servers, takers = link.live("server"), link.live(*_TAKERS)
+        for sender in link.live(*_SENDERS):
+            if sender.connection is not None:
+                sender.connection.live = True if takers else None
+                only = servers[0] if len(servers) == 1 else None
+                sender.connection.provider = only.member if only is not None else None
+                sender.connection.provided = only.port if only is not None else ""
 
     def _detach(self, link: LinkState, step: s.Detach, begin: Call) -> None:
         member = self._runtime.members.get(step.id)
@@ -220,6 +232,7 @@ class Interactions:
                 end.until = begin.n
                 if end.connection is not None:
                     end.connection.live = False
+        self._connect_ends(link)
 
     def request(self, event: Request, business: BusinessCall) -> None:
         """A body calls a method."""
@@ -276,6 +289,15 @@ class Interactions:
         if any(held.gate == event.gate for held in self.held):
             self.released_at = event.t
         self.held = [held for held in self.held if held.gate != event.gate]
+
+    def improper(self, container: Container | None = None) -> list[LinkState]:
+        """Links that members of ``container``, or of any, are ends of and that are not as they should be."""
+        return [
+            link
+            for link in self.links.values()
+            if not link.is_proper
+            and any(container in (None, end.member.container) for end in link.live(*_SENDERS, *_TAKERS))
+        ]
 
     def incomplete(self, container: Container) -> list[LinkState]:
         """Links that members of ``container`` are ends of and that lack one of their two sides."""

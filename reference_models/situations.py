@@ -213,8 +213,11 @@ class Situations:
 
     def _start(self, runtime: Runtime, window: Window, step: s.Start) -> None:
         container = window.container
+        cascades = container.name == s.MANAGER
         members = container.live_members()
         started = container.started
+        if runtime.interactions is not None and runtime.interactions.improper(None if cascades else container):
+            window.forgiving = True
         if started is None or any(m.suspended for m in members):
             window.judged = False
         if not members:
