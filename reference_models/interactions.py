@@ -15,6 +15,7 @@ from ucm_cts.adapters.contract.trace import (
     Held,
     Opened,
     Paused,
+    Pushed,
     Raise,
     Reply,
     Request,
@@ -51,7 +52,7 @@ class End:
 @dataclass(slots=True, eq=False)
 class LinkState:
     """A connection with a core connector. ``broken`` says where it is broken now, ``broken_at`` since when (``t``), and
-    ``mended_at`` when it was mended last.
+    ``mended_at`` when it was mended last of what ``was_broken``.
     """
 
     name: str
@@ -60,6 +61,7 @@ class LinkState:
     ends: list[End] = field(default_factory=list)
     broken: str = ""
     broken_at: int = 0
+    was_broken: str = ""
     mended_at: int = 0
 
     def live(self, *roles: str) -> list[End]:
@@ -146,8 +148,17 @@ class MethodCall:
         return [d for d in self.deliveries if d.receiver is receiver and port in (None, d.enter.port)]
 
 
+@dataclass(slots=True, eq=False)
+class PushedBurst:
+    """A burst that has been pushed. ``receivers`` are those that were operational then."""
+
+    pushed: Pushed
+    link: LinkState | None
+    receivers: list[Member]
+
+
 class Interactions:
-    """All links, calls and deliveries of one trace. ``held`` are bodies at gates that are closed, ``released_at`` is when the
+    """All links, calls, deliveries and bursts of one trace. ``held`` are bodies at gates that are closed, ``released_at`` is when the
     last of them was let go. ``operations`` are the steps handed to the framework, ``settled`` where workers were found,
     ``waits`` those that ran out of patience, and ``latest`` is when something happened last. ``pauses`` show the calendar
     clock.
@@ -158,6 +169,7 @@ class Interactions:
         self.links: dict[str, LinkState] = {}
         self.calls: list[MethodCall] = []
         self.deliveries: list[Delivery] = []
+        self.bursts: list[PushedBurst] = []
         self.held: list[Held] = []
         self.released_at = 0
         self.operations: list[Operation] = []
@@ -179,7 +191,7 @@ class Interactions:
         if link is None or isinstance(end, Raise):
             return link
         if isinstance(step, s.Break):
-            link.broken, link.broken_at = step.where, end.t
+            link.broken, link.broken_at, link.was_broken = step.where, end.t, step.where
         elif isinstance(step, s.Mend):
             link.broken, link.mended_at = "", end.t
         elif isinstance(step, s.Attach):
@@ -274,6 +286,18 @@ class Interactions:
         inside = self._inside.get(event.thread)
         if inside:
             inside.pop().exit = event
+
+    def push(self, event: Pushed) -> None:
+        """A body has pushed a burst."""
+        caller = self._runtime.member_of(event.component, event.instance)
+        link = self._link_of(caller, event.port, _SENDERS)
+        ends = link.live("receiver") if link is not None else []
+        self.bursts.append(PushedBurst(event, link, [end.member for end in ends if end.member.serving]))
+
+    def link_to(self, receiver: Member) -> LinkState | None:
+        """The link that ``receiver`` is a receiver of."""
+        links = self.links.values()
+        return next((link for link in links if any(e.member is receiver for e in link.live("receiver"))), None)
 
     def hold(self, event: Held) -> None:
         """A body is held at a gate, if the gate is closed."""

@@ -27,12 +27,15 @@ from ucm_cts.adapters.contract.trace import (
     Trace,
 )
 from ucm_cts.reference_models import (
+    rules_bursts,
     rules_callbacks,
     rules_dependencies,
     rules_execution,
     rules_interactions,
+    rules_messages,
     rules_operations,
     rules_policies,
+    rules_return_codes,
     rules_stress,
 )
 from ucm_cts.reference_models.adoption import adopt
@@ -53,6 +56,9 @@ RULE_MODULES = (
     rules_execution,
     rules_policies,
     rules_stress,
+    rules_messages,
+    rules_return_codes,
+    rules_bursts,
 )
 """Importing these registers all rules; rules of one moment look in this order."""
 
@@ -173,6 +179,8 @@ class _Reading:
             self.tell(event)
 
     def tell(self, event: Return | Pushed | Counted | Paused | Stressed) -> None:
+        if isinstance(event, Pushed) and self.interactions is not None:
+            self.interactions.push(event)
         for check in self.judge.told if self.interactions is not None else ():
             check(self.ledger, self.runtime, event)
 
