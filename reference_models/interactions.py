@@ -116,7 +116,8 @@ class Wait:
 class MethodCall:
     """A body's call of a method. ``broken`` says where its link was broken when it was made, ``targets`` are the other ends
     that were attached then, with whether each was operational. ``idle`` are those that certainly were not. ``ready`` says
-    that the caller was operational. A message is ``crowded`` if another one was on its way when it was pushed, or pushed
+    that the caller was operational, ``prepared`` that all ends were attached before the components there were started. A
+    message is ``crowded`` if another one was on its way when it was pushed, or pushed
     before it was answered.
     """
 
@@ -125,6 +126,7 @@ class MethodCall:
     caller: Member | None
     link: LinkState | None
     ready: bool
+    prepared: bool = False
     broken: str = ""
     targets: list[tuple[End, bool]] = field(default_factory=list)
     idle: list[End] = field(default_factory=list)
@@ -254,6 +256,7 @@ class Interactions:
         if call.link is not None:
             call.broken = call.link.broken
             call.targets = [(end, end.member.serving) for end in call.link.live(*_TAKERS)]
+            call.prepared = self._is_prepared(call)
             call.idle = [end for end, _ in call.targets if _is_idle(self._runtime, end.member)]
         if call.is_message:
             self._look_around(call)
@@ -331,6 +334,13 @@ class Interactions:
             if any(end.member.container is container for end in link.live(*_SENDERS, *_TAKERS))
             and not (link.live(*_SENDERS) and link.live(*_TAKERS))
         ]
+
+    def _is_prepared(self, call: MethodCall) -> bool:
+        senders = call.link.live(*_SENDERS) if call.link is not None else []
+        own = [end for end in senders if end.member is call.caller and end.port == call.request.port]
+        ends = [*own, *(end for end, _ in call.targets)]
+        begun = [self._runtime.startups.get((end.member.component, end.member.instance or 0)) for end in ends]
+        return bool(own) and all(b is not None and b[0] > end.since for b in begun for end in ends)
 
     def _look_around(self, call: MethodCall) -> None:
         """Is another message on its way?"""
