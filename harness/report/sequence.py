@@ -13,6 +13,7 @@ from typing import Any, Literal
 from ucm_cts.adapters.contract.trace import (
     BodyEvent,
     Call,
+    Counted,
     Create,
     Enter,
     Event,
@@ -20,6 +21,8 @@ from ucm_cts.adapters.contract.trace import (
     Exit,
     Held,
     Opened,
+    Paused,
+    Pushed,
     Raise,
     Reply,
     Request,
@@ -27,6 +30,7 @@ from ucm_cts.adapters.contract.trace import (
     Settled,
     Siblings,
     Skip,
+    Stressed,
     Timeout,
 )
 from ucm_cts.harness.report.foreign import one_line
@@ -100,7 +104,7 @@ class _Frame:
     line: int
     source: str
     target: str
-    value: int | None = None
+    value: object = None
     arrived: bool = True
 
 
@@ -179,6 +183,14 @@ class _Walk:
                 self._opened(event)
             case Settled():
                 self._settled(event)
+            case Pushed():
+                self._pushed(event)
+            case Counted():
+                self._counted(event)
+            case Stressed():
+                self._stressed(event)
+            case Paused():
+                self._paused(event)
             case Return():
                 self._return(event)
             case Raise():
@@ -206,9 +218,7 @@ class _Walk:
         self.lines.append(Line(kind, source, target, one_line(label, LABEL), (event.n,), event.thread, **more))
         return len(self.lines) - 1
 
-    def _begin(
-        self, what: str, source: str, target: str, label: str, event: EventBase, value: int | None = None
-    ) -> _Frame:
+    def _begin(self, what: str, source: str, target: str, label: str, event: EventBase, value: object = None) -> _Frame:
         line = self._add("call", source, target, label, event, begins=True)
         frame = _Frame(what, line, source, target, value)
         self.frames.setdefault(event.thread, []).append(frame)
@@ -258,7 +268,8 @@ class _Walk:
     def _return(self, event: Return) -> None:
         step = event.step
         self.words.returned(step, event.value)
-        result = self.words.value(event.value)
+        records = event.records
+        result = self.words.value(event.value) if records is None else f"{len(records)} records"
         label = f"returns {result}" if result else "returns"
         self._end(f"step {step}", label, result, event, self.words.container(step))
 
@@ -270,6 +281,9 @@ class _Walk:
 
     def _skip(self, event: Skip) -> None:
         what, name = self.words.step(event.step), one_line(event.variable, 30)
+        if event.variable == self.words.operation(event.step):
+            self._end(f"step {event.step}", "is not offered", "is not offered", event, TEST)
+            return
         self._add("note", TEST, TEST, f"skipped {what}: {name} was never bound", event)
 
     def _timeout(self, event: Timeout) -> None:
@@ -287,14 +301,15 @@ class _Walk:
         body, hook = self._body(event), event.hook
         what = f"{body} {hook}"
         label = self.words.hook(event)
-        if hook != "exchange":
+        if hook not in ("exchange", "method"):
             self._begin(what, self._home(event), body, label, event)
             return
+        sent = event.value if hook == "exchange" else (event.method, event.arguments)
         stack = self.frames.get(event.thread, [])
-        caller = next((f for f in reversed(stack) if not f.arrived and f.value == event.value), None)
+        caller = next((f for f in reversed(stack) if not f.arrived and f.value == sent), None)
         if caller is None:
             others = [frame for frames in self.frames.values() for frame in frames if not frame.arrived]
-            caller = next((f for f in others if f.value == event.value), None)
+            caller = next((f for f in others if f.value == sent), None)
         if caller is None:
             self._begin(what, self._home(event), body, label, event)
             return
@@ -309,20 +324,20 @@ class _Walk:
 
     def _exit(self, event: Exit) -> None:
         body, hook = self._body(event), event.hook
-        result = "an exception" if event.raised else self.words.value(event.value)
-        label = "raises an exception" if event.raised else f"returns {result}" if result else f"{hook} ends"
+        result = self.words.outcome(event)
+        label = _came_back(event, result) if result else f"{hook} ends"
         self._end(f"{body} {hook}", label, result, event, body)
 
     def _request(self, event: Request) -> None:
-        body, value = self._body(event), event.value
-        label = f"exchange({value}) through {event.port}"
-        frame = self._begin(f"{body} request {event.port}", body, "", label, event, value)
+        body = self._body(event)
+        sent = event.value if event.method is None else (event.method, event.arguments)
+        frame = self._begin(f"{body} request {event.port}", body, "", self.words.request(event), event, sent)
         frame.arrived = False
 
     def _reply(self, event: Reply) -> None:
         body = self._body(event)
-        result = "an exception" if event.raised else self.words.value(event.value)
-        label = "raises an exception" if event.raised else f"returns {result}"
+        result = self.words.outcome(event)
+        label = _came_back(event, result)
         self._end(f"{body} request {event.port}", label, result, event, body)
 
     def _siblings(self, event: Siblings) -> None:
@@ -336,8 +351,28 @@ class _Walk:
     def _opened(self, event: Opened) -> None:
         self._add("note", TEST, TEST, f"opens {one_line(event.gate, 30)}", event)
 
+    def _pushed(self, event: Pushed) -> None:
+        body = self._body(event)
+        answers = ", ".join(f"{times} times {code}" for code, times in event.answers.items())
+        self._add("note", body, body, f"pushes {event.count} through {event.port}: {answers}", event)
+
+    def _counted(self, event: Counted) -> None:
+        told = f"{event.received} messages received, {event.distinct} distinct, {event.disordered} out of order"
+        self._add("note", TEST, TEST, f"{lane(event.component, event.instance)}: {told}", event)
+
+    def _stressed(self, event: Stressed) -> None:
+        control = f"{event.control_overlaps} in {event.control_calls} where nobody protects"
+        self._add("note", TEST, TEST, f"{event.overlaps} overlaps in {event.calls} calls, {control}", event)
+
+    def _paused(self, event: Paused) -> None:
+        self._add("note", TEST, TEST, self.words.step(event.step), event)
+
     def _settled(self, event: Settled) -> None:
         self._add("note", TEST, TEST, f"{one_line(event.worker, 30)} is {event.where}", event)
+
+
+def _came_back(event: Exit | Reply, result: str) -> str:
+    return f"raises {result}" if event.raised or event.exception is not None else f"returns {result}"
 
 
 def _mark(lines: Sequence[Line], suspects: frozenset[int]) -> list[Line]:

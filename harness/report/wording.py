@@ -2,27 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import (
     MANAGER,
     NIL,
     AddComponent,
+    Attach,
+    AwaitMessages,
+    Break,
     Connect,
     CreateContainer,
     Destroy,
+    Detach,
     Disconnect,
     GetPortElement,
     Invoke,
     Join,
+    Link,
+    Mend,
     OpenGate,
+    Pause,
     ReachGate,
+    ReadLog,
     RemoveComponent,
     RemoveContainer,
+    Settle,
     Step,
+    Stress,
     operation,
 )
-from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
+from ucm_cts.adapters.contract.trace import Enter, Exit, MaybeReference, Reference, Reply, Request
 from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.results import Execution
 
@@ -85,8 +96,8 @@ class Wording:
         return self._steps[number] if 0 <= number < len(self._steps) else None
 
     def is_wait(self, number: int) -> bool:
-        """Whether the step concerns gates and threads only, and no framework."""
-        return isinstance(self._step(number), OpenGate | ReachGate | Join)
+        """Whether the step concerns gates, threads and time only, and no framework."""
+        return isinstance(self._step(number), OpenGate | ReachGate | Join | Settle | Pause | AwaitMessages | Stress)
 
     def invoked(self, number: int) -> int | None:
         """The value that an ``invoke`` step sends; None for other steps."""
@@ -121,6 +132,11 @@ class Wording:
             return f"step {number}"
         return one_line(f"{operation(step)} {self._arguments(step)}".rstrip(), 90)
 
+    def operation(self, number: int) -> str:
+        """The operation alone."""
+        step = self._step(number)
+        return operation(step) if step is not None else ""
+
     def _arguments(self, step: Step) -> str:
         match step:
             case AddComponent():
@@ -142,8 +158,26 @@ class Wording:
                 return f"{self._element(step.ref)} exchange({step.value})"
             case OpenGate() | ReachGate():
                 return step.gate
-            case Join():
+            case Join() | Settle():
                 return step.worker
+            case Link():
+                return f"{step.bind}: {step.connector} of {step.interface}"
+            case Attach():
+                return f"{step.role} {step.id}.{step.port} to {step.link}"
+            case Detach():
+                return f"{step.id}.{step.port} from {step.link}"
+            case Break():
+                return f"{step.where} of {step.link}"
+            case Mend():
+                return step.link
+            case Pause():
+                return f"{step.milliseconds} ms"
+            case ReadLog():
+                return f"until {step.records} records are there" if step.records else ""
+            case AwaitMessages():
+                return f"{step.count} at {step.component}"
+            case Stress():
+                return f"{', '.join(map(self._element, step.refs))} for {step.milliseconds} ms"
             case _:
                 return ""
 
@@ -169,9 +203,29 @@ class Wording:
                 arguments = event.port or ""
             case "exchange":
                 return one_line(f"exchange({event.value}) on {event.port}", 90)
+            case "method":
+                return one_line(f"{event.method}({self.data(event.arguments)}) on {event.port}", 90)
             case _:
                 arguments = ""
         return one_line(f"{event.hook}({arguments})", 90)
+
+    def request(self, event: Request) -> str:
+        """What a body calls."""
+        called = f"exchange({event.value})" if event.method is None else f"{event.method}({self.data(event.arguments)})"
+        return f"{called} through {event.port}"
+
+    def outcome(self, event: Exit | Reply) -> str:
+        """What a call or a hook came back with; empty for nothing."""
+        if event.raised:
+            return "an exception"
+        if event.exception is not None:
+            return one_line(f"{event.exception}({self.data(event.results)})", 90)
+        return self.value(event.value) if event.results is None else one_line(self.data(event.results), 90)
+
+    @staticmethod
+    def data(values: Sequence[Datum] | None) -> str:
+        """Values of methods."""
+        return ", ".join(one_line(str(value), 60) for value in values or ())
 
     @staticmethod
     def _attributes(attributes: Mapping[str, str]) -> str:
