@@ -1,0 +1,130 @@
+"""Series: the same run many times, or once for each variant of a framework. Does any verdict flip? (``tox -e series``)
+
+Each run is the command that a user gives, in a process of its own; ``--busy`` keeps that many processors busy meanwhile.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+import msgspec
+from rich.console import Console
+from rich.progress import track
+from rich.table import Table
+
+
+@dataclass(frozen=True)
+class SeriesRun:
+    """One run of a series: what it was called, its verdict, and that of each requirement."""
+
+    name: str
+    verdict: str
+    verdicts: Mapping[str, str]
+    incidents: int
+    seconds: float
+    measures: Mapping[str, int]
+
+    def flips(self, first: SeriesRun) -> list[str]:
+        """The requirements whose verdict is another one than in the ``first`` run."""
+        return sorted(r for r in {*self.verdicts, *first.verdicts} if self.verdicts.get(r) != first.verdicts.get(r))
+
+
+@click.command()
+@click.argument("adapter", default="reference-cpp")
+@click.option("--profile", default="core", show_default=True)
+@click.option("--runs", type=click.IntRange(min=1), default=1, show_default=True, help="Runs of each variant.")
+@click.option("--variant", "variants", multiple=True, help="NAME=VALUE: set in the environment of a run; repeatable.")
+@click.option("--busy", type=click.IntRange(min=0), default=0, show_default=True, help="Processors to keep busy.")
+@click.option(
+    "--out", type=click.Path(dir_okay=False, path_type=Path), help="Write the table to this Markdown file, too."
+)
+def main(adapter: str, profile: str, runs: int, variants: Sequence[str], busy: int, out: Path | None) -> None:
+    """Run PROFILE on ADAPTER again and again. Exit status 1 if a run is not conformant or a verdict flips."""
+    told: list[SeriesRun] = []
+    with keeping_busy(busy):
+        cases = [(variant, number) for variant in variants or ("",) for number in range(1, runs + 1)]
+        for variant, number in track(cases, "running", console=Console(stderr=True), transient=True):
+            told.append(one_run(adapter, profile, variant, number))
+    title = f"{adapter}, profile {profile}, {len(told)} runs{f', {busy} busy processors' if busy else ''}"
+    Console().print(table(title, told))
+    if out is not None:
+        out.write_text(markdown(title, told), encoding="utf-8")
+    steady = all(run.verdict == "conformant" and not run.flips(told[0]) for run in told)
+    sys.exit(0 if steady or (variants and all(run.verdict == "conformant" for run in told)) else 1)
+
+
+def one_run(adapter: str, profile: str, variant: str, number: int) -> SeriesRun:
+    """Run once; ``number`` is the seed."""
+    name, _, value = variant.partition("=")
+    environment = {**os.environ, **({name: value} if name else {})}
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, "-m", "ucm_cts", "run", adapter, "--profile", profile]
+        command += ["--seed", str(number), "--out", folder]
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+        try:
+            report = msgspec.json.decode((Path(folder) / "report.json").read_bytes())
+        except OSError:
+            raise click.ClickException(f"run {number} left no report: {done.stderr.strip()}") from None
+    verdicts = {result["id"]: result["verdict"] for result in report["requirements"]}
+    incidents = len(report.get("incidents", ()))
+    label = value or f"{number}"
+    return SeriesRun(label, report["verdict"], verdicts, incidents, report["seconds"], report.get("measures", {}))
+
+
+@contextlib.contextmanager
+def keeping_busy(processors: int) -> Iterator[None]:
+    """So many processes do nothing but compute meanwhile."""
+    busy = [multiprocessing.Process(target=_compute, daemon=True) for _ in range(processors)]
+    for process in busy:
+        process.start()
+    try:
+        yield
+    finally:
+        for process in busy:
+            process.kill()
+            process.join()
+
+
+def _compute() -> None:
+    while True:
+        sum(range(10_000))
+
+
+def _rows(told: Sequence[SeriesRun]) -> Iterator[tuple[str, ...]]:
+    for run in told:
+        counts = Counter(run.verdicts.values())
+        figures = [str(counts[verdict]) for verdict in ("pass", "fail", "inconclusive", "not applicable")]
+        flips = ", ".join(run.flips(told[0])) or "none"
+        yield run.name, run.verdict, *figures, str(run.incidents), f"{run.seconds:.1f}", flips
+
+
+_COLUMNS = ("run", "verdict", "pass", "fail", "inconclusive", "n/a", "incidents", "s", "other than in the first run")
+
+
+def table(title: str, told: Sequence[SeriesRun]) -> Table:
+    """The series for the terminal."""
+    shown = Table(*_COLUMNS, title=title)
+    for row in _rows(told):
+        shown.add_row(*row)
+    return shown
+
+
+def markdown(title: str, told: Sequence[SeriesRun]) -> str:
+    """The series as a page."""
+    lines = [f"# {title}", "", f"| {' | '.join(_COLUMNS)} |", f"|{'---|' * len(_COLUMNS)}"]
+    lines += [f"| {' | '.join(row)} |" for row in _rows(told)]
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    main()
