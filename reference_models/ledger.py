@@ -40,7 +40,8 @@ body's call of a method came back; something was counted, measured or read back;
 class Rule:
     """A named check and the requirements it stands for; ``check`` takes what the judge offers at ``moment``.
 
-    ``at`` names the operations, or for ``entered`` the hooks, that it looks at; empty stands for all.
+    ``at`` names the operations, or for ``entered`` the hooks, that it looks at; empty stands for all. What a ``timed`` rule
+    finds depends on how long something took, so that a machine that stood still may be to blame.
     """
 
     name: str
@@ -48,6 +49,7 @@ class Rule:
     stands_for: tuple[str, ...]
     at: tuple[str, ...]
     check: Callable[..., None]
+    timed: bool = False
 
 
 RULES: dict[str, Rule] = {}
@@ -55,12 +57,12 @@ RULES: dict[str, Rule] = {}
 
 
 def rule(
-    moment: Moment, *stands_for: str, at: tuple[str, ...] = ()
+    moment: Moment, *stands_for: str, at: tuple[str, ...] = (), timed: bool = False
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Register the decorated function, under its own name, as a rule that looks at ``moment``."""
 
     def register(check: Callable[..., None]) -> Callable[..., None]:
-        RULES[check.__name__] = Rule(check.__name__, moment, stands_for, at, check)
+        RULES[check.__name__] = Rule(check.__name__, moment, stands_for, at, check, timed)
         return check
 
     return register
