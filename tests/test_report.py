@@ -35,7 +35,7 @@ from made_up_run import (
 from rich.console import Console
 
 from ucm_cts.adapters.contract.scenario import AddComponent, Scenario, Start, Step
-from ucm_cts.adapters.contract.trace import Call, Create, Dependency, Event, Return
+from ucm_cts.adapters.contract.trace import Call, Create, Dependency, Event, LogRecord, Return
 from ucm_cts.harness.report import json_report, order, sequence, sequence_svg, transitions
 from ucm_cts.harness.report.excerpt import compare
 from ucm_cts.harness.report.foreign import LONGEST, LONGEST_STACKS, clean, clean_report, one_line
@@ -174,6 +174,24 @@ def test_text_is_at_most_110_columns_wide_with_many_lanes() -> None:
     assert max(map(len, text.splitlines())) <= 110
 
 
+_COUNTS = {
+    "first",
+    "count",
+    "received",
+    "distinct",
+    "disordered",
+    "least",
+    "greatest",
+    "calendar",
+    "calls",
+    "failed",
+} | {
+    "overlaps",
+    "control_calls",
+    "control_overlaps",
+}
+
+
 def test_no_trace_however_absurd_breaks_a_diagram() -> None:
     kinds: tuple[Any, ...] = typing.get_args(Event)
     values: dict[str, list[Any]] = {
@@ -181,7 +199,7 @@ def test_no_trace_however_absurd_breaks_a_diagram() -> None:
         "step": [0, 3, 6, 99, -1],
         "component": ["provider", "client", "odd#1", HOSTILE],
         "instance": [1, 1, 2],
-        "hook": ["on_init", "on_startup", "on_connect", "exchange", "run"],
+        "hook": ["on_init", "on_startup", "on_connect", "exchange", "run", "method"],
         "where": ["done", "held", "blocked", "running"],
         "error": ["NOT_FOUND", "UNDECLARED"],
         **{name: ["in_api", "out_api", "g", HOSTILE] for name in ("port", "gate", "variable", "detail", "worker")},
@@ -191,6 +209,12 @@ def test_no_trace_however_absurd_breaks_a_diagram() -> None:
         "attributes": [None, {"a": HOSTILE}],
         "raised": [False, True],
         "ids": [(), (1, 2)],
+        "method": [None, "push", HOSTILE],
+        "exception": [None, HOSTILE],
+        **{name: [None, (), (1, [HOSTILE], True)] for name in ("arguments", "results")},
+        "records": [None, (), (LogRecord("info", HOSTILE),)],
+        "answers": [{}, {HOSTILE: 3}],
+        **{name: [0, 5, -1] for name in _COUNTS},
     }
     for seed in range(200):
         chance = random.Random(seed)
