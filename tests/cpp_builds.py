@@ -24,6 +24,7 @@ from ucm_cts.adapters.reference_cpp import COMMAND
 ROOT = Path(__file__).parent.parent
 SDK = ROOT / "adapters" / "cpp"
 FRAMEWORK = ROOT / "adapters" / "reference_cpp" / "framework"
+NATIVE = Path(__file__).parent / "native"
 GUIDE = ROOT / "docs" / "adapter-cpp.md"
 PACKAGE = Path(ucm_cts.__file__).parent
 
@@ -112,6 +113,7 @@ class Builds:
             "tsan": self._compile("tsan", REFERENCE, ["-std=c++11", "-fsanitize=thread", "-g1"]),
             "asan": self._compile("asan", REFERENCE, ["-std=c++11", *asan]),
             "spellings": self._compile("spellings", [SDK / "example" / "other_spellings.cpp"], STRICT),
+            "patchbay": self._compile("patchbay", [NATIVE / "patchbay.cpp"], [*STRICT, *asan]),
             "beans": self._compile("beans", [folder / "beans.cpp"], [*STRICT, "-I", str(SDK / "example")]),
         }
         self._vendor = self._pool.submit(self._build_like_a_vendor)

@@ -311,6 +311,7 @@ inline Scenario read_scenario(const json::Value& value) {
             [&](const json::Value& step) { scenario.steps.push_back(detail::read_step(step, interfaces)); });
     });
     fields.optional_integer("patience", scenario.patience);
+    fields.optional("may_stay", [](const json::Value& workers) { detail::read_names(workers); });  // the judge's matter
     fields.end();
     return scenario;
 }
