@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,6 +48,7 @@ class TestPurpose:
     """What one test node checks: scenarios that provoke the situation ``text`` describes.
 
     ``clause`` groups purposes; ``requirements`` are those the scenarios mean to exercise. Rules of others watch too.
+    ``draw`` gives the same scenarios with values that are drawn from a run's seed.
     """
 
     __test__ = False
@@ -57,6 +58,7 @@ class TestPurpose:
     text: str
     requirements: tuple[str, ...]
     scenarios: tuple[tuple[str, Scenario], ...]
+    draw: Callable[[int], tuple[tuple[str, Scenario], ...]] | None = None
 
 
 def load_scripts(directory: Path = SCENARIOS) -> list[Script]:

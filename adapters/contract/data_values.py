@@ -1,0 +1,200 @@
+"""Which data are values of a UCM type (9.2.3 to 9.2.5), and what a value is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ucm_cts.adapters.contract.data_types import (
+    Alias,
+    AnyType,
+    Array,
+    Boolean,
+    Char,
+    Datum,
+    Enumeration,
+    Float,
+    Integer,
+    Sequence,
+    String,
+    Structure,
+    Union,
+    UnionCase,
+    integer_range,
+)
+
+SCALARS = (Integer, Float, Char, Boolean, String, Enumeration)
+"""Types whose values are not made of others."""
+
+_DIGITS = {"FLOAT": 8, "DOUBLE": 16}
+_MANTISSA = {"FLOAT": 23, "DOUBLE": 52}
+_LARGEST = {"CHAR8": 0xFF, "CHAR32": 0x10FFFF}
+_SURROGATES = range(0xD800, 0xE000)
+
+
+def misfit(of: AnyType, value: object) -> str:
+    """Why ``value`` is no value of type ``of``, naming the place inside; empty if it is one.
+
+    Every reading of unclear places is taken at its widest: BYTE is signed, CHAR8 has eight bits, sequences any length.
+    """
+    match of:
+        case Alias():
+            return misfit(of.of, value)
+        case Structure():
+            return _misfit_of_structure(of, value)
+        case Union():
+            return _misfit_of_union(of, value)
+        case Array():
+            return _misfit_of_array(of.of, of.sizes, value)
+        case Sequence():
+            if not isinstance(value, list):
+                return f"{value!r} is no list"
+            if 0 <= of.size < len(value):
+                return f"{len(value)} elements are more than {of.size}"
+            return _misfit_of_elements(of.of, value)
+        case _:
+            return _misfit_of_scalar(of, value)
+
+
+def _misfit_of_scalar(of: AnyType, value: object) -> str:
+    match of:
+        case Boolean():
+            fits = isinstance(value, bool)
+        case Integer():
+            low, high = integer_range(of.kind)
+            fits = _is_integer(value, low, high)
+        case Char():
+            fits = _is_integer(value, 0, _LARGEST[of.kind]) and value not in _SURROGATES
+        case Float():
+            fits = isinstance(value, str) and _is_float(of, value)
+        case Enumeration():
+            fits = isinstance(value, str) and value in of.values
+        case String():
+            return _misfit_of_string(of, value)
+        case _:
+            fits = False
+    return "" if fits else f"{_short(value)} is no {kind_name(of)}"
+
+
+def _is_integer(value: object, low: int, high: int) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
+
+
+def _is_float(of: Float, value: str) -> bool:
+    digits = len(value) == _DIGITS[of.kind] and set(value) <= set("0123456789abcdef")
+    return digits and not (is_nan(of, value) and not int(value, 16) >> (_MANTISSA[of.kind] - 1) & 1)
+
+
+def is_nan(of: Float, value: str) -> bool:
+    """Are these the bits of a NaN? ``value`` has the right number of hexadecimal digits."""
+    bits, mantissa = int(value, 16), _MANTISSA[of.kind]
+    exponent = bits >> mantissa & (1 << len(value) * 4 - 1 - mantissa) - 1
+    return exponent == (1 << len(value) * 4 - 1 - mantissa) - 1 and bits & ((1 << mantissa) - 1) != 0
+
+
+def _misfit_of_string(of: String, value: object) -> str:
+    if not isinstance(value, str):
+        return f"{_short(value)} is no string"
+    if 0 <= of.size < len(value):
+        return f"{len(value)} characters are more than {of.size}"
+    wrong = [c for c in value if not 0 < ord(c) <= _LARGEST[of.base] or ord(c) in _SURROGATES]
+    return f"U+{ord(wrong[0]):04X} is no character of a {of.base} string" if wrong else ""
+
+
+def _misfit_of_structure(of: Structure, value: object) -> str:
+    if not isinstance(value, list) or len(value) != len(of.fields):
+        return f"{_short(value)} has not the {len(of.fields)} fields of {of.name}"
+    for (name, field), one in zip(of.fields.items(), value, strict=True):
+        problem = misfit(field, one)
+        if problem:
+            return f"{name}: {problem}"
+    return ""
+
+
+def _misfit_of_union(of: Union, value: object) -> str:
+    if not isinstance(value, list) or len(value) != 2 or not isinstance(value[0], str):
+        return f"{_short(value)} is not [enumerator, value]"
+    case = case_of(of, value[0])
+    if case is None:
+        return f"{of.name} has no case for {_short(value[0])}"
+    problem = misfit(case.of, value[1])
+    return f"{case.name}: {problem}" if problem else ""
+
+
+def _misfit_of_array(of: AnyType, sizes: tuple[int, ...], value: object) -> str:
+    if not isinstance(value, list) or len(value) != sizes[0]:
+        return f"{_short(value)} has not {sizes[0]} elements"
+    if len(sizes) == 1:
+        return _misfit_of_elements(of, value)
+    problems = (
+        f"{index}: {problem}" for index, one in enumerate(value) if (problem := _misfit_of_array(of, sizes[1:], one))
+    )
+    return next(problems, "")
+
+
+def _misfit_of_elements(of: AnyType, value: list[object]) -> str:
+    return next((f"{index}: {problem}" for index, one in enumerate(value) if (problem := misfit(of, one))), "")
+
+
+def case_of(union: Union, enumerator: str) -> UnionCase | None:
+    """The case that ``enumerator`` selects; None if there is no such enumerator, or none of the cases is for it."""
+    if enumerator not in union.selector.values:
+        return None
+    selected = [case for case in union.cases if enumerator in case.selectors]
+    return next(iter(selected or [case for case in union.cases if case.default]), None)
+
+
+def components_of(of: AnyType, value: Datum) -> list[tuple[str, AnyType, Datum]]:
+    """What a value of ``of`` is directly made of: place, type and value; nothing for scalars. An alias has what it names."""
+    match of:
+        case Alias():
+            return [("", of.of, value)]
+        case Structure():
+            assert isinstance(value, list)
+            return [(name, field, one) for (name, field), one in zip(of.fields.items(), value, strict=True)]
+        case Union():
+            assert isinstance(value, list)
+            case = case_of(of, value[0])
+            return [(case.name, case.of, value[1])] if case is not None else []
+        case Array():
+            return [(f"[{','.join(map(str, place))}]", of.of, one) for place, one in _flat(value, len(of.sizes))]
+        case Sequence():
+            return [(f"[{','.join(map(str, place))}]", of.of, one) for place, one in _flat(value, 1)]
+        case _:
+            return []
+
+
+def parts(of: AnyType, value: Datum) -> Iterator[tuple[AnyType, Datum]]:
+    """``value`` and everything inside it, each with its type; what contains comes before what is contained."""
+    yield of, value
+    for _, part, one in components_of(of, value):
+        yield from parts(part, one)
+
+
+def flat(value: Datum, dimensions: int) -> list[Datum]:
+    """The elements of an array of so many dimensions, row by row."""
+    return [one for _, one in _flat(value, dimensions)]
+
+
+def _flat(value: Datum, dimensions: int) -> Iterator[tuple[tuple[int, ...], Datum]]:
+    assert isinstance(value, list)
+    for index, one in enumerate(value):
+        if dimensions == 1:
+            yield (index,), one
+        else:
+            yield from (((index, *place), element) for place, element in _flat(one, dimensions - 1))
+
+
+def kind_name(of: AnyType) -> str:
+    """What sort of type it is, in the words of 9.2: LONGLONG, CHAR8 string, enumeration, structure, ..."""
+    match of:
+        case Integer() | Float() | Char():
+            return of.kind
+        case String():
+            return f"{of.base} string"
+        case _:
+            return type(of).__name__.lower()
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:40]}… ({len(text)} characters)"

@@ -1,0 +1,202 @@
+"""What became of a value on its way: where it differs from what was sent, and which type is to blame (10.1.1).
+
+The innermost type that differs is to blame, unless the same value of it was carried well with less around it: then what is
+around it is. Pure comparison of data; rules_values.py says what is compared.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import msgspec
+
+from ucm_cts.adapters.contract.data_types import (
+    Alias,
+    AnyType,
+    Array,
+    Boolean,
+    Char,
+    Datum,
+    Enumeration,
+    Float,
+    Integer,
+    Sequence,
+    String,
+    Structure,
+    Union,
+)
+from ucm_cts.adapters.contract.data_values import components_of, flat, is_nan, misfit
+
+_REQUIREMENTS: dict[type, str] = {
+    Integer: "R-10.1.1-07",
+    Float: "R-10.1.1-08",
+    Char: "R-10.1.1-09",
+    Boolean: "R-10.1.1-10",
+    String: "R-10.1.1-11",
+    Enumeration: "R-10.1.1-12",
+    Structure: "R-10.1.1-13",
+    Union: "R-10.1.1-14",
+    Array: "R-10.1.1-15",
+    Sequence: "R-10.1.1-16",
+    Alias: "R-10.1.1-17",
+}
+AT_ANY_DEPTH = "R-10.1.1-18"
+
+REQUIREMENTS = (*_REQUIREMENTS.values(), AT_ANY_DEPTH)
+"""The requirements on types, each that a type is carried."""
+
+_COMPOSITE = (Structure, Union, Array, Sequence)
+
+
+@dataclass(frozen=True)
+class Part:
+    """A value inside another one: its type, and what of other types it is in."""
+
+    of: AnyType
+    value: Datum
+    around: tuple[Part, ...] = ()
+    place: str = ""
+
+    @property
+    def key(self) -> bytes:
+        """The same for equal values of equal types."""
+        return msgspec.json.encode((self.of, self.value))
+
+
+@dataclass(frozen=True)
+class Difference:
+    """``part`` was sent, and ``got`` arrived in its place."""
+
+    part: Part
+    got: object
+
+    @property
+    def is_nan(self) -> bool:
+        """Are both NaN, with other bits?"""
+        of, sent = self.part.of, self.part.value
+        if not isinstance(of, Float) or not isinstance(sent, str) or not isinstance(self.got, str):
+            return False
+        return len(sent) == len(self.got) and is_nan(of, sent) and not _misfits(of, self.got) and is_nan(of, self.got)
+
+
+@dataclass
+class Evidence:
+    """The values that were carried well in one trace: how little was around each."""
+
+    least: dict[bytes, int] = field(default_factory=dict)
+
+    def add(self, of: AnyType, value: Datum) -> None:
+        """``value`` has arrived as it was sent."""
+        for part in inside(Part(of, value)):
+            key, depth = part.key, len(part.around)
+            self.least[key] = min(depth, self.least.get(key, depth))
+
+    def to_blame(self, part: Part) -> str:
+        """The requirement that was broken when ``part`` was not carried well."""
+        chain = (*part.around, part)
+        unseen = [index for index, one in enumerate(chain) if self.least.get(one.key, index) >= index]
+        return requirement_of(chain[unseen[-1]].of, is_innermost=unseen[-1] == len(chain) - 1)
+
+
+def requirement_of(of: AnyType, is_innermost: bool = False) -> str:
+    """The requirement that asks for values of ``of``: as such, if it is the innermost that matters, else at any depth."""
+    if not is_innermost and isinstance(of, _COMPOSITE) and any(isinstance(o, _COMPOSITE) for o in _made_of(of)):
+        return AT_ANY_DEPTH
+    return _REQUIREMENTS[type(of)]
+
+
+def requirements_of(of: AnyType, value: Datum) -> set[str]:
+    """All requirements that a value exercises when it is carried well."""
+    return set(_exercised(of, value, False))
+
+
+def _exercised(of: AnyType, value: Datum, is_inside: bool) -> Iterator[str]:
+    yield _REQUIREMENTS[type(of)]
+    is_composite = isinstance(of, _COMPOSITE)
+    if is_inside and is_composite:
+        yield AT_ANY_DEPTH
+    for _, part, one in components_of(of, value):
+        yield from _exercised(part, one, is_inside or is_composite)
+
+
+def _made_of(of: AnyType) -> Iterator[AnyType]:
+    """The types that ``of`` directly contains; of an alias, the one that it names."""
+    match of:
+        case Structure():
+            contained = list(of.fields.values())
+        case Union():
+            contained = [case.of for case in of.cases]
+        case Array() | Sequence():
+            contained = [of.of]
+        case _:
+            contained = []
+    return map(plain, contained)
+
+
+def plain(of: AnyType) -> AnyType:
+    """``of`` without the aliases around it."""
+    while isinstance(of, Alias):
+        of = of.of
+    return of
+
+
+def inside(part: Part) -> Iterator[Part]:
+    """``part`` and all parts of it."""
+    yield part
+    for place, of, value in components_of(part.of, part.value):
+        yield from inside(Part(of, value, (*part.around, part), place))
+
+
+def differences(part: Part, got: object) -> Iterator[Difference]:
+    """Where ``got`` differs from ``part``, which was sent: the innermost types that do."""
+    of, sent = part.of, part.value
+    arrived: list[Any] | None
+    if isinstance(of, _COMPOSITE):
+        arrived = _arrived(of, sent, got)
+        if arrived is None:
+            yield Difference(part, got)
+            return
+    elif isinstance(of, Alias):
+        arrived = [got]
+    else:
+        if type(got) is not type(sent) or got != sent:
+            yield Difference(part, got)
+        return
+    pairs = zip(components_of(of, sent), arrived, strict=True)
+    for (place, inner, value), one in pairs:
+        yield from differences(Part(inner, value, (*part.around, part), place), one)
+
+
+def _arrived(of: AnyType, sent: Datum, got: object) -> list[Datum] | None:
+    """What arrived for each direct part of ``sent``; None if the whole is of another shape, or in another order."""
+    assert isinstance(sent, list)
+    if not isinstance(got, list) or len(got) != len(sent):
+        return None
+    if isinstance(of, Union):
+        of_another_case = _misfits(of, got) and not all(_misfits(case.of, got[1]) for case in of.cases)
+        return None if got[0] != sent[0] or of_another_case else [got[1]]
+    dimensions = len(of.sizes) if isinstance(of, Array) else 1
+    if dimensions > 1 and _shape(got, dimensions) != _shape(sent, dimensions):
+        return None
+    arrived, wanted = flat(got, dimensions), flat(sent, dimensions)
+    return None if _is_another_order(wanted, arrived) else arrived
+
+
+def _misfits(of: AnyType, value: object) -> bool:
+    return bool(misfit(of, value))
+
+
+def _shape(value: object, dimensions: int) -> object:
+    if dimensions == 0:
+        return None
+    return [_shape(one, dimensions - 1) for one in value] if isinstance(value, list) else ()
+
+
+def _is_another_order(sent: list[Datum], got: list[Datum]) -> bool:
+    """Are the same values at other places?"""
+    if got == sent:
+        return False
+    return Counter(map(repr, sent)) == Counter(map(repr, got))
