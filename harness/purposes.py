@@ -8,6 +8,7 @@ from collections.abc import Callable
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.circles import circle_purposes
 from ucm_cts.harness.generate import generated_purposes
+from ucm_cts.harness.message_scenarios import message_purposes
 from ucm_cts.harness.probes import load_probe_types
 from ucm_cts.harness.schedules import overlap_purposes
 from ucm_cts.harness.scripts import TestPurpose, load_scripts, to_scenario
@@ -23,6 +24,7 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     overlap_purposes,
     circle_purposes,
     stress_purposes,
+    message_purposes,
 )
 """Where the purposes of profile core come from, beside scripts."""
 
