@@ -60,7 +60,7 @@ class Campaign:
         def cases() -> Iterator[tuple[str, Scenario]]:
             for purpose in purposes:
                 queue.append(purpose)
-                for name, scenario in purpose.scenarios:
+                for name, scenario in purpose.draw(self._driver.seed) if purpose.draw else purpose.scenarios:
                     yield name, self._payloads.deal(scenario)
 
         answers = self._driver.run(cases())

@@ -170,6 +170,13 @@ def differences(part: Part, got: object) -> Iterator[Difference]:
         yield from differences(Part(inner, value, (*part.around, part), place), one)
 
 
+def distance(one: object, other: object) -> int:
+    """In how many places two data differ, whatever their types; a place that only one of them has counts, too."""
+    if isinstance(one, list | tuple) and isinstance(other, list | tuple):
+        return abs(len(one) - len(other)) + sum(map(distance, one, other))
+    return int(one != other)
+
+
 def _arrived(of: AnyType, sent: Datum, got: object) -> list[Datum] | None:
     """What arrived for each direct part of ``sent``; None if the whole is of another shape, or in another order."""
     assert isinstance(sent, list)

@@ -23,6 +23,7 @@ from ucm_cts.adapters.contract.trace import (
     Settled,
     Timeout,
 )
+from ucm_cts.reference_models.carriage import distance
 from ucm_cts.reference_models.executions import BusinessCall, connections_behind
 from ucm_cts.reference_models.runtime import NO_ID, Connection, Container, Member, Runtime
 
@@ -380,7 +381,7 @@ class Interactions:
         if is_message and any(c.request.arguments == event.arguments for c in self.calls if c.is_message):
             return None, "stray"
         altered = [c for c in candidates if not c.delivered_to(receiver, event.port)]
-        return (altered[0], "altered") if altered else (None, "stray")
+        return _nearest(altered, event), "altered" if altered else "stray"
 
     def _doubt(self, call: MethodCall, receiver: Member | None) -> tuple[bool, bool, bool]:
         """What speaks against a message's delivery: a phase that is over, a broken link, another code than ok."""
@@ -395,7 +396,7 @@ class Interactions:
         if call is not None:
             call.deliveries.remove(mistaken)
         others = [c for c in candidates if c is not call and not c.delivered_to(mistaken.receiver, mistaken.enter.port)]
-        mistaken.call = others[0] if others else None
+        mistaken.call = _nearest(others, mistaken.enter)
         if mistaken.call is not None:
             mistaken.call.deliveries.append(mistaken)
         else:
@@ -408,6 +409,11 @@ class Interactions:
         if call.caller is None or receiver is None:
             return False
         return any(c.provider is receiver for c in connections_behind(call.caller, call.request.port))
+
+
+def _nearest(calls: list[MethodCall], enter: Enter) -> MethodCall | None:
+    """The call whose values differ least from those that a body was entered with."""
+    return min(calls, key=lambda call: distance(call.request.arguments, enter.arguments), default=None)
 
 
 def _is_idle(runtime: Runtime, member: Member) -> bool:
