@@ -36,6 +36,7 @@ from ucm_cts.reference_models import (
     rules_operations,
     rules_policies,
     rules_return_codes,
+    rules_services,
     rules_stress,
 )
 from ucm_cts.reference_models.adoption import adopt
@@ -58,6 +59,7 @@ RULE_MODULES = (
     rules_stress,
     rules_messages,
     rules_return_codes,
+    rules_services,
     rules_bursts,
 )
 """Importing these registers all rules; rules of one moment look in this order."""
