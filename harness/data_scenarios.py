@@ -14,8 +14,16 @@ from dataclasses import dataclass
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import AnyType, Datum, Enumeration, Interface, Method, Parameter, Structure
-from ucm_cts.adapters.contract.data_values import SCALARS, kind_name, parts
+from ucm_cts.adapters.contract.data_types import (
+    AnyType,
+    Datum,
+    Interface,
+    Method,
+    Parameter,
+    Structure,
+    message_interface,
+)
+from ucm_cts.adapters.contract.data_values import SCALARS, kind_name, parts, spell
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Scenario, Step
 from ucm_cts.harness.corner_values import UNDECLARED, Readings, corners
 from ucm_cts.harness.data_catalogue import CATALOGUE, ULONG, TypesUnderTest
@@ -31,7 +39,6 @@ _MESSAGES = 6
 """So many values of a type that is made of others are pushed; services carry all."""
 
 _PROVIDED, _REQUIRED = "in.api", "out.api"
-COMM_ECODE = Enumeration("comm_ecode", "BYTE", {"ok": 0, "internal_error": 1, "comm_error": 2})
 
 
 @dataclass(frozen=True)
@@ -116,11 +123,6 @@ def service_interface(of: AnyType) -> Interface:
             ),
         }
     )
-
-
-def message_interface(of: AnyType) -> Interface:
-    """message_intf (10.1.6), bound to ``of``."""
-    return Interface({s.PUSH: Method((Parameter("message", "IN", of), Parameter("result", "RETURN", COMM_ECODE)))})
 
 
 def services(loads: Sequence[Load]) -> Scenario:
@@ -211,11 +213,6 @@ def _performed(name: str, caller: str, awaited: int) -> Iterator[Step]:
         yield s.ReachGate(f"{name} arrived", total=awaited)
 
 
-def spelled(value: Datum) -> str:
-    """How an attribute's configured value is spelled: as it travels, in JSON."""
-    return msgspec.json.encode(value).decode()
-
-
 def _attributes(readings: Readings) -> TestPurpose:
     return TestPurpose(
         "data/attributes",
@@ -237,7 +234,7 @@ def _attribute_scenarios(readings: Readings, seed: int | None) -> tuple[tuple[st
     rows = max(map(len, given.values()))
     components = {
         f"configured {row}": Declaration(
-            attributes={name: spelled(values[row % len(values)]) for name, values in given.items()}
+            attributes={name: spell(values[row % len(values)]) for name, values in given.items()}
         )
         for row in range(rows)
     }

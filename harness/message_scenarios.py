@@ -11,17 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import (
-    AnyType,
-    Datum,
-    Enumeration,
-    Integer,
-    Interface,
-    Method,
-    Parameter,
-    String,
-    Structure,
-)
+from ucm_cts.adapters.contract.data_types import Datum, Integer, Interface, String, Structure, message_interface
 from ucm_cts.adapters.contract.data_types import Sequence as SequenceType
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
 from ucm_cts.harness.scripts import TestPurpose
@@ -39,14 +29,6 @@ _BLOCK = 2**20
 
 _NUMBER = Integer("ULONG")
 _NOTE = Structure("note", {"number": _NUMBER, "text": String("CHAR8"), "others": SequenceType(_NUMBER)})
-_COMM_ECODE = Enumeration("comm_ecode", "BYTE", {"ok": 0, "internal_error": 1, "comm_error": 2})
-
-
-def message_interface(of: AnyType) -> Interface:
-    """message_intf of 10.1.6.2, bound to messages of type ``of``."""
-    message, ecode = Parameter("message", "IN", of), Parameter("ecode", "RETURN", _COMM_ECODE)
-    return Interface({s.PUSH: Method((message, ecode))})
-
 
 _NUMBERS, _NOTES = "numbers", "notes"
 _INTERFACES = {_NUMBERS: message_interface(_NUMBER), _NOTES: message_interface(_NOTE)}

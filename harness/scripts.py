@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.data_types import AnyType, Interface, message_interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.documents import DocumentError, read, read_lines
@@ -31,7 +31,10 @@ class Part(Value, frozen=True):
 
 
 class Script(Value, frozen=True):
-    """One scenario as a person writes it: its name, its test purpose, the requirements it means to exercise."""
+    """One scenario as a person writes it: its name, its test purpose, the requirements it means to exercise.
+
+    ``messages`` are further interfaces: message_intf (10.1.6.2), bound to these types.
+    """
 
     scenario: str
     components: dict[str, Part]
@@ -40,6 +43,7 @@ class Script(Value, frozen=True):
     exercises: tuple[str, ...] = ()
     patience: int = 2000
     interfaces: dict[str, Interface] = {}
+    messages: dict[str, AnyType] = {}
     may_stay: tuple[str, ...] = ()
 
 
@@ -104,13 +108,15 @@ def to_scenario(script: Script, probes: dict[str, ProbeType] | None = None) -> S
             policies=part.policies,
             ports=part.ports,
         )
-    return Scenario(components, script.steps, script.patience, script.interfaces, script.may_stay)
+    interfaces = script.interfaces | {name: message_interface(of) for name, of in script.messages.items()}
+    return Scenario(components, script.steps, script.patience, interfaces, script.may_stay)
 
 
 def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list[tuple[str, str]]:
     """What a schema cannot say: (place in the script, what is wrong and how to mend it)."""
     probes = probes or load_probe_types()
     found: list[tuple[str, str]] = []
+    interfaces = {*script.interfaces, *script.messages}
     for name, part in script.components.items():
         where = f".components.{name}"
         if name in (s.MANAGER, s.UNKNOWN, s.NIL):
@@ -121,9 +127,9 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             unknown = [a for a in part.attributes if a not in probes[part.probe].attributes]
             if unknown:
                 found.append((f"{where}.attributes", f"probe '{part.probe}' has no attribute '{unknown[0]}'"))
-        strange = [i for i in part.ports.values() if i not in script.interfaces]
+        strange = [i for i in part.ports.values() if i not in interfaces]
         if strange:
-            found.append((f"{where}.ports", f"no interface '{strange[0]}'; there are {_list(script.interfaces)}"))
+            found.append((f"{where}.ports", f"no interface '{strange[0]}'; there are {_list(interfaces)}"))
     bound = {s.MANAGER: "container"}
     workers: set[str] = set()
     actions = [a for p in script.components.values() for plan in p.plan.values() for a in plan]
@@ -149,8 +155,8 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
             found.append(
                 (where, f"no plan holds at gate '{step.gate}'; there are {', '.join(sorted(gates)) or 'none'}")
             )
-        if isinstance(step, s.Link) and step.interface not in script.interfaces:
-            found.append((where, f"no interface '{step.interface}'; there are {_list(script.interfaces)}"))
+        if isinstance(step, s.Link) and step.interface not in interfaces:
+            found.append((where, f"no interface '{step.interface}'; there are {_list(interfaces)}"))
         if isinstance(step, s.AwaitMessages) and step.component not in script.components:
             found.append((where, f"no component '{step.component}'; there are {_list(script.components)}"))
         if isinstance(step, s.Join | s.Settle) and step.worker not in workers:

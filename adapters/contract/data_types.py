@@ -148,3 +148,12 @@ class Interface(Value, frozen=True):
 
     methods: dict[str, Method]
     inherited: tuple[str, ...] = ()
+
+
+COMM_ECODE = Enumeration("comm_ecode", "BYTE", {"ok": 0, "internal_error": 1, "comm_error": 2})
+"""The return codes of 10.1.2."""
+
+
+def message_interface(of: AnyType) -> Interface:
+    """message_intf of 10.1.6.2, bound to messages of type ``of``."""
+    return Interface({"push": Method((Parameter("message", "IN", of), Parameter("ecode", "RETURN", COMM_ECODE)))})
