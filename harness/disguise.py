@@ -14,7 +14,8 @@ from typing import TypeVar
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.data_types import Datum, Interface
+from ucm_cts.adapters.contract.data_values import read_spelled
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
 from ucm_cts.harness.locate import WrongUse
 from ucm_cts.harness.payloads import EDGES, LARGEST
@@ -105,13 +106,17 @@ class Disguise:
         return Declaration(
             tuple(map(self._port, d.provides)),
             tuple(map(self._port, d.requires)),
-            {self._name(name): self._name(value) for name, value in d.attributes.items()},
+            {self._name(name): self._configured(value) for name, value in d.attributes.items()},
             d.connectable,
             d.fragment,
             {hook: tuple(map(self._action, actions)) for hook, actions in d.plan.items()},
             tuple(map(self._policy, d.policies)),
             {self._port(port): self._name(interface) for port, interface in d.ports.items()},
         )
+
+    def _configured(self, plain: str) -> str:
+        """Only words are disguised; values of types are read by some frameworks."""
+        return self._name(plain) if read_spelled(plain) is None else plain
 
     def _policy(self, policy: Policy) -> Policy:
         """Definitions have standard names, which are no secret."""
@@ -137,13 +142,22 @@ class Disguise:
             case s.ReturnValue():
                 return s.ReturnValue(self._value(action.value))
             case s.CallMethod():
-                return msgspec.structs.replace(action, port=self._port(action.port), method=self._method(action.method))
+                port, method = self._port(action.port), self._method(action.method)
+                return msgspec.structs.replace(action, port=port, method=method, arguments=self._arguments(action))
             case s.Answer():
                 return msgspec.structs.replace(action, method=self._method(action.method))
             case s.Burst():
                 return msgspec.structs.replace(action, port=self._port(action.port))
             case _:
                 return action
+
+    def _arguments(self, call: s.CallMethod) -> tuple[Datum, ...]:
+        """Messages for the log begin with a name."""
+        match call.method, call.arguments:
+            case "log", (severity, str(message)):
+                return severity, re.sub(r"^[A-Za-z]+", lambda name: self._name(name.group()), message)
+            case _:
+                return call.arguments
 
     def _step(self, step: Step) -> Step:
         replace = msgspec.structs.replace

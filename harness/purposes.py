@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.circles import circle_purposes
+from ucm_cts.harness.data_scenarios import data_purposes
 from ucm_cts.harness.generate import generated_purposes
 from ucm_cts.harness.message_scenarios import message_purposes
 from ucm_cts.harness.probes import load_probe_types
@@ -25,6 +26,7 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     circle_purposes,
     stress_purposes,
     message_purposes,
+    data_purposes,
 )
 """Where the purposes of profile core come from, beside scripts."""
 

@@ -38,6 +38,7 @@ from ucm_cts.reference_models import (
     rules_return_codes,
     rules_services,
     rules_stress,
+    rules_values,
 )
 from ucm_cts.reference_models.adoption import adopt
 from ucm_cts.reference_models.claims import Claims
@@ -57,6 +58,7 @@ RULE_MODULES = (
     rules_execution,
     rules_policies,
     rules_stress,
+    rules_values,
     rules_messages,
     rules_return_codes,
     rules_services,

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_values import read_spelled, spell
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reference, Return, Siblings
 from ucm_cts.reference_models.adoption import received
 from ucm_cts.reference_models.duties import CONNECTABLE_HOOKS, LIFE_CYCLE_HOOKS, Deviation, Listener
@@ -292,7 +293,11 @@ def discarded(ledger: Ledger, runtime: Runtime, window: Window | None, event: En
         )
 
 
-@rule("entered", "R-11.2.1.2-05", at=("on_init",))
+_SHOWN = 3
+"""So many attributes are told of."""
+
+
+@rule("entered", "R-11.2.1.2-05", "R-10.1.1-06", at=("on_init",))
 def attributes_before_init(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
 ) -> None:
@@ -303,16 +308,40 @@ def attributes_before_init(
     if declaration is None or not declaration.attributes:
         return
     held = event.attributes or {}
-    wrong = [a for a, value in declaration.attributes.items() if held.get(a) != value]
+    wrong = [a for a, value in declaration.attributes.items() if not _is_configured(held.get(a), value)]
     if not wrong:
         ledger.exercised("R-11.2.1.2-05")
-        return
+    else:
+        _holds_others(ledger, "R-11.2.1.2-05", declaration, wrong, held, event, window)
+    typed = {a for a, value in declaration.attributes.items() if read_spelled(value) is not None}
+    if typed and not typed.intersection(wrong):
+        ledger.exercised("R-10.1.1-06")
+    elif typed:
+        _holds_others(ledger, "R-10.1.1-06", declaration, [a for a in wrong if a in typed], held, event, window)
+
+
+def _is_configured(held: str | None, configured: str) -> bool:
+    """Is it what was configured? A value of a type may have been read, and spelled anew."""
+    value, own = read_spelled(configured), read_spelled(held)
+    return held == configured or (value is not None and own is not None and spell(value) == spell(own))
+
+
+def _holds_others(
+    ledger: Ledger,
+    requirement: str,
+    declaration: s.Declaration,
+    wrong: list[str],
+    held: Mapping[str, str],
+    event: Enter,
+    window: Window | None,
+) -> None:
+    some = wrong[:_SHOWN]
     ledger.violated(
-        "R-11.2.1.2-05",
+        requirement,
         "attributes_before_init",
         "missing" if all(a not in held for a in wrong) else "another value",
-        "on_init finds " + ", ".join(f"{a}={declaration.attributes[a]}" for a in wrong),
-        "on_init found " + ", ".join(f"{a}={held[a]}" if a in held else f"{a} unset" for a in wrong),
+        "on_init finds " + ", ".join(f"{a}={declaration.attributes[a]}" for a in some),
+        "on_init found " + ", ".join(f"{a}={held[a]}" if a in held else f"{a} unset" for a in some),
         (event.n,),
         window.step_number if window else None,
     )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import msgspec
+
 from ucm_cts.adapters.contract.data_types import (
     Alias,
     AnyType,
@@ -182,6 +184,19 @@ def _flat(value: Datum, dimensions: int) -> Iterator[tuple[tuple[int, ...], Datu
             yield (index,), one
         else:
             yield from (((index, *place), element) for place, element in _flat(one, dimensions - 1))
+
+
+def spell(value: Datum) -> str:
+    """How a value stands where only text can: as the value of an attribute. It is JSON, like on its way."""
+    return msgspec.json.encode(value).decode()
+
+
+def read_spelled(text: str | None) -> Datum | None:
+    """The value that ``text`` spells; None if it is any other text."""
+    try:
+        return msgspec.json.decode(text or "", type=Datum)  # type: ignore[no-any-return]
+    except msgspec.MsgspecError:
+        return None
 
 
 def kind_name(of: AnyType) -> str:
