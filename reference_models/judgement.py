@@ -29,6 +29,7 @@ from ucm_cts.adapters.contract.trace import (
 from ucm_cts.reference_models import (
     rules_bursts,
     rules_callbacks,
+    rules_clock,
     rules_dependencies,
     rules_execution,
     rules_interactions,
@@ -38,6 +39,7 @@ from ucm_cts.reference_models import (
     rules_return_codes,
     rules_services,
     rules_stress,
+    rules_trace,
     rules_values,
 )
 from ucm_cts.reference_models.adoption import adopt
@@ -62,6 +64,8 @@ RULE_MODULES = (
     rules_messages,
     rules_return_codes,
     rules_services,
+    rules_clock,
+    rules_trace,
     rules_bursts,
 )
 """Importing these registers all rules; rules of one moment look in this order."""

@@ -8,6 +8,7 @@ from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
+from ucm_cts.reference_models.service_policies import SERVICES, policy_elements
 
 
 def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
@@ -48,9 +49,10 @@ def dependencies(ledger: Ledger, runtime: Runtime, window: Window | None, event:
 
 def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[str, str, str, str] | None:
     """Requirement, cause, expected and observed of the first thing wrong with what was handed over."""
-    foreign = [p for p in given if p not in member.declaration.requires]
+    required = (*member.declaration.requires, *policy_elements(member.declaration, *SERVICES))
+    foreign = [p for p in given if p not in required]
     if foreign:
-        names = ", ".join(member.declaration.requires) or "nothing"
+        names = ", ".join(required) or "nothing"
         return "R-11.2.1.2-09", "name", f"dependencies named {names}", f"a dependency named {foreign[0]}"
     for port in member.declaration.requires:
         if given.get(port) == [c.reference for c in member.connections if c.port == port]:

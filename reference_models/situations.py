@@ -9,6 +9,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.executions import is_contradictory
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, Row, State
 from ucm_cts.reference_models.runtime import Connection, Container, Member, Runtime, Window, raises
+from ucm_cts.reference_models.service_policies import has_several_clocks
 
 _FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")
 
@@ -96,7 +97,7 @@ class Situations:
         )
         if container.started is None or (declaration is not None and raises(declaration, *unforeseen)):
             window.judged = False
-        if declaration is not None and is_contradictory(declaration):
+        if declaration is not None and (is_contradictory(declaration) or has_several_clocks(declaration)):
             window.judged = False
         if declaration is not None and declaration.policies:
             window.forgiving = True  # whether the policy is supported is policy_supported's matter
