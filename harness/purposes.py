@@ -13,6 +13,7 @@ from ucm_cts.harness.message_scenarios import message_purposes
 from ucm_cts.harness.probes import load_probe_types
 from ucm_cts.harness.schedules import overlap_purposes
 from ucm_cts.harness.scripts import TestPurpose, load_scripts, to_scenario
+from ucm_cts.harness.service_scenarios import service_purposes
 from ucm_cts.harness.stress import stress_purposes
 
 PROFILES = ("container",)
@@ -26,6 +27,7 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     circle_purposes,
     stress_purposes,
     message_purposes,
+    service_purposes,
     data_purposes,
 )
 """Where the purposes of profile core come from, beside scripts."""

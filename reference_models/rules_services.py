@@ -194,7 +194,8 @@ def call_in_flight_ends(ledger: Ledger, runtime: Runtime) -> None:
                 _violate(ledger, _IN_FLIGHT, "call_in_flight_ends", "hangs", one, expected, "it did not end")
             continue
         reading = _how_it_ended(one, one.call.reply)
-        if reading and ledger.observed("call-in-flight", reading):
+        was_inside = bool(one.served) and one.served[0].enter.n < min(o.begin.n for o in ending)
+        if reading and (not was_inside or ledger.observed("call-in-flight", reading)):
             ledger.exercised(_IN_FLIGHT)
             continue
         declared = ledger.claims.reading("call-in-flight")

@@ -142,13 +142,12 @@ def _takes_away(runtime: Runtime, one: ServiceCall, operation: Operation) -> boo
 
 
 def ended_by(runtime: Runtime, one: ServiceCall) -> list[Operation]:
-    """The operations that stopped its client or server, or undid its connection, once its server had been entered."""
-    entered = min((d.enter.n for d in one.served), default=None)
+    """The operations that stopped its client or server, or undid its connection, once it had been made."""
     containers = {one.client.member.container.name, one.server.member.container.name}
     return [
         o
         for o in operations_beside(runtime, one)
-        if entered is not None and o.begin.n > entered and not isinstance(o.end, Raise)
+        if o.begin.n > one.call.request.n and not isinstance(o.end, Raise)
         if (isinstance(o.step, s.Stop) and o.step.container in containers)
         or (isinstance(o.step, s.Detach) and _takes_away(runtime, one, o))
     ]
