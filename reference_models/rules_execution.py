@@ -21,6 +21,7 @@ from ucm_cts.reference_models.executions import (
 )
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Runtime, Window, lane, raises
+from ucm_cts.reference_models.service_policies import SERVICES, policies_of
 
 _SUPPORT = {
     "self-executing": "R-10.1.3.1-12",
@@ -176,6 +177,7 @@ def policy_supported(ledger: Ledger, runtime: Runtime, window: Window, end: Retu
 def _refused(ledger: Ledger, window: Window, declaration: Declaration, end: Raise) -> None:
     requirement = _SUPPORT.get(protection_of(declaration), "")
     excused = is_contradictory(declaration) or len(managed_ports(declaration)) > 1  # may count as two policies
+    excused = excused or bool(policies_of(declaration, *SERVICES))  # may be the reason
     if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
         ledger.violated(
             requirement,
