@@ -32,6 +32,10 @@ class Claims:
         """The value that holds of ``option``; ``observed`` if nothing is known of it."""
         return self.readings.get(option, OBSERVED)
 
+    def permits(self, option: str, value: str) -> bool:
+        """May the framework take reading ``value`` of ``option``, as far as its vendor has bound it?"""
+        return self.reading(option) in (value, OBSERVED)
+
     def tolerance(self, name: str) -> float:
         """A declared time in milliseconds, or percentage. Raises ``KeyError`` for one nobody knows."""
         return self.tolerances.get(name, TOLERANCES[name])

@@ -29,9 +29,11 @@ class Listener(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """A permitted way for an operation to go: the reading it shows, and the requirements it exercises."""
+    """A permitted way for an operation to go: the requirements it exercises, and the readings that permit it, one of which
+    has been taken. There are none where it is permitted under every reading.
+    """
 
-    reading: str
+    readings: tuple[str, ...]
     exercised: tuple[str, ...]
 
 
@@ -76,9 +78,8 @@ class Duties:
         fitting = [o for o in row.outcomes if answer in o.answer and fits(pattern(o, listener), heard)]
         if not fitting:
             return None
-        return Fit(
-            fitting[0].reading if len(fitting) == 1 else "", tuple(self._exercised(row, answer, listener, heard))
-        )
+        readings = tuple(dict.fromkeys(o.reading for o in fitting))
+        return Fit(() if "" in readings else readings, tuple(self._exercised(row, answer, listener, heard)))
 
     def _exercised(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> list[str]:
         exercised = []

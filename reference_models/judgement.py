@@ -29,6 +29,7 @@ from ucm_cts.adapters.contract.trace import (
 from ucm_cts.reference_models import (
     rules_bursts,
     rules_callbacks,
+    rules_claims,
     rules_clock,
     rules_dependencies,
     rules_execution,
@@ -57,6 +58,7 @@ RULE_MODULES = (
     rules_dependencies,
     rules_interactions,
     rules_callbacks,
+    rules_claims,
     rules_execution,
     rules_policies,
     rules_stress,

@@ -137,24 +137,13 @@ class Ledger:
         tally.exercised += 1
         tally.violated += 1
 
-    def fitted(self, row: Row, fit: Fit, chosen: bool = True) -> bool:
-        """An instance went a way that ``row`` permits; False if it is of a reading that the vendor has not declared.
-
-        It was not ``chosen`` where the operation leaves no choice.
-        """
+    def fitted(self, row: Row, fit: Fit) -> None:
+        """An instance went a way that ``row`` permits."""
         tally = self.row(row)
         tally.exercised += 1
         self.fits[fit] = self.fits.get(fit, 0) + 1
-        if not fit.readings:
-            return True
         if len(fit.readings) == 1:
             tally.readings.add(fit.readings[0])
-        if not chosen:
-            return True
-        taken = [(option, value) for option, _, value in (reading.partition("=") for reading in fit.readings)]
-        if len(taken) == 1:
-            return self.observed(*taken[0])
-        return any(self.claims.permits(option, value) for option, value in taken)
 
     def close(self) -> None:
         """The trace is over: add up what the fits exercised."""

@@ -68,6 +68,7 @@ def callbacks(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Ra
                 window.judged = False
             continue
         ledger.fitted(row, fit)
+        window.fitted.append((member, row, fit))
 
 
 _OF_ALL: dict[str, s.Hook] = {"start": "on_startup", "stop": "on_shutdown"}

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario, Step
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
+from ucm_cts.reference_models.duties import Fit
 from ucm_cts.reference_models.life_cycle import Row, State
 
 if TYPE_CHECKING:
@@ -136,7 +137,8 @@ class Window:
 
     ``roles`` pairs each instance concerned with the row of the life-cycle table that stands for it (the instance is
     None where the row is about one that does not exist). ``judged`` is False where the model cannot predict.
-    After a ``lost`` window nobody can say what state it left. ``created`` are the bodies made meanwhile.
+    After a ``lost`` window nobody can say what state it left. ``created`` are the bodies made meanwhile,
+    ``fitted`` the roles whose instances went a way that their rows permit.
     ``forgiving`` windows may end in UCM_ERROR for a reason the rows do not show. ``call`` is the call event's ``n``.
     """
 
@@ -152,6 +154,7 @@ class Window:
     callbacks: list[Enter] = field(default_factory=list)
     by_body: dict[tuple[str, int | None], list[Enter]] = field(default_factory=dict)
     created: list[tuple[str, int]] = field(default_factory=list)
+    fitted: list[tuple[Member | None, Row, Fit]] = field(default_factory=list)
     subject: Member | None = None
     connection: Connection | None = None
 

@@ -1,0 +1,129 @@
+"""Rules about what the vendor states: where the text leaves a choice, the framework does what its vendor declares."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Raise, Return
+from ucm_cts.reference_models.duties import Fit
+from ucm_cts.reference_models.ledger import Ledger, rule
+from ucm_cts.reference_models.life_cycle import Row
+from ucm_cts.reference_models.runtime import Member, Runtime, Window
+
+_WITH_CHOICES = (
+    "R-11.2.2.1-08",
+    "R-11.2.2.2-02",
+    "R-11.2.3-06",
+    "R-11.2.3-07",
+    "R-11.2.3-10",
+    "R-11.2.3-11",
+    "R-11.2.3-13",
+    "R-11.2.3-15",
+    "R-12.10-22",
+    "R-12.10-23",
+    "R-12.10-24",
+)
+
+_OF_ALL_AT_ONCE = ("double-start", "stop-when-stopped")
+"""Options about a container as a whole."""
+
+
+@rule("ended", *_WITH_CHOICES)
+def declared_choices(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """Where the life-cycle table permits several ways, an instance goes the one that the vendor declares."""
+    telling = [told for told in window.fitted if told[2].readings and _is_choice(window, end, *told)]
+    if not telling:
+        return
+    together = isinstance(end, Raise) or any(_options(fit)[0] in _OF_ALL_AT_ONCE for _, _, fit in telling)
+    if together and len(telling) < len(window.roles):
+        return  # somebody else may be the reason
+    undeclared = [told for told in telling if not _is_declared(ledger, told[2])]
+    if undeclared and (not together or len(undeclared) == len(telling)):
+        _belied(ledger, window, end, *undeclared[0])
+
+
+def _is_choice(window: Window, end: Return | Raise, member: Member | None, row: Row, fit: Fit) -> bool:
+    """Was the framework free to go another way, and is nothing but this choice the reason that it went this one?"""
+    if row.operation == "remove_provider":  # whoever removes a container takes its members along, in use or not
+        return window.operation == "remove_component"
+    for option in _options(fit):
+        if option == "manager-start":  # what is no start or stop of the manager's own has nothing to reach
+            return window.container.started is (window.operation == "stop")
+        if option == "stop-when-stopped":
+            return window.container.started is False
+    return isinstance(end, Return) or member is None or not _may_be_refused_anyway(window, member, row)
+
+
+def _may_be_refused_anyway(window: Window, member: Member, row: Row) -> bool:
+    """Does another choice speak against it, too? Ports are connected already, or what is removed is itself connected."""
+    if isinstance(window.step, s.Connect):
+        return row.condition != "already connected" and bool(member.live_connections(window.step.port))
+    return window.operation == "remove_component" and row.condition != "connected" and bool(member.live_connections())
+
+
+def _options(fit: Fit) -> list[str]:
+    return [reading.partition("=")[0] for reading in fit.readings]
+
+
+def _is_declared(ledger: Ledger, fit: Fit) -> bool:
+    taken = [reading.partition("=")[::2] for reading in fit.readings]
+    if len(taken) == 1:
+        return ledger.observed(*taken[0])
+    return any(ledger.claims.permits(option, value) for option, value in taken)
+
+
+def _belied(ledger: Ledger, window: Window, end: Return | Raise, member: Member | None, row: Row, fit: Fit) -> None:
+    declared = [f"{option} = {ledger.claims.reading(option)}" for option in dict.fromkeys(_options(fit))]
+    taken = " or ".join(reading.replace("=", " = ") for reading in fit.readings)
+    ledger.violated(
+        row.requirement,
+        "declared_choices",
+        f"{row.id} {taken}",
+        f"{window.operation} goes the way that the vendor declares: {', '.join(declared)}",
+        f"it went the way of {taken}" + (f" ({member.lane}, {row.state})" if member is not None else ""),
+        (window.call, end.n),
+        window.step_number,
+    )
+
+
+@rule("ended", "R-11.2.2.1-14", at=("get_components",))
+def declared_listing(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """The manager lists members of its sub-containers if, and only if, the vendor declares so."""
+    if window.container.name != s.MANAGER or not window.judged or not isinstance(end, Return):
+        return
+    below = [m for c in runtime.containers.values() if c is not window.container for m in c.live_members()]
+    if not below or any(m.doubtful for m in (*below, *window.container.members)):
+        return
+    listed = end.value if isinstance(end.value, tuple) else ()
+    reading = "recursive" if len(listed) > len(window.container.live_members()) else "own"
+    if not ledger.observed("manager-get-components", reading):
+        ledger.violated(
+            "R-11.2.2.1-14",
+            "declared_listing",
+            reading,
+            f"the vendor declares manager-get-components = {ledger.claims.reading('manager-get-components')}",
+            f"get_components of the manager returned {list(listed)}, which is {reading}",
+            (window.call, end.n),
+            window.step_number,
+        )
+
+
+@rule("ended", "R-11.2.3-17", at=("stop",))
+def declared_drain(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """stop waits for calls in progress if the vendor declares so."""
+    if not isinstance(end, Return) or not window.judged:
+        return
+    inside = {body for bodies in runtime.inside.values() for body in bodies}
+    for member in window.container.live_members():
+        if not member.operational or member.suspended or (member.component, member.instance) not in inside:
+            continue
+        if not ledger.observed("stop-drain", "abandon"):
+            ledger.violated(
+                "R-11.2.3-17",
+                "declared_drain",
+                "abandoned",
+                "the vendor declares stop-drain = wait: stop returns when the calls in progress have ended",
+                f"stop returned while {member.lane} was still carrying out a call",
+                (window.call, end.n),
+                window.step_number,
+            )
+        return
