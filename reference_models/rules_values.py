@@ -8,10 +8,9 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import AnyType, Datum, Float, Interface, Method
+from ucm_cts.adapters.contract.data_types import AnyType, Datum, Float
 from ucm_cts.adapters.contract.data_values import kind_name, misfit
 from ucm_cts.adapters.contract.trace import Raise, Return
 from ucm_cts.reference_models.carriage import (
@@ -19,53 +18,37 @@ from ucm_cts.reference_models.carriage import (
     Difference,
     Evidence,
     Part,
-    differences,
     inside,
     requirement_of,
     requirements_of,
 )
-from ucm_cts.reference_models.interactions import Delivery, Interactions, LinkState, MethodCall
+from ucm_cts.reference_models.interactions import LinkState
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Runtime
+from ucm_cts.reference_models.services import ServiceCall, is_disturbed, service_calls, trouble_with
+from ucm_cts.reference_models.values_carried import Carried, method_of, values_carried
 
 _LONGEST = 70
-
-
-@dataclass(frozen=True)
-class _Carried:
-    """A value that was sent in a call and arrived, as ``got``, whatever it is by now; ``events`` are both ends."""
-
-    of: AnyType
-    sent: Datum
-    got: object
-    role: str
-    events: tuple[int, ...]
 
 
 @rule("closed", *REQUIREMENTS)
 def exact_values(ledger: Ledger, runtime: Runtime) -> None:
     """What a connector carries arrives as it was sent, bit by bit, and back again."""
-    interactions = runtime.interactions
-    if interactions is None or not interactions.links:
-        return
-    wrong: list[tuple[_Carried, list[Difference]]] = []
-    well: list[_Carried] = []
-    for call in interactions.calls:
-        for carried in _carried_by(interactions, runtime, call):
-            found = [
-                d for d in differences(Part(carried.of, carried.sent), carried.got) if not _is_permitted(ledger, d)
-            ]
-            if found:
-                wrong.append((carried, found))
-                continue
-            well.append(carried)
-            for requirement in requirements_of(carried.of, carried.sent):
-                ledger.exercised(requirement)
+    wrong: list[tuple[Carried, Difference]] = []
+    well: list[Carried] = []
+    for carried in values_carried(runtime):
+        different = [d for d in carried.differences if not _is_permitted(ledger, d)]
+        if different:
+            wrong.append((carried, different[0]))
+            continue
+        well.append(carried)
+        for requirement in requirements_of(carried.of, carried.sent):
+            ledger.exercised(requirement)
     evidence = Evidence()
     for carried in well if wrong else ():
         evidence.add(carried.of, carried.sent)
-    for carried, found in wrong:
-        _accuse(ledger, carried, found[0], evidence.to_blame(found[0].part))
+    for carried, difference in wrong:
+        _accuse(ledger, carried, difference, evidence.to_blame(difference.part))
 
 
 def _is_permitted(ledger: Ledger, difference: Difference) -> bool:
@@ -73,28 +56,23 @@ def _is_permitted(ledger: Ledger, difference: Difference) -> bool:
     return difference.is_nan and ledger.observed("nan", "any")
 
 
-def _accuse(ledger: Ledger, carried: _Carried, difference: Difference, requirement: str) -> None:
+def _accuse(ledger: Ledger, carried: Carried, difference: Difference, requirement: str) -> None:
     part = difference.part
-    kind, place = kind_name(part.of), _place(part)
-    sort = _sort_of(part.of, part.value)
+    kind = kind_name(part.of)
     ledger.violated(
         requirement,
         "exact_values",
-        f"{sort}{kind} as {carried.role}",
-        f"{kind} {told(part.of, part.value)}{place} arrives as sent",
+        f"{_sort_of(part.of, part.value)}{kind} as {carried.way}",
+        f"{kind} {told(part.of, part.value)}{_place(part)} arrives as sent",
         f"it arrived as {told(part.of, difference.got)}",
         carried.events,
     )
 
 
 def _place(part: Part) -> str:
-    where = "".join(one.place if one.place.startswith("[") else f".{one.place}" for one in _named(part))
-    whole = part.around[0].of if part.around else None
-    return f" at {where} of a {kind_name(whole)}" if whole is not None and where else ""
-
-
-def _named(part: Part) -> Iterator[Part]:
-    return (one for one in (*part.around, part) if one.place)
+    named = [one.place for one in (*part.around, part) if one.place]
+    where = "".join(place if place.startswith("[") else f".{place}" for place in named)
+    return f" at {where} of a {kind_name(part.around[0].of)}" if where else ""
 
 
 def _sort_of(of: AnyType, value: Datum) -> str:
@@ -123,143 +101,49 @@ def told(of: AnyType, value: object) -> str:
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 20]}… ({len(text)} characters)"
 
 
-def _carried_by(interactions: Interactions, runtime: Runtime, call: MethodCall) -> Iterator[_Carried]:
-    """The values that ``call`` had carried, as far as they arrived."""
-    method = _method_of(runtime, call)
-    if method is None:
+@rule("closed", *REQUIREMENTS)
+def values_accepted(ledger: Ledger, runtime: Runtime) -> None:
+    """A service call is not refused for its values, while others are served."""
+    judged = [one for one in service_calls(runtime) if one.call.reply is not None and not is_disturbed(runtime, one)]
+    troubles = [(one, trouble_with(runtime, one)) for one in judged]
+    refused = [(one, values) for one, trouble in troubles if (values := _refused(runtime, one, trouble))]
+    if not refused or all(trouble in ("failed", "not served") for _, trouble in troubles):
         return
-    for delivery in call.deliveries:
-        if delivery.fit in ("same", "altered") and not _is_of_another(interactions, call, delivery):
-            types = [parameter.of for parameter in method.arguments]
-            events = (call.request.n, delivery.enter.n)
-            yield from _pairs(types, call.request.arguments, delivery.enter.arguments, "argument", events)
-    if not call.is_message and len(call.deliveries) == 1:
-        yield from _results_of(interactions, method, call, call.deliveries[0])
+    alone = [of for _, values in refused for of, _ in values[:1]]
+    for one, values in refused:
+        _accuse_of_refusal(ledger, one, *values[0], alone)
 
 
-def _method_of(runtime: Runtime, call: MethodCall) -> Method | None:
-    interface = _interface_of(runtime, call.link) if call.link is not None else None
-    return interface.methods.get(call.request.method or "") if interface is not None else None
+def _refused(runtime: Runtime, one: ServiceCall, trouble: str) -> list[tuple[AnyType, Datum]]:
+    """The values that kept a call from being carried out: its arguments if they did not arrive, or else its results."""
+    method, reply, left = method_of(runtime, one.call), one.call.reply, one.exit
+    if method is None or reply is None or not reply.raised or one.server.member.declaration.policies:
+        return []
+    if trouble == "not served":
+        return list(_typed([p.of for p in method.arguments], one.call.request.arguments))
+    if trouble == "failed" and left is not None and left.n < reply.n:
+        return list(_typed([p.of for p in method.results], left.results))
+    return []
 
 
-def _interface_of(runtime: Runtime, link: LinkState) -> Interface | None:
-    return runtime.scenario.interfaces.get(link.interface)
+def _typed(types: Sequence[AnyType], given: Sequence[Datum] | None) -> Iterator[tuple[AnyType, Datum]]:
+    if given is not None and len(given) == len(types) and not any(map(misfit, types, given)):
+        yield from zip(types, given, strict=True)
 
 
-def _results_of(interactions: Interactions, method: Method, call: MethodCall, delivery: Delivery) -> Iterator[_Carried]:
-    """What the server gave back and the client got: results, or the fields of a declared exception."""
-    gave, got = delivery.exit, call.reply
-    if gave is None or got is None or gave.raised or got.raised or gave.exception != got.exception:
-        return
-    if _is_result_of_another(interactions, call, delivery):
-        return
-    events = (gave.n, got.n)
-    if gave.exception is None:
-        yield from _pairs([p.of for p in method.results], gave.results, got.results, "result", events)
-    for exception in method.raises:
-        if exception.name == gave.exception:
-            yield from _pairs(
-                list(exception.fields.values()), gave.results, got.results, "field of an exception", events
-            )
-
-
-def _pairs(
-    types: list[AnyType],
-    sent: Sequence[Datum] | None,
-    got: Sequence[Datum] | None,
-    role: str,
-    events: tuple[int, ...],
-) -> Iterator[_Carried]:
-    """Value by value; another number of values is not a matter of their types."""
-    if sent is None or got is None or not len(types) == len(sent) == len(got):
-        return
-    for of, value, arrived in zip(types, sent, got, strict=True):
-        if not misfit(of, value):
-            yield _Carried(of, value, arrived, role, events)
-
-
-def _is_of_another(interactions: Interactions, call: MethodCall, delivery: Delivery) -> bool:
-    """Did the values of another client's call arrive in place of this one's? That is not a matter of their types."""
-    if delivery.fit == "same":
-        return False
-    return any(
-        other.request.arguments == delivery.enter.arguments and other.request.method == call.request.method
-        for other in interactions.calls
-        if other.caller is not call.caller
-    )
-
-
-def _is_result_of_another(interactions: Interactions, call: MethodCall, delivery: Delivery) -> bool:
-    """Did the client get what was meant for another client?"""
-    assert call.reply is not None
-    if delivery.exit is not None and delivery.exit.results == call.reply.results:
-        return False
-    return any(
-        other.exit is not None and other.exit.results == call.reply.results and other.link is call.link
-        for other in interactions.deliveries
-        if other.call is not None and other.call.caller is not call.caller
-    )
-
-
-@rule("completed", *REQUIREMENTS)
-def values_accepted(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
-    """A service call is not refused for its values: nothing else can explain that this one ends with an exception."""
-    interactions = runtime.interactions
-    refused = _refused_by(runtime, call)
-    if not refused or interactions is None or not _is_quiet(ledger.scenario):
-        return
-    others = [c for c in interactions.calls if c.link is not None and not c.is_message and c.reply is not None]
-    if all(_is_raised(other) for other in others):
-        return
-    assert call.reply is not None
-    of, value = refused[0]
-    alone = [values[0][0] for other in others if other is not call and (values := _refused_by(runtime, other))]
-    smallest = max(
-        (part for part in inside(Part(of, value)) if not part.around or part.of in alone),
-        key=lambda part: len(part.around),
-    )
+def _accuse_of_refusal(ledger: Ledger, one: ServiceCall, of: AnyType, value: Datum, alone: Sequence[AnyType]) -> None:
+    """To blame is the innermost part whose type was refused by itself as well."""
+    suspects = [part for part in inside(Part(of, value)) if not part.around or part.of in alone]
+    suspect = max(suspects, key=lambda part: len(part.around))
+    reply = one.call.reply
     ledger.violated(
-        requirement_of(smallest.of),
+        requirement_of(suspect.of),
         "values_accepted",
-        f"{kind_name(smallest.of)} refused",
-        f"a call with {kind_name(of)} {told(of, value)} comes back",
+        f"{kind_name(suspect.of)} refused",
+        f"a call with {kind_name(of)} {told(of, value)} is carried out, as others are",
         "it ended with an exception that the server did not raise",
-        (call.request.n, call.reply.n),
+        (one.call.request.n, reply.n if reply is not None else one.call.request.n),
     )
-
-
-def _is_raised(call: MethodCall) -> bool:
-    return call.reply is not None and call.reply.raised
-
-
-def _is_quiet(scenario: s.Scenario) -> bool:
-    """Does nothing in it break, overlap, wait or fail, so that each call between operational components comes back?"""
-    if any(declaration.policies for declaration in scenario.components.values()):
-        return False
-    if any(isinstance(step, s.Break) or step.thread is not None for step in scenario.steps):
-        return False
-    plans = (plan.get("method", ()) for plan in (d.plan for d in scenario.components.values()))
-    return not any(isinstance(action, s.HoldAtGate | s.RaiseError) for plan in plans for action in plan)
-
-
-def _refused_by(runtime: Runtime, call: MethodCall) -> list[tuple[AnyType, Datum]]:
-    """The values that kept ``call`` from coming back: its arguments if they did not arrive, or else the results."""
-    method = _method_of(runtime, call)
-    possible = call.caller is not None and call.caller.serving and [ready for _, ready in call.targets] == [True]
-    if method is None or call.is_message or not possible or not _is_raised(call) or len(call.deliveries) > 1:
-        return []
-    if not call.deliveries:
-        return _typed([parameter.of for parameter in method.arguments], call.request.arguments)
-    gave = call.deliveries[0].exit
-    if call.deliveries[0].fit != "same" or gave is None or gave.raised or gave.exception is not None:
-        return []
-    return _typed([parameter.of for parameter in method.results], gave.results)
-
-
-def _typed(types: list[AnyType], given: Sequence[Datum] | None) -> list[tuple[AnyType, Datum]]:
-    if given is None or len(given) != len(types) or any(map(misfit, types, given)):
-        return []
-    return list(zip(types, given, strict=True))
 
 
 @rule("linked", *REQUIREMENTS)
@@ -282,8 +166,8 @@ def types_accepted(
         requirement_of(types[0]),
         "types_accepted",
         f"{kind_name(types[0])} refused by {step.connector}",
-        f"{step.connector} can be bound to an interface with {kind_name(types[0])}",
-        f"it ended with {end.error} {end.detail}" if isinstance(end, Raise) else "",
+        f"{step.connector} can be bound to an interface with {kind_name(types[0])}, as it is to another one",
+        f"it ended with {end.error} {end.detail}".rstrip(),
         (end.n,),
         end.step,
     )

@@ -1,0 +1,134 @@
+"""What connectors carried in one trace: every value that was sent and arrived, and where the two differ (10.1.1).
+
+Values can also go wrong for reasons that are not in them: another client's, or a direction that does not work at all. Those
+are the matters of the connectors' own clauses, and told apart here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from ucm_cts.adapters.contract.data_types import AnyType, Datum, Method, Parameter
+from ucm_cts.adapters.contract.data_values import misfit
+from ucm_cts.reference_models.carriage import Difference, Part, differences
+from ucm_cts.reference_models.interactions import Delivery, Interactions, MethodCall
+from ucm_cts.reference_models.runtime import Runtime
+
+MESSAGE = "message"
+EXCEPTION = "field of an exception"
+
+
+@dataclass(frozen=True)
+class Carried:
+    """A value of a call that arrived, as ``got``, which may be anything. ``way`` tells in which direction, ``events`` are both
+    ends, and ``differences`` where it is another one; none if it was carried well.
+    """
+
+    call: MethodCall
+    of: AnyType
+    sent: Datum
+    got: object
+    way: str
+    events: tuple[int, ...]
+    differences: tuple[Difference, ...]
+
+
+def values_carried(runtime: Runtime) -> list[Carried]:
+    """All values that were carried, as far as what became of them is a matter of their types."""
+    interactions = runtime.interactions
+    if interactions is None or not interactions.links:
+        return []
+    carried = [one for call in interactions.calls for one in _carried_by(interactions, runtime, call)]
+    lost = _lost_ways(carried)
+    return [one for one in carried if one.way not in lost]
+
+
+def altered_calls(runtime: Runtime) -> list[MethodCall]:
+    """The calls with values that arrived as others, for the sake of their types: nobody else's matter."""
+    return [one.call for one in values_carried(runtime) if one.differences]
+
+
+def method_of(runtime: Runtime, call: MethodCall) -> Method | None:
+    """The method that was called through a link; None if there is no link, or no such method."""
+    interface = runtime.scenario.interfaces.get(call.link.interface) if call.link is not None else None
+    return interface.methods.get(call.request.method or "") if interface is not None else None
+
+
+def _lost_ways(carried: Sequence[Carried]) -> set[str]:
+    """Ways on which nothing arrives, whatever it is, although values do on others."""
+    well = {one.way for one in carried if not one.differences}
+    wrong = {one.way for one in carried if one.differences and one.way != MESSAGE}
+    return wrong - well if well else set()
+
+
+def _carried_by(interactions: Interactions, runtime: Runtime, call: MethodCall) -> Iterator[Carried]:
+    method = method_of(runtime, call)
+    if method is None:
+        return
+    for delivery in call.deliveries:
+        if delivery.fit in ("same", "altered") and not _is_of_another(interactions, call, delivery):
+            ways = [MESSAGE if call.is_message else f"{p.direction} argument" for p in method.arguments]
+            events = (call.request.n, delivery.enter.n)
+            yield from _paired(call, method.arguments, ways, call.request.arguments, delivery.enter.arguments, events)
+    if not call.is_message and len(call.deliveries) == 1:
+        yield from _brought_back(interactions, method, call, call.deliveries[0])
+
+
+def _brought_back(
+    interactions: Interactions, method: Method, call: MethodCall, delivery: Delivery
+) -> Iterator[Carried]:
+    """What the server gave and the client got: results, or the fields of a declared exception."""
+    gave, got = delivery.exit, call.reply
+    if gave is None or got is None or gave.raised or got.raised or gave.exception != got.exception:
+        return
+    if _is_result_of_another(interactions, call, delivery):
+        return
+    events = (gave.n, got.n)
+    if gave.exception is None:
+        ways = [f"{p.direction} result" for p in method.results]
+        yield from _paired(call, method.results, ways, gave.results, got.results, events)
+    for exception in method.raises:
+        if exception.name == gave.exception:
+            fields = [Parameter(name, "OUT", of) for name, of in exception.fields.items()]
+            yield from _paired(call, fields, [EXCEPTION] * len(fields), gave.results, got.results, events)
+
+
+def _paired(
+    call: MethodCall,
+    parameters: Sequence[Parameter],
+    ways: Sequence[str],
+    sent: Sequence[Datum] | None,
+    got: Sequence[Datum] | None,
+    events: tuple[int, ...],
+) -> Iterator[Carried]:
+    """Value by value; that they are another number of values is not a matter of their types."""
+    if sent is None or got is None or not len(parameters) == len(sent) == len(got):
+        return
+    for parameter, way, value, arrived in zip(parameters, ways, sent, got, strict=True):
+        if not misfit(parameter.of, value):
+            different = tuple(differences(Part(parameter.of, value), arrived))
+            yield Carried(call, parameter.of, value, arrived, way, events, different)
+
+
+def _is_of_another(interactions: Interactions, call: MethodCall, delivery: Delivery) -> bool:
+    """Did the values of another client's call arrive in place of this one's?"""
+    if delivery.fit == "same":
+        return False
+    return any(
+        other.request.arguments == delivery.enter.arguments and other.request.method == call.request.method
+        for other in interactions.calls
+        if other.caller is not call.caller
+    )
+
+
+def _is_result_of_another(interactions: Interactions, call: MethodCall, delivery: Delivery) -> bool:
+    """Did the client get what was meant for another client?"""
+    assert call.reply is not None
+    if delivery.exit is not None and delivery.exit.results == call.reply.results:
+        return False
+    return any(
+        other.exit is not None and other.exit.results == call.reply.results and other.link is call.link
+        for other in interactions.deliveries
+        if other.call is not None and other.call.caller is not call.caller
+    )
