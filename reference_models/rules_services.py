@@ -20,6 +20,7 @@ from ucm_cts.reference_models.services import (
     strays,
     trouble_with,
 )
+from ucm_cts.reference_models.values_carried import altered_calls
 
 _CALLS, _CLIENTS, _OWN, _ONE_SERVER = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-05"
 _DIRECTIONS, _INHERITED, _EXCEPTIONS = "R-10.1.5.1-08", "R-10.1.5.1-09", "R-10.1.5.1-10"
@@ -28,11 +29,17 @@ _BLOCKING, _IN_FLIGHT, _TEMPLATE = "R-10.1.5.1-11", "R-10.1.5.1-12", "R-10.1.5.1
 _REFUSALS = ("BAD_PARAMETER", "UCM_ERROR")
 """How a second server is refused at once."""
 
+_OF_VALUES = ("arguments", "results", "translated")
+
 
 def _undisturbed(runtime: Runtime) -> list[tuple[ServiceCall, Trouble]]:
-    """The calls that came back and that nothing disturbed, each with what is wrong with it."""
+    """The calls that came back and that nothing disturbed, each with what is wrong with it; none whose values were altered
+    for their types' sake, which is the matter of 10.1.1.
+    """
     calls = [one for one in service_calls(runtime) if one.call.reply is not None and not is_disturbed(runtime, one)]
-    return [(one, trouble_with(runtime, one)) for one in calls]
+    judged = [(one, trouble_with(runtime, one)) for one in calls]
+    altered = altered_calls(runtime) if any(trouble in _OF_VALUES for _, trouble in judged) else ()
+    return [(one, trouble) for one, trouble in judged if one.call not in altered]
 
 
 @rule("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE)

@@ -44,9 +44,9 @@ def values_carried(runtime: Runtime) -> list[Carried]:
     return [one for one in carried if one.way not in lost]
 
 
-def altered_calls(runtime: Runtime) -> list[MethodCall]:
+def altered_calls(runtime: Runtime) -> frozenset[MethodCall]:
     """The calls with values that arrived as others, for the sake of their types: nobody else's matter."""
-    return [one.call for one in values_carried(runtime) if one.differences]
+    return frozenset(one.call for one in values_carried(runtime) if one.differences)
 
 
 def method_of(runtime: Runtime, call: MethodCall) -> Method | None:
