@@ -231,11 +231,12 @@ class Interactions:
         self._connect_ends(link)
 
     def _connect_ends(self, link: LinkState) -> None:
-        """Whether clients and emitters are connected depends on the other side; of two servers nobody knows which serves."""
+        """Whether clients are connected depends on the other side; of two servers nobody knows which serves."""
         servers, takers = link.live("server"), link.live(*_TAKERS)
         for sender in link.live(*_SENDERS):
             if sender.connection is not None:
-                sender.connection.live = True if takers else None
+                known = bool(takers) or link.connector == s.MESSAGE_CONNECTOR
+                sender.connection.live = True if known else None
                 only = servers[0] if len(servers) == 1 else None
                 sender.connection.provider = only.member if only is not None else None
                 sender.connection.provided = only.port if only is not None else ""
@@ -325,15 +326,6 @@ class Interactions:
             for link in self.links.values()
             if not link.is_proper
             and any(container in (None, end.member.container) for end in link.live(*_SENDERS, *_TAKERS))
-        ]
-
-    def incomplete(self, container: Container) -> list[LinkState]:
-        """Links that members of ``container`` are ends of and that lack one of their two sides."""
-        return [
-            link
-            for link in self.links.values()
-            if any(end.member.container is container for end in link.live(*_SENDERS, *_TAKERS))
-            and not (link.live(*_SENDERS) and link.live(*_TAKERS))
         ]
 
     def _is_prepared(self, call: MethodCall) -> bool:

@@ -37,7 +37,7 @@ def burst_answered(ledger: Ledger, runtime: Runtime, event: Event) -> None:
         _violate(ledger, "R-10.1.2-09", "burst_answered", expected, f"the answers were {event.answers}", event)
 
 
-@rule("told", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07")
+@rule("told", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07", timed=True)
 def burst_counted(ledger: Ledger, runtime: Runtime, event: Event) -> None:
     """What was pushed in bursts and got ok is counted, each message once, and nothing else is."""
     if not isinstance(event, Counted):

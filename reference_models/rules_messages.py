@@ -53,7 +53,7 @@ def messages_arrived(ledger: Ledger, runtime: Runtime) -> None:
             ledger.exercised("R-10.1.6.1-03")
 
 
-@rule("waited", "R-10.1.6.1-04", "R-10.1.6.1-08")
+@rule("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True)
 def every_receiver(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """What entered one receiver enters all that are well; one that is slow or fails costs the others nothing."""
     for call, missing in overdue(ledger, runtime, timeout):
@@ -66,7 +66,7 @@ def every_receiver(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
         _missing(ledger, "every_receiver", requirement, call, missing, f"it came to {got} only", timeout)
 
 
-@rule("waited", "R-10.1.6.1-08")
+@rule("waited", "R-10.1.6.1-08", timed=True)
 def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """Whether the others have the message while one of its receivers is held."""
     interactions = interactions_of(runtime)
@@ -88,7 +88,7 @@ def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
             ledger.observed("slow-receiver", "independent")
 
 
-@rule("waited", "R-10.1.6.1-03")
+@rule("waited", "R-10.1.6.1-03", timed=True)
 def many_emitters(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """Messages of each emitter arrive, not of one only."""
     for call, missing in overdue(ledger, runtime, timeout):
@@ -99,7 +99,7 @@ def many_emitters(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
             _missing(ledger, "many_emitters", "R-10.1.6.1-03", call, missing, "only another emitter's came", timeout)
 
 
-@rule("waited", "R-10.1.6.1-20")
+@rule("waited", "R-10.1.6.1-20", timed=True)
 def message_template(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """Messages of each type arrive, not of one only."""
     for call, missing in overdue(ledger, runtime, timeout):
@@ -185,7 +185,7 @@ def message_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None
     if delivery.link is None or delivery.link.connector != s.MESSAGE_CONNECTOR:
         return
     if receiver.operational:
-        if call is not None and _was_idle_before(runtime, call, receiver):
+        if call is not None and _was_kept_waiting(runtime, call, receiver):
             ledger.exercised("R-10.1.6.1-09")
         return
     starting = any(o.end is None and isinstance(o.step, s.Start) for o in interactions_of(runtime).operations)
@@ -224,7 +224,7 @@ def later_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
         )
 
 
-@rule("waited", "R-10.1.6.1-09")
+@rule("waited", "R-10.1.6.1-09", timed=True)
 def kept_for_later_phases(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """A message that waits for the next start comes then, where the vendor has declared it."""
     for call in messages(runtime):
@@ -356,10 +356,12 @@ def _failing(call: MethodCall) -> bool:
     return any(not is_well(end.member) for end, _ in call.targets)
 
 
-def _was_idle_before(runtime: Runtime, call: MethodCall, receiver: Member) -> bool:
-    """Had something been pushed to it before this, while it was not operational?"""
-    earlier = (c for c in messages(runtime) if c.link is call.link and c.request.n < call.request.n)
-    return any(end.member is receiver for c in earlier for end in c.idle)
+def _was_kept_waiting(runtime: Runtime, call: MethodCall, receiver: Member) -> bool:
+    """Had something been pushed to it before this that could have come while it was not operational?"""
+    since = runtime.startups.get((receiver.component, receiver.instance or 0), (0, 0))[0]
+    earlier = [c for c in messages(runtime) if c.link is call.link and c.request.n < min(call.request.n, since)]
+    pending = [c for c in earlier if not c.delivered_to(receiver)]
+    return any(end.member is receiver for c in pending for end, _ in c.targets)
 
 
 def _is_taken(member: Member, port: str) -> bool:

@@ -45,7 +45,7 @@ def known_codes(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
 @rule("completed", "R-10.1.2-02")
 def without_receivers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """A push that nobody receives is answered what the vendor has declared."""
-    if not call.is_message or call.targets or not is_whole(call) or call.code not in CODES:
+    if not call.is_message or call.targets or not call.ready or not is_whole(call) or call.code not in CODES:
         return
     if not ledger.observed("push-without-receiver", str(call.code)):
         declared = ledger.claims.reading("push-without-receiver")
@@ -62,8 +62,8 @@ def refused_without_receivers(ledger: Ledger, runtime: Runtime, window: Window, 
         or any(not m.connected for m in window.container.members)
     ):
         return
-    links = [k for k in runtime.interactions.incomplete(window.container) if k.connector == s.MESSAGE_CONNECTOR]
-    if links and links[0].live("emitter") and not ledger.observed("push-without-receiver", "refused"):
+    links = [k for k in runtime.interactions.improper(window.container) if k.live("emitter")]
+    if links and not ledger.observed("push-without-receiver", "refused"):
         declared = ledger.claims.reading("push-without-receiver")
         ledger.violated(
             "R-10.1.2-02",
@@ -110,7 +110,7 @@ def receivers_codes(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
         ledger.exercised("R-10.1.2-09")
 
 
-@rule("waited", "R-10.1.2-09")
+@rule("waited", "R-10.1.2-09", timed=True)
 def answered_at_all(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """A push that nothing disturbs is answered."""
     for call in messages(runtime):
@@ -128,7 +128,7 @@ def ok_true(ledger: Ledger, runtime: Runtime) -> None:
             ledger.exercised("R-10.1.2-10")
 
 
-@rule("waited", "R-10.1.2-10")
+@rule("waited", "R-10.1.2-10", timed=True)
 def ok_kept(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """What got ok arrives, if nothing is broken and the receivers are well."""
     for call, missing in overdue(ledger, runtime, timeout):
@@ -150,7 +150,7 @@ def delivered_before_ok(ledger: Ledger, runtime: Runtime, call: MethodCall) -> N
         _violate(ledger, "R-10.1.2-10", "delivered_before_ok", call, expected, "not yet", "push returned before")
 
 
-@rule("completed", "R-10.1.2-01")
+@rule("completed", "R-10.1.2-01", timed=True)
 def failure_noticed(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """While its connector is known to be broken an interaction does not look as if it had gone well."""
     if call.link is None or not call.broken or call.reply is None:
@@ -200,7 +200,7 @@ def internal_error_when_due(ledger: Ledger, runtime: Runtime, call: MethodCall) 
         _violate(ledger, "R-10.1.2-11", "internal_error_when_due", call, expected, "another code")
 
 
-@rule("completed", "R-10.1.2-12")
+@rule("completed", "R-10.1.2-12", timed=True)
 def comm_error_when_due(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """A push through a transport that is broken gives comm_error, at the latest when the connector must know."""
     if not call.is_message or call.broken != "transport" or not _is_still_broken(call) or not _has_receivers(call):
@@ -214,7 +214,7 @@ def comm_error_when_due(ledger: Ledger, runtime: Runtime, call: MethodCall) -> N
         _violate(ledger, "R-10.1.2-12", "comm_error_when_due", call, expected, "another code")
 
 
-@rule("completed", "R-10.1.2-11", "R-10.1.2-12")
+@rule("completed", "R-10.1.2-11", "R-10.1.2-12", timed=True)
 def ok_after_mending(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """When what was broken has been mended push gives ok again."""
     link = call.link
