@@ -22,6 +22,7 @@ from ucm_cts.adapters.contract.trace import (
     Return,
     Settled,
     Siblings,
+    Skip,
     Stressed,
     Timeout,
     Trace,
@@ -187,6 +188,10 @@ class _Reading:
                 check(self.ledger, self.runtime, link, step, event)
         elif isinstance(event, Return):
             self.tell(event)
+
+    def skip(self, event: Skip) -> None:
+        if self.connecting.pop(event.step, None) is not None:
+            self.runtime.not_offered.append(event)
 
     def tell(self, event: Return | Pushed | Counted | Paused | Stressed) -> None:
         if isinstance(event, Pushed) and self.interactions is not None:
@@ -362,6 +367,7 @@ _TAKE: dict[type[Any], Callable[[_Reading, Any], None]] = {
     Call: _Reading.call,
     Return: _Reading.end,
     Raise: _Reading.end,
+    Skip: _Reading.skip,
     Create: _Reading.create,
     Enter: _Reading.enter,
     Exit: _Reading.exit,

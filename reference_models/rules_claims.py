@@ -1,9 +1,11 @@
-"""Rules about what the vendor states: where the text leaves a choice, the framework does what its vendor declares."""
+"""Rules about what the vendor states: what is claimed is there, and where the text leaves a choice, the framework does
+what its vendor declares.
+"""
 
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Raise, Return
+from ucm_cts.adapters.contract.trace import Raise, Return, Skip
 from ucm_cts.reference_models.duties import Fit
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.life_cycle import Row
@@ -127,3 +129,52 @@ def declared_drain(ledger: Ledger, runtime: Runtime, window: Window, end: Return
                 window.step_number,
             )
         return
+
+
+_HOOKS = {"transport": "transport-fault", "inside": "connector-fault"}
+
+
+@rule("closed", "R-10.1-01")
+def core_claimed(ledger: Ledger, runtime: Runtime) -> None:
+    """The vendor claims every part of 10.1, and no scenario that asks for what is claimed is refused for want of it."""
+    denied: dict[str, Skip] = {}
+    for event in runtime.not_offered:
+        step = runtime.scenario.steps[event.step]
+        if _is_claimed(ledger, step):
+            denied.setdefault(_what(step), event)
+    for what, event in denied.items():
+        ledger.violated(
+            "R-10.1-01",
+            "core_claimed",
+            f"no {what}",
+            f"the adapter offers what the vendor claims: {what}",
+            "the adapter said that it does not offer this operation",
+            (event.n,),
+            event.step,
+        )
+    links = runtime.interactions.links if runtime.interactions is not None else {}
+    if not denied and (links or any(member.declaration.policies for member in runtime.everyone)):
+        ledger.exercised("R-10.1-01")
+
+
+def _is_claimed(ledger: Ledger, step: s.Step) -> bool:
+    """Connectors are always claimed where a scenario asks for them; what only tests need is the vendor's to offer."""
+    if isinstance(step, s.Break):
+        return ledger.claims.reading(_HOOKS[step.where]) == "hook"
+    if isinstance(step, s.Mend):
+        return "hook" in (ledger.claims.reading(option) for option in _HOOKS.values())
+    if isinstance(step, s.ReadLog):
+        return ledger.claims.reading("trace-sink") == "hook"
+    return isinstance(step, s.ConnectorCall)
+
+
+def _what(step: s.Step) -> str:
+    match step:
+        case s.Link():
+            return step.connector
+        case s.Break():
+            return f"{_HOOKS[step.where]} = hook"
+        case s.ReadLog():
+            return "trace-sink = hook"
+        case _:
+            return s.operation(step)

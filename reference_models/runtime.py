@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario, Step
-from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
+from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference, Skip
 from ucm_cts.reference_models.duties import Fit
 from ucm_cts.reference_models.life_cycle import Row, State
 
@@ -182,7 +182,8 @@ class Runtime:
     ``members``, ``connections`` and ``references`` are what variables hold now; ``everyone`` is every instance ever added.
     ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
     whose on_startup has returned during the operation in progress, ``last_run`` when run was entered last. ``inside`` are
-    the bodies in which a thread is carrying out business methods or run, the innermost last.
+    the bodies in which a thread is carrying out business methods or run, the innermost last. ``not_offered`` tells of
+    operations that the adapter does not offer.
     ``interactions`` are followed where port elements have interfaces or components policies, ``executions`` where
     components have policies.
     """
@@ -198,6 +199,7 @@ class Runtime:
         self.starting: set[tuple[str, int]] = set()
         self.last_run: dict[tuple[str, int], int] = {}
         self.inside: dict[int, list[tuple[str, int]]] = {}
+        self.not_offered: list[Skip] = []
         self.connections: dict[str, Connection] = {}
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
         self.ports: dict[str, str] = {}
