@@ -16,7 +16,7 @@ from ucm_cts.harness.incidents import finding_of_incident
 from ucm_cts.harness.known_failures import KnownFailure
 from ucm_cts.harness.payloads import Payloads
 from ucm_cts.harness.purposes import PARTS
-from ucm_cts.harness.results import Execution, IncidentKind, Report
+from ucm_cts.harness.results import Effort, Execution, IncidentKind, Report
 from ucm_cts.harness.scripts import TestPurpose
 from ucm_cts.harness.tally import Cause, Tally, cause_of, overall
 from ucm_cts.reference_models.findings import Finding
@@ -50,6 +50,7 @@ class Campaign:
         self._judge = Judge(load_life_cycle())
         self._tally = Tally()
         self._payloads = Payloads(driver.seed)
+        self._spent: dict[str, float] = {}
         self._began = time.monotonic()
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
 
@@ -66,11 +67,15 @@ class Campaign:
         answers = self._driver.run(cases())
         failures: list[tuple[Finding | None, Execution]] = []
         done = 0
+        since = time.monotonic()
         for answer in answers:
             purpose = queue[0]
             failures.extend(self._take(answer, purpose))
             done += 1
             if done == len(purpose.scenarios):
+                now = time.monotonic()
+                self._spent[purpose.clause] = self._spent.get(purpose.clause, 0.0) + now - since
+                since = now
                 self.checked.append(purpose)
                 yield Checked(queue.pop(0), done, tuple(failures))
                 failures, done = [], 0
@@ -163,4 +168,8 @@ class Campaign:
             seconds=round(time.monotonic() - self._began, 3),
             scenarios=self._tally.scenarios,
             events=self._tally.events,
+            effort=Effort(
+                dict(self._tally.measures.most_common()),
+                {clause: round(seconds, 3) for clause, seconds in self._spent.items()},
+            ),
         )

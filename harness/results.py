@@ -96,6 +96,15 @@ class IncidentReport(Value, frozen=True):
     execution: Execution
 
 
+class Effort(Value, frozen=True):
+    """What was behind the verdicts: ``measures`` are what rules added up (overlaps provoked, calls stressed ...),
+    ``seconds`` where the time went, by clause.
+    """
+
+    measures: dict[str, int] = {}
+    seconds: dict[str, float] = {}
+
+
 class Report(Value, frozen=True):
     """Everything one run says, ready to be written as HTML, JSON and JUnit."""
 
@@ -113,3 +122,4 @@ class Report(Value, frozen=True):
     seconds: float
     scenarios: int
     events: int
+    effort: Effort = Effort()

@@ -46,12 +46,14 @@ class Tally:
         self._left_out: dict[str, str] = {}
         self.scenarios = 0
         self.events = 0
+        self.measures: Counter[str] = Counter()
 
     def add(self, execution: Execution, ledger: Ledger, findings: Sequence[Finding]) -> None:
         """Take in one execution, what the judge says of it, and the findings as people read them."""
         self.scenarios += 1
         self.events += len(execution.trace)
         self.exercised.update(ledger.exercises)
+        self.measures.update(ledger.measures)
         for row, tally in ledger.rows.items():
             total = self.rows.setdefault(row, RowTally())
             total.exercised += tally.exercised

@@ -453,7 +453,7 @@ def test_json_follows_its_schema_and_its_order_of_keys(out: Path) -> None:
     jsonschema.validate(document, json_report.schema())
     assert list(document) == [
         *("product", "version", "profile", "verdict", "requirements", "incidents", "transitions", "adapter"),
-        *("suite_version", "seed", "started", "seconds", "scenarios", "events"),
+        *("suite_version", "seed", "started", "seconds", "scenarios", "events", "measures", "seconds_by_clause"),
     ]
     failed = {entry["id"]: entry for entry in document["requirements"]}["R-11.1.3-01"]
     assert list(failed) == ["id", "clause", "title", "level", "verdict", "exercised", "reason", "findings"]

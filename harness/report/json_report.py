@@ -94,6 +94,8 @@ class ReportEntry(Entry, frozen=True):
     seconds: float
     scenarios: int
     events: int
+    measures: dict[str, int]
+    seconds_by_clause: dict[str, float]
 
 
 def to_json(report: Report, catalogue: Sequence[Requirement]) -> bytes:
@@ -116,6 +118,8 @@ def to_json(report: Report, catalogue: Sequence[Requirement]) -> bytes:
         seconds=report.seconds,
         scenarios=report.scenarios,
         events=report.events,
+        measures=report.effort.measures,
+        seconds_by_clause=report.effort.seconds,
     )
     return msgspec.json.format(msgspec.json.encode(entry), indent=2) + b"\n"
 
