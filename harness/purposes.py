@@ -5,8 +5,9 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 
-from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.catalogue import load_interpretations, load_life_cycle, load_requirements
 from ucm_cts.harness.circles import circle_purposes
+from ucm_cts.harness.container_service_scenarios import container_service_purposes
 from ucm_cts.harness.data_scenarios import data_purposes
 from ucm_cts.harness.generate import generated_purposes
 from ucm_cts.harness.message_scenarios import message_purposes
@@ -28,14 +29,36 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     stress_purposes,
     message_purposes,
     service_purposes,
+    container_service_purposes,
     data_purposes,
 )
 """Where the purposes of profile core come from, beside scripts."""
 
 
 @functools.cache
-def load_purposes(profile: str) -> tuple[TestPurpose, ...]:
-    """All test purposes of ``profile``: scripts first, because they read best when they fail."""
+def load_purposes(profile: str, *readings: str) -> tuple[TestPurpose, ...]:
+    """All test purposes of ``profile``: scripts first, because they read best when they fail.
+
+    Those for other ``readings`` (``option=value``) are left out; of an option that is not declared the first value holds.
+    """
+    return tuple(purpose for purpose in _all_purposes(profile) if _is_for(purpose, _readings(readings)))
+
+
+def _is_for(purpose: TestPurpose, readings: dict[str, str]) -> bool:
+    wanted = (condition.partition("=") for condition in purpose.under)
+    return all(readings[option] in values.split("|") for option, _, values in wanted)
+
+
+def _readings(declared: tuple[str, ...]) -> dict[str, str]:
+    first = {option: values[0] for i in load_interpretations() for option, values in i.options.items()}
+    for reading in declared:
+        option, _, value = reading.partition("=")
+        first[option] = value
+    return first
+
+
+@functools.cache
+def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
     clauses = {r.id: r.clause for r in load_requirements() if r.profile in PARTS[profile]}
     probes = load_probe_types()
     scripted = [

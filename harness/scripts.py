@@ -52,7 +52,8 @@ class TestPurpose:
     """What one test node checks: scenarios that provoke the situation ``text`` describes.
 
     ``clause`` groups purposes; ``requirements`` are those the scenarios mean to exercise. Rules of others watch too.
-    ``draw`` gives the same scenarios with values that are drawn from a run's seed.
+    ``draw`` gives the same scenarios with values that are drawn from a run's seed. It is only for vendors under whose
+    readings all of ``under`` hold: ``option=value``, or several values with ``|`` between them.
     """
 
     __test__ = False
@@ -63,6 +64,7 @@ class TestPurpose:
     requirements: tuple[str, ...]
     scenarios: tuple[tuple[str, Scenario], ...]
     draw: Callable[[int], tuple[tuple[str, Scenario], ...]] | None = None
+    under: tuple[str, ...] = ()
 
 
 def load_scripts(directory: Path = SCENARIOS) -> list[Script]:

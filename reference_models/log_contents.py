@@ -212,16 +212,19 @@ def _first(messages: list[Message]) -> Message:
 def _is_altered(contents: Contents, record: LogRecord) -> bool:
     """Is it what became of a message?"""
     known = record.message.casefold()
-    for message in contents.messages:
-        name = re.match(r"[a-z]*", message.text.casefold())
-        if name is None or len(name[0]) < _SHORTEST_NAME or name[0] not in known:
-            continue
-        if message.record is None and message.altered is None:
-            message.altered = record
-        else:
-            contents.surplus.append((message, record))
-        return True
-    return False
+    alike = [m for m in contents.messages if len(_name(m)) >= _SHORTEST_NAME and _name(m) in known]
+    bare = [m for m in alike if m.record is None and m.altered is None]
+    if bare:
+        _first(bare).altered = record
+    elif alike:
+        contents.surplus.append((alike[0], record))
+    return bool(alike)
+
+
+def _name(message: Message) -> str:
+    """The word that a message begins with."""
+    found = re.match(r"[a-z]*", message.text.casefold())
+    return found[0] if found is not None else ""
 
 
 def _tracings(
