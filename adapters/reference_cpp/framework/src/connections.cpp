@@ -25,19 +25,14 @@ void append(std::vector<connectionId>& ids, const Index& index, const Key& key) 
     }
 }
 
-std::vector<connectionId> latest_first(std::vector<connectionId> ids) {
-    std::sort(ids.begin(), ids.end(), std::greater<connectionId>());
-    return ids;
-}
-
 }  // namespace
 
 const Connection& Connections::add(std::shared_ptr<Instance> client, const std::string& port,
                                    std::shared_ptr<PortElementObject> to) {
-    const connectionId id = ++last_;
+    const connectionId id = ids_.next();
     by_client_.emplace(client.get(), id);
     by_target_.emplace(to.get(), id);
-    return by_id_.emplace(id, Connection{id, std::move(client), port, std::move(to)}).first->second;
+    return by_id_.emplace(id, Connection{id, std::move(client), port, std::move(to), ++last_serial_}).first->second;
 }
 
 void Connections::remove(connectionId id) {
@@ -45,6 +40,7 @@ void Connections::remove(connectionId id) {
     erase_from(by_client_, found->second.client.get(), id);
     erase_from(by_target_, found->second.to.get(), id);
     by_id_.erase(found);
+    ids_.release(id);
 }
 
 const Connection* Connections::find(connectionId id) const {
@@ -64,6 +60,14 @@ std::vector<connectionId> Connections::to_provider(const Instance& provider) con
         append(ids, by_target_, element.get());
     }
     return latest_first(std::move(ids));
+}
+
+std::vector<connectionId> Connections::latest_first(std::vector<connectionId> ids) const {
+    std::sort(ids.begin(), ids.end(), [this](connectionId one, connectionId other) {
+        return by_id_.at(one).serial > by_id_.at(other).serial;
+    });
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    return ids;
 }
 
 bool Connections::in_use(const Instance& provider) const {

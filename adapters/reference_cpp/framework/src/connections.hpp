@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "ids.hpp"
 #include "instance.hpp"
 
 namespace lwucm {
@@ -18,11 +19,14 @@ struct Connection {
     std::shared_ptr<Instance> client;
     std::string port;
     std::shared_ptr<PortElementObject> to;
+    std::uint64_t serial;  // grows from one connection to the next
 };
 
-/// Knows each connection by id, by client and by what it leads to. Ids grow and are never used twice.
+/// Knows each connection by id, by client and by what it leads to.
 class Connections {
   public:
+    explicit Connections(Options::Ids ids) : ids_(ids) {}
+
     const Connection& add(std::shared_ptr<Instance> client, const std::string& port,
                           std::shared_ptr<PortElementObject> to);
     void remove(connectionId id);
@@ -34,11 +38,15 @@ class Connections {
     std::vector<connectionId> of_client(const Instance& client) const;
     std::vector<connectionId> to_provider(const Instance& provider) const;
 
+    /// The same ids, each once, latest connection first.
+    std::vector<connectionId> latest_first(std::vector<connectionId> ids) const;
+
     /// Does another instance than `provider` itself have a connection to it?
     bool in_use(const Instance& provider) const;
 
   private:
-    connectionId last_ = 0;
+    Ids ids_;
+    std::uint64_t last_serial_ = 0;
     std::map<connectionId, Connection> by_id_;
     std::unordered_multimap<const Instance*, connectionId> by_client_;
     std::unordered_multimap<const PortElementObject*, connectionId> by_target_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "link_impl.hpp"
+
 namespace lwucm {
 
 namespace {
@@ -22,15 +24,18 @@ componentId ContainerImpl::add_component(const Properties& configValues) {
         throw UCM_ERROR("components are added before start");
     }
     const std::shared_ptr<const Implementation> implementation = select(configValues);
-    check_policies(*implementation);
-    const componentId id = ++shared_->last_component;
+    Demands demands = demands_of(*implementation);
+    const componentId id = shared_->component_ids.next();
     std::shared_ptr<Instance> instance;
     Attempts attempts;
-    attempts.make("initialisation", [&] {
-        instance = std::make_shared<Instance>(id, *this, implementation);
+    const bool initialized = attempts.make("initialisation", [&] {
+        instance = std::make_shared<Instance>(id, *this, implementation, std::move(demands), shared_->platform);
         instance->initialize(configValues, shared_from_this());
     });
-    attempts.check();
+    if (!initialized) {
+        shared_->component_ids.release(id);
+        attempts.check();
+    }
     std::lock_guard<std::mutex> data(shared_->data);
     members_.push_back(std::move(instance));
     return id;
@@ -42,19 +47,11 @@ void ContainerImpl::remove_component(componentId comp_instance) {
     if (!member) {
         throw NOT_FOUND("no such component");
     }
-    if (member->state() == Instance::State::ready) {
-        throw UCM_ERROR("stop the container before removing the component");
-    }
-    {
-        std::lock_guard<std::mutex> data(shared_->data);
-        if (shared_->connections.in_use(*member)) {
-            throw UCM_ERROR("another component is connected to the component");
-        }
+    if (shared_->platform.options.removal == Options::Removal::refuse) {
+        check_removable(*member);
     }
     Attempts attempts;
-    undo_all(shared_->connections.of_client(*member), attempts);
-    attempts.make("on_remove", [&] { member->remove(); });
-    erase(*member);
+    take_out(member, attempts);
     attempts.check();
 }
 
@@ -99,9 +96,7 @@ connectionId ContainerImpl::connect(componentId instance, const std::string& por
     if (!to_port) {
         throw BAD_PARAMETER("the reference to connect is null");
     }
-    if (started_) {
-        throw UCM_ERROR("connections are made before start");
-    }
+    check_configuring();
     if (client->is_connected(port_name)) {
         throw UCM_ERROR(quoted(port_name) + " is already connected");
     }
@@ -118,9 +113,7 @@ void ContainerImpl::disconnect(connectionId connection) {
     if (found == nullptr || &found->client->container() != this) {
         throw NOT_FOUND("no such connection");
     }
-    if (started_) {
-        throw UCM_ERROR("connections are undone before start or after stop");
-    }
+    check_configuring();
     Attempts attempts;
     undo(connection, attempts);
     attempts.check();
@@ -129,34 +122,27 @@ void ContainerImpl::disconnect(connectionId connection) {
 void ContainerImpl::start() {
     Operation operation(*shared_);
     check_in_place();
+    const Options& options = shared_->platform.options;
     if (started_) {
+        if (options.repetition == Options::Repetition::refuse) {
+            throw UCM_ERROR("the container is started already");
+        }
         return;
     }
     for (const std::shared_ptr<Instance>& member : members_) {
-        if (member->state() == Instance::State::initialized) {
+        if (member->state() == Instance::State::initialized && options.unconnected == Options::Unconnected::refuse) {
             throw UCM_ERROR("component " + std::to_string(member->id()) + " is not fully connected");
         }
     }
-    Attempts attempts;
-    for (const std::shared_ptr<Instance>& member : members_) {
-        if (!attempts.make("on_startup", [&] { member->start(); })) {
-            shut_down_members(attempts);
-            attempts.check();
-        }
-        startup_order_.push_back(member);
-    }
-    for (const std::shared_ptr<Instance>& member : members_) {
-        if (!attempts.make("execution", [&] { member->begin_execution(); })) {
-            shut_down_members(attempts);
-            attempts.check();
-        }
-    }
-    started_ = true;
+    start_members();
 }
 
 void ContainerImpl::stop() {
     Operation operation(*shared_);
     check_in_place();
+    if (!started_ && shared_->platform.options.repetition == Options::Repetition::refuse) {
+        throw UCM_ERROR("the container is not started");
+    }
     Attempts attempts;
     shut_down_members(attempts);
     attempts.check();
@@ -176,7 +162,38 @@ componentIds ContainerImpl::get_components() {
     return ids;
 }
 
+void ContainerImpl::start_members() {
+    std::vector<std::shared_ptr<Instance>> order = members_;
+    if (shared_->platform.options.order == Options::Order::reversed) {
+        std::reverse(order.begin(), order.end());
+    }
+    Attempts attempts;
+    for (const std::shared_ptr<Instance>& member : order) {
+        if (!attempts.make("on_startup", [&] { member->start(); })) {
+            shut_down_members(attempts);
+            attempts.check();
+        }
+        startup_order_.push_back(member);
+    }
+    started_ = true;
+    const bool begun = attempts.make("execution", [&] {
+        for (const std::shared_ptr<Instance>& member : order) {
+            member->open_ends();
+        }
+        for (const std::shared_ptr<Instance>& member : order) {
+            member->begin_execution();
+        }
+    });
+    if (!begun) {
+        shut_down_members(attempts);
+        attempts.check();
+    }
+}
+
 void ContainerImpl::shut_down_members(Attempts& attempts) {
+    for (const std::shared_ptr<Instance>& member : startup_order_) {
+        member->shut_ends();
+    }
     for (const std::shared_ptr<Instance>& member : startup_order_) {
         member->end_execution();
     }
@@ -189,17 +206,10 @@ void ContainerImpl::shut_down_members(Attempts& attempts) {
 }
 
 void ContainerImpl::disconnect_members(Attempts& attempts) {
-    std::set<connectionId, std::greater<connectionId>> ids;
-    {
-        std::lock_guard<std::mutex> data(shared_->data);
-        for (const std::shared_ptr<Instance>& member : members_) {
-            const std::vector<connectionId> own = shared_->connections.of_client(*member);
-            const std::vector<connectionId> others = shared_->connections.to_provider(*member);
-            ids.insert(own.begin(), own.end());
-            ids.insert(others.begin(), others.end());
-        }
+    for (auto member = members_.rbegin(); member != members_.rend(); ++member) {
+        leave_links(**member, attempts);
     }
-    undo_all(std::vector<connectionId>(ids.begin(), ids.end()), attempts);
+    undo_all(connections_of(members_), attempts);
 }
 
 void ContainerImpl::remove_members(Attempts& attempts) {
@@ -215,6 +225,63 @@ void ContainerImpl::remove_members(Attempts& attempts) {
 void ContainerImpl::check_in_place() const {
     if (removed_) {
         throw UCM_ERROR("the container has been removed");
+    }
+}
+
+void ContainerImpl::check_configuring() const {
+    if (started_) {
+        throw UCM_ERROR("connections are made and undone before start or after stop");
+    }
+}
+
+void ContainerImpl::check_removable(const Instance& member) const {
+    if (member.state() == Instance::State::ready) {
+        throw UCM_ERROR("stop the container before removing the component");
+    }
+    bool in_use = false;
+    {
+        std::lock_guard<std::mutex> data(shared_->data);
+        in_use = shared_->connections.in_use(member);
+    }
+    for (const std::shared_ptr<LinkImpl>& link : member.links()) {
+        in_use = in_use || link->needs(member);
+    }
+    if (in_use) {
+        throw UCM_ERROR("another component is connected to the component");
+    }
+}
+
+/// Removes it after whatever has to come before that.
+void ContainerImpl::take_out(const std::shared_ptr<Instance>& member, Attempts& attempts) {
+    const auto started = std::find(startup_order_.begin(), startup_order_.end(), member);
+    if (started != startup_order_.end()) {
+        startup_order_.erase(started);
+        member->shut_ends();
+        member->end_execution();
+        attempts.make("on_shutdown", [&] { member->shut_down(); });
+    }
+    leave_links(*member, attempts);
+    undo_all(connections_of({member}), attempts);
+    attempts.make("on_remove", [&] { member->remove(); });
+    erase(*member);
+}
+
+/// Their own connections, and those of others to them; latest first.
+std::vector<connectionId> ContainerImpl::connections_of(const std::vector<std::shared_ptr<Instance>>& members) const {
+    std::lock_guard<std::mutex> data(shared_->data);
+    std::vector<connectionId> ids;
+    for (const std::shared_ptr<Instance>& member : members) {
+        const std::vector<connectionId> own = shared_->connections.of_client(*member);
+        const std::vector<connectionId> others = shared_->connections.to_provider(*member);
+        ids.insert(ids.end(), own.begin(), own.end());
+        ids.insert(ids.end(), others.begin(), others.end());
+    }
+    return shared_->connections.latest_first(std::move(ids));
+}
+
+void ContainerImpl::leave_links(const Instance& member, Attempts& attempts) {
+    for (const std::shared_ptr<LinkImpl>& link : member.links()) {
+        link->withdraw(member, attempts);
     }
 }
 
@@ -270,6 +337,7 @@ void ContainerImpl::erase(const Instance& member) {
                                     [&member](const std::shared_ptr<Instance>& m) { return m.get() == &member; });
     last_reference = std::move(*found);
     members_.erase(found);
+    shared_->component_ids.release(member.id());
 }
 
 }  // namespace lwucm

@@ -27,6 +27,7 @@ class ContainerImpl : public virtual Container, public std::enable_shared_from_t
 
   protected:
     friend class ManagerImpl;
+    friend class LinkImpl;
 
     // The three steps of taking a container down; the caller holds the operation.
     void shut_down_members(Attempts& attempts);
@@ -35,10 +36,20 @@ class ContainerImpl : public virtual Container, public std::enable_shared_from_t
 
     void check_in_place() const;
 
+    /// UCM_ERROR unless connections may be made and undone now.
+    void check_configuring() const;
+
+    std::shared_ptr<Instance> find(componentId id) const;
+    bool is_of(const Shared& shared) const { return shared_.get() == &shared; }
+
     const std::shared_ptr<Shared> shared_;
 
   private:
-    std::shared_ptr<Instance> find(componentId id) const;
+    void check_removable(const Instance& member) const;
+    void start_members();
+    std::vector<connectionId> connections_of(const std::vector<std::shared_ptr<Instance>>& members) const;
+    void leave_links(const Instance& member, Attempts& attempts);
+    void take_out(const std::shared_ptr<Instance>& member, Attempts& attempts);
     std::shared_ptr<const Implementation> select(const Properties& configValues) const;
     void undo(connectionId id, Attempts& attempts);
     void undo_all(const std::vector<connectionId>& ids, Attempts& attempts);

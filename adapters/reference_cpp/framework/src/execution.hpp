@@ -1,28 +1,25 @@
-// Execution: how the container executes one component instance, as its execution policy has it (10.1.3).
+// Execution: how the container executes one component instance, as its technical policies have it (10.1.3, 10.1.4).
 #ifndef LWUCM_SRC_EXECUTION_HPP
 #define LWUCM_SRC_EXECUTION_HPP
 
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 
-#include "lwucm/repository.hpp"
-#include "monitor.hpp"
-#include "own_thread.hpp"
+#include "interception.hpp"
+#include "lwucm/container.hpp"
 #include "self_execution.hpp"
 
 namespace lwucm {
 
-/// UCM_ERROR if the policies of the implementation are not what can be applied to it.
-void check_policies(const Implementation& implementation);
-
-/// `implementation` has been checked. Without a policy, and with that of unprotected components, nothing stands between
-/// the component and those who call it.
+/// Without an execution policy, and with that of unprotected components, nothing stands between the component and those
+/// who call it, unless its port elements are traced.
 class Execution {
   public:
-    Execution(std::shared_ptr<const Implementation> implementation, ComponentObject& body);
+    /// UCM_ERROR if the body does not give what its policy makes it provide.
+    Execution(componentId id, std::shared_ptr<const Implementation> implementation, Demands demands,
+              ComponentObject& body, const Platform& platform);
     ~Execution();
     Execution(const Execution&) = delete;
     Execution& operator=(const Execution&) = delete;
@@ -30,16 +27,23 @@ class Execution {
     /// Carries out a callback of the component's life cycle.
     template <class Callback>
     void enter(Callback callback) {
-        if (monitor_) {
-            monitor_->call(callback);
+        if (guard_) {
+            guard_->call(callback);
         } else {
             callback();
         }
     }
 
     /// What others get to see of the component's own `element`; always the same for the same.
-    std::shared_ptr<PortElementObject> guarded(const std::string& port,
-                                               const std::shared_ptr<PortElementObject>& element);
+    std::shared_ptr<PortElementObject> provided(const std::string& port,
+                                                const std::shared_ptr<PortElementObject>& element);
+
+    /// What the component gets to see of what its required port element is connected to.
+    std::shared_ptr<PortElementObject> required(const std::string& port,
+                                                const std::shared_ptr<PortElementObject>& element) const;
+
+    /// The port elements that the component requires by its policies.
+    PortConnections services() const;
 
     /// The time in which the component executes by itself, if it does.
     void begin();
@@ -49,18 +53,24 @@ class Execution {
     void close();
 
   private:
-    struct Entrance {
+    struct Way {
         std::shared_ptr<PortElementObject> element;
-        std::shared_ptr<PortElementObject> guarded;
+        std::shared_ptr<PortElementObject> seen;
     };
 
+    void make_guards(ComponentObject& body);
+    std::shared_ptr<const PortTraces> traces_of(const std::string& port) const;
+
+    const componentId id_;
     const std::shared_ptr<const Implementation> implementation_;
-    std::set<std::string> active_ports_;
-    std::shared_ptr<Monitor> monitor_;
-    std::shared_ptr<OwnThread> own_thread_;
+    const Platform& platform_;
+    const Demands demands_;
+    std::shared_ptr<Executor> own_executor_;
+    std::shared_ptr<Guard> guard_;         // of the component
+    std::shared_ptr<Guard> active_guard_;  // of the port elements that an active policy manages
     std::unique_ptr<SelfExecution> self_execution_;
     std::mutex mutex_;
-    std::map<std::string, Entrance> entrances_;
+    std::map<std::string, Way> ways_in_;
 };
 
 }  // namespace lwucm

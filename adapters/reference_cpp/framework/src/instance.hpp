@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ends.hpp"
 #include "execution.hpp"
 #include "lwucm/container.hpp"
 #include "lwucm/repository.hpp"
@@ -13,13 +14,15 @@
 namespace lwucm {
 
 class ContainerImpl;
+class LinkImpl;
 
 class Instance {
   public:
     enum class State { initialized, configured, ready };
 
     /// Makes the body. Throws what the factory throws, UCM_ERROR if it gives none.
-    Instance(componentId id, ContainerImpl& container, std::shared_ptr<const Implementation> implementation);
+    Instance(componentId id, ContainerImpl& container, std::shared_ptr<const Implementation> implementation,
+             Demands demands, const Platform& platform);
 
     componentId id() const { return id_; }
     ContainerImpl& container() const { return container_; }
@@ -28,6 +31,9 @@ class Instance {
     bool provides(const std::string& port) const;
     bool requires_port(const std::string& port) const;
     bool is_connected(const std::string& port) const;
+
+    /// Null if the port element cannot be called by name.
+    InterfacePtr interface_of(const std::string& port) const;
 
     /// Sets attributes, gives a fragment its container, ends with on_init. `configuration` was checked before.
     void initialize(const Properties& configuration, const std::shared_ptr<Container>& container);
@@ -38,9 +44,12 @@ class Instance {
     void shut_down();
     void remove();
 
-    /// The time in which it executes by itself, if it does: when all members of its container have started.
+    // All members of its container have started, or are about to be shut down; in between others may execute it, and it
+    // may execute by itself.
+    void open_ends();
     void begin_execution() { execution_.begin(); }
-    void end_execution() { execution_.end(); }
+    void shut_ends();
+    void end_execution();
 
     /// What the body gives for a provided port element, guarded as its policy has it.
     std::shared_ptr<PortElementObject> ask_port_element(const std::string& port);
@@ -49,10 +58,21 @@ class Instance {
     void remember(const std::shared_ptr<PortElementObject>& element);
     const PortElementObjects& given_out() const { return given_out_; }
 
+    /// Which ends of links it has, and of which.
+    void join(std::shared_ptr<LinkImpl> link, std::shared_ptr<End> end);
+    void part(const End& end);
+    std::vector<std::shared_ptr<LinkImpl>> links() const;
+
   private:
     struct Required {
         std::string port;
         std::shared_ptr<PortElementObject> to;
+        std::shared_ptr<PortElementObject> seen;  // what the body gets to see of it
+    };
+
+    struct Joined {
+        std::shared_ptr<LinkImpl> link;
+        std::shared_ptr<End> end;
     };
 
     Required* find_required(const std::string& port);
@@ -65,6 +85,7 @@ class Instance {
     Execution execution_;
     std::vector<Required> required_;
     PortElementObjects given_out_;
+    std::vector<Joined> joined_;
     bool ready_ = false;
 };
 

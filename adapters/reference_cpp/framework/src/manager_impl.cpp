@@ -2,12 +2,16 @@
 
 #include <algorithm>
 
-#include "lwucm/runtime.hpp"
+#include "message_connector.hpp"
+#include "service_connector.hpp"
 
 namespace lwucm {
 
-std::shared_ptr<ContainerManager> create_runtime(const Repository& repository) {
-    return std::make_shared<ManagerImpl>(std::make_shared<Shared>(repository));
+const char* const SIMPLE_SERVICE_CONNECTOR = "simple_service_connector";
+const char* const SIMPLE_MESSAGE_CONNECTOR = "simple_message_connector";
+
+std::shared_ptr<Runtime> create_runtime(const Repository& repository, const Options& options) {
+    return std::make_shared<ManagerImpl>(std::make_shared<Shared>(repository, options));
 }
 
 ManagerImpl::ManagerImpl(std::shared_ptr<Shared> shared) : ContainerImpl(std::move(shared)) {}
@@ -58,7 +62,21 @@ void ManagerImpl::destroy() {
         std::lock_guard<std::mutex> data(shared_->data);
         shared_->destroyed = true;
     }
+    if (shared_->platform.executor) {
+        shared_->platform.executor->end();
+    }
     attempts.check();
+}
+
+std::shared_ptr<Link> ManagerImpl::create_link(const std::string& connector, const InterfacePtr& interface) {
+    Operation operation(*shared_);
+    if (interface && connector == SIMPLE_SERVICE_CONNECTOR) {
+        return std::make_shared<ServiceConnector>(shared_, interface);
+    }
+    if (interface && connector == SIMPLE_MESSAGE_CONNECTOR) {
+        return std::make_shared<MessageConnector>(shared_, interface);
+    }
+    throw BAD_PARAMETER("there is no connector '" + connector + "' for such an interface");
 }
 
 }  // namespace lwucm

@@ -6,16 +6,19 @@
 #include <vector>
 
 #include "container_impl.hpp"
+#include "lwucm/runtime.hpp"
 
 namespace lwucm {
 
-class ManagerImpl final : public ContainerImpl, public virtual ContainerManager {
+class ManagerImpl final : public ContainerImpl, public Runtime {
   public:
     explicit ManagerImpl(std::shared_ptr<Shared> shared);
 
     std::shared_ptr<Container> create_container(const Properties& configValues) override;
     void remove_container(std::shared_ptr<Container> subContainer) override;
     void destroy() override;
+    std::shared_ptr<Link> create_link(const std::string& connector, const InterfacePtr& interface) override;
+    std::vector<LogRecord> trace_records() override { return shared_->platform.trace->records(); }
 
   private:
     std::vector<std::shared_ptr<ContainerImpl>> sub_containers_;

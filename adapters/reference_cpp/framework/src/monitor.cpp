@@ -2,12 +2,6 @@
 
 namespace lwucm {
 
-namespace {
-
-thread_local int entered_monitors = 0;
-
-}  // namespace
-
 class Monitor::Visit {
   public:
     explicit Visit(Monitor& monitor) : monitor_(monitor) { monitor_.enter(); }
@@ -17,6 +11,7 @@ class Monitor::Visit {
 
   private:
     Monitor& monitor_;
+    const Awaited awaited_;
 };
 
 void Monitor::call(const std::function<void()>& code) {
@@ -26,27 +21,24 @@ void Monitor::call(const std::function<void()>& code) {
 
 bool Monitor::is_inside() {
     std::lock_guard<std::mutex> lock(mutex_);
-    return inside_ == std::this_thread::get_id();
+    return inside_ == Chain::current();
 }
 
-bool Monitor::is_inside_any() { return entered_monitors > 0; }
-
 void Monitor::enter() {
+    const Chain::Id chain = Chain::current();
     std::unique_lock<std::mutex> lock(mutex_);
-    if (inside_ != std::this_thread::get_id()) {
+    if (inside_ != chain) {
         const std::uint64_t ticket = next_ticket_++;
         left_.wait(lock, [this, ticket] { return ticket == admitted_; });
-        inside_ = std::this_thread::get_id();
+        inside_ = chain;
     }
     ++depth_;
-    ++entered_monitors;
 }
 
 void Monitor::leave() {
     std::lock_guard<std::mutex> lock(mutex_);
-    --entered_monitors;
     if (--depth_ == 0) {
-        inside_ = std::thread::id();
+        inside_ = nullptr;
         ++admitted_;
         left_.notify_all();
     }

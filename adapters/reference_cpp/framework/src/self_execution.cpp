@@ -5,8 +5,8 @@
 
 namespace lwucm {
 
-SelfExecution::SelfExecution(std::shared_ptr<component_execution_intf> component, std::shared_ptr<Monitor> monitor)
-    : component_(std::move(component)), monitor_(std::move(monitor)) {}
+SelfExecution::SelfExecution(std::shared_ptr<component_execution_intf> component, std::shared_ptr<Guard> guard)
+    : component_(std::move(component)), guard_(std::move(guard)) {}
 
 SelfExecution::~SelfExecution() { end(); }
 
@@ -31,7 +31,7 @@ void SelfExecution::work() {
     while (!ending_) {
         lock.unlock();
         try {
-            monitor_->call([this] { component_->run(); });
+            guard_->call([this] { component_->run(); });
         } catch (...) {  // nobody called it who could be told
         }
         lock.lock();

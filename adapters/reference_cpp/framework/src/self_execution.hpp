@@ -7,14 +7,15 @@
 #include <mutex>
 #include <thread>
 
-#include "monitor.hpp"
+#include "guard.hpp"
+#include "lwucm/policies.hpp"
 
 namespace lwucm {
 
 /// Between `begin` and `end` a thread calls run(), at once and again 2 ms after it came back, however it came back.
 class SelfExecution {
   public:
-    SelfExecution(std::shared_ptr<component_execution_intf> component, std::shared_ptr<Monitor> monitor);
+    SelfExecution(std::shared_ptr<component_execution_intf> component, std::shared_ptr<Guard> guard);
     ~SelfExecution();
     SelfExecution(const SelfExecution&) = delete;
     SelfExecution& operator=(const SelfExecution&) = delete;
@@ -28,7 +29,7 @@ class SelfExecution {
     void work();
 
     const std::shared_ptr<component_execution_intf> component_;
-    const std::shared_ptr<Monitor> monitor_;
+    const std::shared_ptr<Guard> guard_;
     std::mutex mutex_;
     std::condition_variable changed_;
     bool ending_ = false;

@@ -4,49 +4,51 @@
 
 #include <atomic>
 #include <mutex>
-#include <thread>
 
+#include "chain.hpp"
 #include "connections.hpp"
 #include "lwucm/errors.hpp"
 #include "lwucm/repository.hpp"
-#include "monitor.hpp"
+#include "platform.hpp"
 
 namespace lwucm {
 
 /// One operation that changes the runtime is under way at a time; `operations` is held during its callbacks too.
 /// `data` guards what the reading operations see, and is never held during a callback: a reader never waits for one.
 struct Shared {
-    explicit Shared(const Repository& implementations) : repository(implementations) {}
+    Shared(const Repository& implementations, const Options& options)
+        : repository(implementations), platform(options), connections(options.ids), component_ids(options.ids) {}
 
     const Repository repository;
+    const Platform platform;
     std::mutex operations;
-    std::atomic<std::thread::id> operating{std::thread::id()};
+    std::atomic<Chain::Id> operating{nullptr};
     std::mutex data;
     Connections connections;
-    componentId last_component = 0;
+    Ids component_ids;
     bool destroyed = false;
 };
 
-/// Scope of one changing operation. UCM_ERROR if a callback of another one makes it, or a protected component, which
-/// the operation might have to wait for; or if the runtime is destroyed.
+/// Scope of one changing operation. UCM_ERROR if a callback of another one makes it, or a component which the operation
+/// might have to wait for, as it is protected or called by a connector; or if the runtime is destroyed.
 class Operation {
   public:
     explicit Operation(Shared& shared) : shared_(shared) {
-        if (shared.operating.load() == std::this_thread::get_id()) {
+        if (shared.operating.load() == Chain::current()) {
             throw UCM_ERROR("a callback may not change the runtime that makes it");
         }
-        if (Monitor::is_inside_any()) {
-            throw UCM_ERROR("a protected component may not change the runtime while it is executed");
+        if (Awaited::now()) {
+            throw UCM_ERROR("a component that is protected, or called by a connector, may not change the runtime");
         }
         shared.operations.lock();
         if (shared.destroyed) {
             shared.operations.unlock();
             throw UCM_ERROR("the runtime is destroyed");
         }
-        shared.operating.store(std::this_thread::get_id());
+        shared.operating.store(Chain::current());
     }
     ~Operation() {
-        shared_.operating.store(std::thread::id());
+        shared_.operating.store(nullptr);
         shared_.operations.unlock();
     }
     Operation(const Operation&) = delete;

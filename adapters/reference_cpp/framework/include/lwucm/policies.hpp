@@ -1,4 +1,5 @@
-// Technical policies of component implementations (10.1.3), and what generated code adds so that they can be applied.
+// Technical policies of component implementations (10.1.3, 10.1.4), and what generated code adds so that they can be
+// applied.
 #ifndef LWUCM_POLICIES_HPP
 #define LWUCM_POLICIES_HPP
 
@@ -18,20 +19,24 @@ class component_execution_intf : public PortElementObject {
     virtual void run() = 0;
 };
 
-/// `port` is the provided port element that the policy manages, empty if it is a policy of the component.
+/// `port` is the port element that the policy manages, empty if it is a policy of the component. `element` is the name
+/// under which the component gets the port element that it requires by the policy; if it is empty, that of the policy and
+/// that of its port element, as in `clock_clock_api`.
 struct Policy {
     std::string definition;
     std::string port;
     std::map<std::string, std::string> parameters;
+    std::string element;
 };
 
-/// Stands between callers and a protected component.
-class Guard {
+/// Stands between callers and a port element.
+class Interceptor {
   public:
-    virtual ~Guard() = default;
+    virtual ~Interceptor() = default;
 
-    /// Has `code` executed and returns when that is done; an exception of `code` leaves here.
-    virtual void call(const std::function<void()>& code) = 0;
+    /// Somebody calls `method`. Has `code` executed, which carries it out, and returns when that is done; an exception of
+    /// `code` leaves here.
+    virtual void call(const std::string& method, const std::function<void()>& code) = 0;
 };
 
 /// The technical policies of an implementation and the code that is generated for them.
@@ -43,9 +48,10 @@ struct Policies {
                                                             const std::string& element)>
         get_policy_element;
 
-    /// A port element with the interface of `target`, each operation of which is a `guard->call` of that of `target`.
+    /// A port element with the interface of `target`, each operation of which is an `interceptor->call` of that of
+    /// `target`. Not needed for port elements that are DynamicPortElements.
     std::function<std::shared_ptr<PortElementObject>(const std::shared_ptr<PortElementObject>& target,
-                                                     const std::shared_ptr<Guard>& guard)>
+                                                     const std::shared_ptr<Interceptor>& interceptor)>
         intercept;
 };
 

@@ -1,16 +1,21 @@
-#include "own_thread.hpp"
+#include "executor.hpp"
 
 #include <utility>
 
 namespace lwucm {
 
-OwnThread::OwnThread(std::shared_ptr<Monitor> monitor)
-    : monitor_(std::move(monitor)), thread_([this] { work(); }) {}
+namespace {
 
-OwnThread::~OwnThread() { end(); }
+thread_local const Executor* working_for = nullptr;
 
-void OwnThread::call(const std::function<void()>& code) {
-    if (monitor_->is_inside()) {
+}  // namespace
+
+Executor::Executor() : thread_([this] { work(); }) {}
+
+Executor::~Executor() { end(); }
+
+void Executor::execute(const std::function<void()>& code) {
+    if (working_for == this) {
         code();
         return;
     }
@@ -27,11 +32,11 @@ void OwnThread::call(const std::function<void()>& code) {
         std::rethrow_exception(std::move(task.failure));
     }
     if (!task.done) {
-        monitor_->call(code);
+        code();
     }
 }
 
-void OwnThread::end() {
+void Executor::end() {
     {
         std::lock_guard<std::mutex> lock(mutex_);
         ended_ = true;
@@ -42,7 +47,8 @@ void OwnThread::end() {
     }
 }
 
-void OwnThread::work() {
+void Executor::work() {
+    working_for = this;
     std::unique_lock<std::mutex> lock(mutex_);
     while (true) {
         changed_.wait(lock, [this] { return ended_ || !tasks_.empty(); });
@@ -53,7 +59,8 @@ void OwnThread::work() {
         tasks_.pop_front();
         lock.unlock();
         try {
-            monitor_->call(task.code);
+            const Chain::Joined joined(task.chain);
+            task.code();
         } catch (...) {
             task.failure = std::current_exception();
         }
@@ -61,6 +68,17 @@ void OwnThread::work() {
         task.done = true;
         task.finished.notify_one();
     }
+}
+
+OnExecutor::OnExecutor(std::shared_ptr<Monitor> monitor, std::shared_ptr<Executor> executor)
+    : monitor_(std::move(monitor)), executor_(std::move(executor)) {}
+
+void OnExecutor::call(const std::function<void()>& code) {
+    if (monitor_->is_inside()) {
+        monitor_->call(code);
+        return;
+    }
+    executor_->execute([this, &code] { monitor_->call(code); });
 }
 
 }  // namespace lwucm
