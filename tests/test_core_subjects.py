@@ -24,8 +24,8 @@ SHORT_PATIENCE = 400
 """Milliseconds. What a wrong framework never does is not waited for longer."""
 
 
-def scenarios(clauses: tuple[str, ...]) -> Iterator[tuple[str, Scenario]]:
-    for purpose in load_purposes("core"):
+def scenarios(clauses: tuple[str, ...], readings: Mapping[str, str]) -> Iterator[tuple[str, Scenario]]:
+    for purpose in load_purposes("core", *(f"{option}={value}" for option, value in readings.items())):
         if purpose.clause.startswith(clauses):
             yield from purpose.scenarios
 
@@ -39,7 +39,7 @@ def failing(
     """Failing requirements, each with an example."""
     judge = Judge(load_life_cycle(), Claims(readings))
     found: dict[str, str] = {}
-    for name, whole in scenarios(clauses):
+    for name, whole in scenarios(clauses, readings):
         asked = whole if patience is None else msgspec.structs.replace(whole, patience=patience)
         reply = answer(asked, adapter)
         assert isinstance(reply, Traced), (name, reply)
