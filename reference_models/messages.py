@@ -89,6 +89,13 @@ def is_healthy(runtime: Runtime, call: MethodCall) -> bool:
     return call.caller is not None and call.caller.serving and 0 < len(receivers) == len(call.targets)
 
 
+def is_disturbed(runtime: Runtime, call: MethodCall) -> bool:
+    """Does one of its receivers fail, or was one held when it was pushed or afterwards?"""
+    receivers = [end.member for end, _ in call.targets]
+    held = [d for d in interactions_of(runtime).deliveries if d.was_held and d.receiver in receivers]
+    return not all(map(is_well, receivers)) or any(d.exit is None or d.exit.n > call.request.n for d in held)
+
+
 def pushed_before_start(runtime: Runtime, delivery: Delivery) -> bool:
     """Was the message pushed before the receiver was started last?"""
     return delivery.call is not None and _restarted(runtime, delivery.call, delivery.receiver)

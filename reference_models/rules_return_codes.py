@@ -14,6 +14,7 @@ from ucm_cts.reference_models.messages import (
     answer_to_push,
     counts,
     events_of,
+    is_disturbed,
     is_healthy,
     is_quiet,
     is_well,
@@ -132,7 +133,7 @@ def ok_true(ledger: Ledger, runtime: Runtime) -> None:
 def ok_kept(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """What got ok arrives, if nothing is broken and the receivers are well."""
     for call, missing in overdue(ledger, runtime, timeout):
-        if call.code == OK and not call.deliveries:
+        if call.code == OK and not call.deliveries and not is_disturbed(runtime, call):
             names = ", ".join(sorted(end.member.lane for end in missing))
             expected = f"was answered ok and comes to {names}"
             _violate(ledger, "R-10.1.2-10", "ok_kept", call, expected, "lost", "it came to nobody", timeout.n)
