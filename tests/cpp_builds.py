@@ -114,6 +114,7 @@ class Builds:
             "asan": self._compile("asan", REFERENCE, ["-std=c++11", *asan]),
             "spellings": self._compile("spellings", [SDK / "example" / "other_spellings.cpp"], STRICT),
             "patchbay": self._compile("patchbay", [NATIVE / "patchbay.cpp"], [*STRICT, *asan]),
+            "power": self._compile("power", [NATIVE / "stress_power.cpp"], [*STRICT, "-O2"]),
             "beans": self._compile("beans", [folder / "beans.cpp"], [*STRICT, "-I", str(SDK / "example")]),
         }
         self._vendor = self._pool.submit(self._build_like_a_vendor)
@@ -365,4 +366,16 @@ def concurrent_scenarios() -> list[s.Scenario]:
             s.Invoke(f"ref {s.ACTIVE}", 1),
         ),
     )
-    return [gates, crowd, left, s.Scenario(PAIR, (*LIFE, s.Destroy())), settled, policies]
+    stressed = s.Scenario(
+        {**executed, "E": s.Declaration(requires=("r_e",), plan={"on_startup": (s.CallMethod("r_e", "m"),)})},
+        (
+            *(s.AddComponent(name) for name in executed),
+            *(s.GetPortElement(name, "p_e", f"ref {name}") for name in executed),
+            *(s.Connect(name, "r_e", f"ref {to}", f"k {name}") for name, to in pairwise(ring)),
+            s.Start(),
+            *(s.Stress((f"ref {name}", f"ref {name}"), 5) for name in executed),
+            s.Invoke(f"ref {s.SELF_EXECUTING}", 1, thread="w"),
+            s.Stress(tuple(f"ref {name}" for name in executed), 5),
+        ),
+    )
+    return [gates, crowd, left, s.Scenario(PAIR, (*LIFE, s.Destroy())), settled, policies, stressed]

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
+import os
 import time
 from collections.abc import Sequence
+from pathlib import Path
 
 import msgspec
 import pytest
-from cpp_builds import PAIR, Builds, events, talk
+from cpp_builds import PAIR, Builds, events, run, talk
 from performing import answer
 
 from ucm_cts.adapters.contract import data_types as d
@@ -244,7 +247,15 @@ def test_bursts_are_counted(builds: Builds) -> None:
 
 def test_awaiting_messages_that_do_not_come(builds: Builds) -> None:
     go = s.Invoke("go", 1)
-    between = (go, s.Break("l", "inside"), go, s.Break("l"), go, s.AwaitMessages("S", 5), s.AwaitMessages("nobody", 1, 9))
+    between = (
+        go,
+        s.Break("l", "inside"),
+        go,
+        s.Break("l"),
+        go,
+        s.AwaitMessages("S", 5),
+        s.AwaitMessages("nobody", 1, 9),
+    )
     components = {"C": client(s.Burst("out", 0, 4)), "S": server(s.CountMessages())}
     scenario = asked(components, linked(*between, connector=s.MESSAGE_CONNECTOR), 60)
     trace = same_as_in_python(builds, scenario)
@@ -263,7 +274,9 @@ def test_messages_are_awaited_while_they_come(builds: Builds) -> None:
         s.Join("v"),
         s.Join("w"),
     )
-    trace = events(builds.program("patchbay"), asked(components, linked(*between, connector=s.MESSAGE_CONNECTOR), 20_000))
+    trace = events(
+        builds.program("patchbay"), asked(components, linked(*between, connector=s.MESSAGE_CONNECTOR), 20_000)
+    )
     counted = {e.step: e.received for e in trace if isinstance(e, t.Counted)}
     assert counted[9] >= 40_000
     assert counted[11] == 50_000
@@ -294,3 +307,82 @@ def test_reaching_a_total(builds: Builds) -> None:
     )
     trace = same_as_in_python(builds, s.Scenario(components, steps, 50))
     assert [e.step for e in trace if isinstance(e, t.Timeout)] == [7]
+
+
+# stress
+
+
+def stressed(
+    program: Path, *policies: str, ports: tuple[str, str] = ("a", "b"), milliseconds: int = 50
+) -> tuple[t.Stressed, tuple[t.Event, ...]]:
+    """Two callers of a component with these policies."""
+    declared = s.Declaration(("a", "b"), policies=tuple(s.Policy(p, "a" if p == s.ACTIVE else None) for p in policies))
+    steps = (
+        s.AddComponent("P"),
+        *(s.GetPortElement("P", port, f"{n}") for n, port in enumerate(ports)),
+        s.Start(),
+        s.Stress(("0", "1", "nil"), milliseconds),
+        s.Invoke("0", 5),
+        s.Stop(),
+        s.Destroy(),
+    )
+    scenario = s.Scenario({"P": declared}, steps)
+    trace = events(program, scenario)
+    assert contradiction(scenario, trace) is None
+    (event,) = (e for e in trace if isinstance(e, t.Stressed))
+    return event, trace
+
+
+needs_two_cores = pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="threads meet on two cores")
+
+
+@pytest.mark.parametrize("policy", [s.PROTECTED_PASSIVE, s.SELF_EXECUTING])
+def test_protected_component_withstands_stress(builds: Builds, policy: str) -> None:
+    found, _ = stressed(builds.reference, policy)
+    assert found.calls > 100
+    assert (found.overlaps, found.failed) == (0, 0)
+
+
+@needs_two_cores
+def test_callers_of_a_component_that_nobody_protects_meet(builds: Builds) -> None:
+    found, trace = stressed(builds.reference, s.UNPROTECTED_PASSIVE)
+    assert found.overlaps > 100
+    assert found.control_overlaps > 100
+    entries = [e.value for e in trace if isinstance(e, t.Enter) and e.hook == "exchange"]
+    assert entries == [5], "what stress does is not recorded"
+    assert 0.9 * 50e6 < found.t - trace[trace.index(found) - 1].t < 2e9
+
+
+def test_calls_that_fail_under_stress(builds: Builds) -> None:
+    found, _ = stressed(builds.program("patchbay"), ports=("a", "throws"))
+    assert found.calls > 0
+    assert found.failed > 0
+
+
+def test_callers_that_do_not_come_back_from_stress(builds: Builds) -> None:
+    steps = (s.AddComponent("P"), s.GetPortElement("P", "p", "p"), s.GetPortElement("P", "hangs", "h"))
+    scenario = s.Scenario({"P": s.Declaration(("p",))}, (*steps, s.Stress(("p", "h"), 5), s.Invoke("p", 5)), 200)
+    (traced,), _, _ = talk(builds.program("patchbay"), m.Run(1, scenario))
+    assert isinstance(traced, m.Traced)
+    assert traced.stuck == ("stress 1",)
+    assert [e.value for e in traced.events if isinstance(e, t.Return)][-1] == ~5
+    assert [e.calls > 0 for e in traced.events if isinstance(e, t.Stressed)] == [True]
+
+
+def test_stress_without_callers(builds: Builds) -> None:
+    scenario = s.Scenario({}, (s.Stress(("gone",), 10_000), s.Stress(("nil",), 10_000), s.Stress(())))
+    trace = events(builds.program("patchbay"), scenario)
+    assert [(type(e).__name__, getattr(e, "variable", "")) for e in trace] == [
+        ("Skip", "gone"),
+        ("Stressed", ""),
+        ("Stressed", ""),
+    ]
+
+
+@needs_two_cores
+def test_stress_finds_small_holes_and_never_cries_wolf(builds: Builds) -> None:
+    done = run([builds.program("power"), "4", "50", "1"])
+    found = {line["subject"]: line for line in map(json.loads, done.stdout.splitlines())}
+    assert not [name for name, line in found.items() if line["right"] and line["found"]]
+    for name in ("no lock on 1 of 1,000 calls (mutex)", "checked, then set", "checked, 1 us later set"):
+        assert found[name]["found"] > 0, name

@@ -18,6 +18,7 @@ import msgspec
 import pytest
 from cpp_builds import LIFE, PAIR, Builds, Host, concurrent_scenarios, events, talk
 
+from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
@@ -57,9 +58,15 @@ def test_host_and_harness_agree_on_what_is_a_message(builds: Builds) -> None:
     plan: dict[s.Hook, tuple[s.Action, ...]] = {
         "exchange": (s.ReturnValue(1), s.CallPort("r_e", 2), s.HoldAtGate("g"), s.QuerySiblings(), s.RaiseError()),
         "run": (s.RaiseError(),),
+        "method": (
+            s.CallMethod("r_e", "m", ([1, ["x"]], True)),
+            s.Answer("m", (1,), "wrong", overwrite=True),
+            s.Burst("r_e", 1, 2),
+            s.CountMessages(),
+        ),
     }
-    policies = (s.Policy(s.ACTIVE, "p_e", {"period": "2"}), s.Policy(s.SELF_EXECUTING))
-    declared = s.Declaration(("p_e",), ("r_e",), {"a": "b"}, True, True, plan, policies)
+    policies = (s.Policy(s.ACTIVE, "p_e", {"period": "2"}), s.Policy(s.CLOCK, element="c.clock_api"))
+    declared = s.Declaration(("p_e",), ("r_e",), {"a": "b"}, True, True, plan, policies, {"p_e": "i"})
     steps = (
         s.AddComponent("A", bind="x"),
         s.RemoveComponent("nobody"),
@@ -73,11 +80,39 @@ def test_host_and_harness_agree_on_what_is_a_message(builds: Builds) -> None:
         s.OpenGate("g"),
         s.Settle("w", thread="u"),
         s.Join("w", thread="v"),
+        s.Link("simple_service_connector", "i", "l"),
+        s.Attach("l", "client", "nobody", "r_e", container="nowhere"),
+        s.Detach("l", "nobody", "r_e", container="nowhere"),
+        s.Break("l", "inside"),
+        s.Mend("l"),
+        s.ReadLog(),
+        s.Pause(0),
+        s.AwaitMessages("A", 0, 2),
+        s.Stress(("nobody",), 1),
         s.Destroy(),
     )
-    message = json.loads(m.encode(m.Run(1, s.Scenario({"A": declared}, steps, patience=50), stream=False)))
+    every_type = d.Structure(
+        "s",
+        {
+            "e": d.Enumeration("colour", "BYTE", {"red": 1}),
+            "u": d.Union(
+                "u",
+                d.Enumeration("colour", "LONG", {"red": 1}),
+                (d.UnionCase("c", d.Boolean(), ("red",)), d.UnionCase("o", d.Char("CHAR8"), default=True)),
+            ),
+            "a": d.Array(d.Alias("name", d.String("CHAR32", 4)), (2, 3)),
+            "q": d.Sequence(d.Float("FLOAT"), 4),
+            "n": d.Integer("ULONG"),
+        },
+    )
+    method = d.Method((d.Parameter("p", "INOUT", every_type),), (d.Structure("wrong", {}),))
+    interfaces = {"i": d.Interface({"m": method}, ("j",))}
+    asked = s.Scenario({"A": declared}, steps, 50, interfaces, ("w",))
+    message = json.loads(m.encode(m.Run(1, asked, stream=False)))
     message["scenario"]["patience"] = 50
-    lines = [json.dumps(changed).encode() for changed in mutations(copy.deepcopy(message))]
+    reach = json.loads(m.encode(m.Run(1, s.Scenario({}, (s.ReachGate("g", 1, 2),), patience=0))))
+    changed = (*mutations(copy.deepcopy(message)), *(r for r in mutations(reach) if "patience" in str(r)))
+    lines = [json.dumps(one).encode() for one in changed]
     lines += [
         b"x",
         b"{}",
@@ -100,7 +135,8 @@ def test_host_and_harness_agree_on_what_is_a_message(builds: Builds) -> None:
             assert isinstance(answer, m.Refused), line
         else:
             wrong_version = isinstance(meant, m.Hello) and meant.protocol != m.PROTOCOL
-            assert isinstance(answer, m.Refused) == wrong_version, (line, answer)
+            nowhere = isinstance(answer, m.Refused) and "there is no interface" in answer.reason
+            assert isinstance(answer, m.Refused) == wrong_version or nowhere, (line, answer)
     assert isinstance(answers[-1], m.Welcome)
 
 

@@ -1,15 +1,18 @@
 // Patchbay: the least framework that has connectors, clock and trace, for tests of the SDK. One container, nothing checked.
 //
-// Components whose name tells so make it a bad framework: a service connector "keeps" the arguments of a call and delivers
-// those of the call before, or "forges" results that are no values.
+// Port elements whose name tells so make it a bad framework: a service connector "keeps" the arguments of a call and
+// delivers those of the call before, or "forges" results that are no values; callers that get one that "hangs" never come
+// back, and those that get one that "throws" come back with an exception.
 #include <ucm_cts/main.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -106,6 +109,22 @@ class Service final : public ucm_cts::PortElement {
     std::vector<ucm_cts::LogRecord>& log_;
 };
 
+// what callers get instead of a port element whose name tells so
+class Bad final : public ucm_cts::PortElement {
+  public:
+    explicit Bad(bool hangs) : hangs_(hangs) {}
+
+    std::int32_t exchange(std::int32_t) override {
+        while (hangs_) {
+            std::this_thread::sleep_for(std::chrono::seconds(1));
+        }
+        throw 42;
+    }
+
+  private:
+    const bool hangs_;
+};
+
 class Patchbay final : public ucm_cts::Adapter {
   public:
     Handle create_runtime(const std::vector<ucm_cts::Implementation>& all) override {
@@ -129,6 +148,9 @@ class Patchbay final : public ucm_cts::Adapter {
     }
 
     Reference get_port_element(const Handle&, Id id, const std::string& port) override {
+        if (port == "hangs" || port == "throws") {
+            return std::make_shared<Bad>(port == "hangs");
+        }
         return members_.at(id).body->get_portElement(port);
     }
 

@@ -206,7 +206,6 @@ inline SharedInterface read_interface(const json::Value& value) {
             [&interface](const json::Value& one) { interface->methods[one.key()] = read_method(one); });
     });
     fields.optional("inherited", [&interface](const json::Value& names) { interface->inherited = read_names(names); });
-    fields.optional("inherited", [&interface](const json::Value& names) { interface->inherited = read_names(names); });
     fields.end();
     return interface;
 }
