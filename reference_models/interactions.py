@@ -370,7 +370,7 @@ class Interactions:
             return self._give_back(mistaken[0], candidates), "same"
         if same:
             return same[-1], "repeated"
-        if is_message and any(c.request.arguments == event.arguments for c in self.calls if c.is_message):
+        if any(c.request.arguments == event.arguments for c in self.calls if _may_be_mixed_up(c, event, is_message)):
             return None, "stray"
         altered = [c for c in candidates if not c.delivered_to(receiver, event.port)]
         return _nearest(altered, event), "altered" if altered else "stray"
@@ -406,6 +406,13 @@ class Interactions:
 def _nearest(calls: list[MethodCall], enter: Enter) -> MethodCall | None:
     """The call whose values differ least from those that a body was entered with."""
     return min(calls, key=lambda call: distance(call.request.arguments, enter.arguments), default=None)
+
+
+def _may_be_mixed_up(call: MethodCall, event: Enter, is_message: bool) -> bool:
+    """May this entry be that call's, through another link?"""
+    if is_message or call.link is None:
+        return call.is_message
+    return not call.is_message and call.reply is None and call.request.method == event.method
 
 
 def _is_idle(runtime: Runtime, member: Member) -> bool:

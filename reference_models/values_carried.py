@@ -80,7 +80,7 @@ def _brought_back(
 ) -> Iterator[Carried]:
     """What the server gave and the client got: results, or the fields of a declared exception."""
     gave, got = delivery.exit, call.reply
-    if gave is None or got is None or gave.raised or got.raised or gave.exception != got.exception:
+    if gave is None or got is None or gave.n > got.n or gave.raised or got.raised or gave.exception != got.exception:
         return
     if _is_result_of_another(interactions, call, delivery):
         return
@@ -102,13 +102,20 @@ def _paired(
     got: Sequence[Datum] | None,
     events: tuple[int, ...],
 ) -> Iterator[Carried]:
-    """Value by value; that they are another number of values is not a matter of their types."""
-    if sent is None or got is None or not len(parameters) == len(sent) == len(got):
+    """Value by value; that they are another number of values, or in each other's places, is not a matter of their types."""
+    if sent is None or got is None or not len(parameters) == len(sent) == len(got) or _are_displaced(call, sent, got):
         return
     for parameter, way, value, arrived in zip(parameters, ways, sent, got, strict=True):
         if not misfit(parameter.of, value):
             different = tuple(differences(Part(parameter.of, value), arrived))
             yield Carried(call, parameter.of, value, arrived, way, events, different)
+
+
+def _are_displaced(call: MethodCall, sent: Sequence[Datum], got: Sequence[Datum]) -> bool:
+    """Does every value that is not the one sent stand elsewhere among those of this call?"""
+    known = [*sent, *(call.request.arguments or ())]
+    wrong = [arrived for value, arrived in zip(sent, got, strict=True) if arrived != value]
+    return bool(wrong) and all(arrived and arrived in known for arrived in wrong)
 
 
 def _is_of_another(interactions: Interactions, call: MethodCall, delivery: Delivery) -> bool:
