@@ -5,7 +5,7 @@ from __future__ import annotations
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Reply, Return
 from ucm_cts.reference_models.findings import Arrow
-from ucm_cts.reference_models.interactions import LinkState, Operation
+from ucm_cts.reference_models.interactions import LinkState
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Runtime, Window, lane
 from ucm_cts.reference_models.services import (
@@ -16,9 +16,11 @@ from ucm_cts.reference_models.services import (
     is_disturbed,
     is_left_hanging,
     led_astray,
+    new_types,
     service_calls,
     strays,
     trouble_with,
+    what_sets_apart,
 )
 from ucm_cts.reference_models.values_carried import altered_calls
 
@@ -28,6 +30,8 @@ _BLOCKING, _IN_FLIGHT, _TEMPLATE = "R-10.1.5.1-11", "R-10.1.5.1-12", "R-10.1.5.1
 
 _REFUSALS = ("BAD_PARAMETER", "UCM_ERROR")
 """How a second server is refused at once."""
+
+_SET_APART = {"inherited": _INHERITED, "second server": _ONE_SERVER, "client": _CLIENTS}
 
 _OF_VALUES = ("arguments", "results", "translated")
 
@@ -86,25 +90,8 @@ def _concerned(runtime: Runtime, one: ServiceCall, good: list[ServiceCall]) -> s
     """What a call that is not carried out is about before all: what sets it apart from those that are."""
     links = interactions_of(runtime).links.values()
     services = {link.interface for link in links if link.connector == s.SERVICE_CONNECTOR}
-    if one.is_inherited:
-        return _INHERITED
-    if len(services) > 1:
-        return _TEMPLATE
-    if _second_servers(runtime, one.link):
-        return _ONE_SERVER
-    if any(other.link is one.link and other.client is not one.client for other in good):
-        return _CLIENTS
-    return _CALLS
-
-
-def _second_servers(runtime: Runtime, link: LinkState) -> list[Operation]:
-    """The attempts to give the link another server that were refused."""
-    return [
-        o
-        for o in interactions_of(runtime).operations
-        if isinstance(o.step, s.Attach) and o.step.role == "server" and o.step.link == link.name
-        if isinstance(o.end, Raise)
-    ]
+    apart = what_sets_apart(runtime, one, good)
+    return _SET_APART[apart] if apart else _TEMPLATE if len(services) > 1 else _CALLS
 
 
 def _may_be_expected(one: ServiceCall) -> bool:
@@ -255,8 +242,8 @@ def connector_takes_its_ends(
     if isinstance(step, s.Link):
         if step.connector == s.SERVICE_CONNECTOR and isinstance(end, Raise):
             others = [k for k in interactions_of(runtime).links.values() if k.connector == step.connector]
-            of_others = any(other.interface != step.interface for other in others)
-            _refused(ledger, _TEMPLATE if of_others else _CALLS, step, end, "made")
+            if not others or not new_types(runtime, step):  # otherwise a matter of its types
+                _refused(ledger, _TEMPLATE if others else _CALLS, step, end, "made")
         return
     if isinstance(step, s.Attach) and link is not None and link.connector == s.SERVICE_CONNECTOR:
         _attached(ledger, runtime, link, step, end)

@@ -25,7 +25,14 @@ from ucm_cts.reference_models.carriage import (
 from ucm_cts.reference_models.interactions import LinkState
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Runtime
-from ucm_cts.reference_models.services import ServiceCall, is_disturbed, service_calls, trouble_with
+from ucm_cts.reference_models.services import (
+    ServiceCall,
+    is_disturbed,
+    new_types,
+    service_calls,
+    trouble_with,
+    what_sets_apart,
+)
 from ucm_cts.reference_models.values_carried import Carried, method_of, values_carried
 
 _LONGEST = 70
@@ -106,7 +113,12 @@ def values_accepted(ledger: Ledger, runtime: Runtime) -> None:
     """A service call is not refused for its values, while others are served."""
     judged = [one for one in service_calls(runtime) if one.call.reply is not None and not is_disturbed(runtime, one)]
     troubles = [(one, trouble_with(runtime, one)) for one in judged]
-    refused = [(one, values) for one, trouble in troubles if (values := _refused(runtime, one, trouble))]
+    served = [one for one, trouble in troubles if not trouble]
+    refused = [
+        (one, values)
+        for one, trouble in troubles
+        if not what_sets_apart(runtime, one, served) and (values := _refused(runtime, one, trouble))
+    ]
     if not refused or all(trouble in ("failed", "not served") for _, trouble in troubles):
         return
     alone = [of for _, values in refused for of, _ in values[:1]]
@@ -158,8 +170,7 @@ def types_accepted(
         return
     if any(container.started is not False for container in runtime.containers.values()):
         return
-    interface = runtime.scenario.interfaces[step.interface]
-    types = [parameter.of for method in interface.methods.values() for parameter in method.parameters]
+    types = new_types(runtime, step)
     if not types:
         return
     ledger.violated(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Interface, Method
+from ucm_cts.adapters.contract.data_types import AnyType, Interface, Method
 from ucm_cts.adapters.contract.trace import Exit, Raise, Reply
 from ucm_cts.reference_models.interactions import Delivery, End, Interactions, LinkState, MethodCall, Operation
 from ucm_cts.reference_models.runtime import NO_ID, Member, Runtime
@@ -215,6 +215,37 @@ def _answered(left: Exit, reply: Reply) -> Trouble:
     if not normally:
         return "failed"
     return "" if left.results == reply.results else "results"
+
+
+def what_sets_apart(
+    runtime: Runtime, one: ServiceCall, served: Sequence[ServiceCall]
+) -> Literal["", "inherited", "second server", "client"]:
+    """What a call that is not carried out has that those have not which are ``served``: an inherited method, a connection
+    that was to have a second server, or a client that is not the one who is served there.
+    """
+    if one.is_inherited:
+        return "inherited"
+    attempts = (o for o in interactions_of(runtime).operations if isinstance(o.step, s.Attach))
+    if any(_is_for_server(o.step, one.link) and isinstance(o.end, Raise) for o in attempts):
+        return "second server"
+    others = any(other.link is one.link and other.client is not one.client for other in served)
+    return "client" if others else ""
+
+
+def _is_for_server(step: s.Step, link: LinkState) -> bool:
+    return isinstance(step, s.Attach) and step.role == "server" and step.link == link.name
+
+
+def new_types(runtime: Runtime, step: s.Link) -> list[AnyType]:
+    """The types of the interface's parameters that no connector of that kind has in this runtime."""
+    interfaces = runtime.scenario.interfaces
+    links = interactions_of(runtime).links.values()
+    known = [of for k in links if k.connector == step.connector for of in _types_of(interfaces[k.interface])]
+    return [of for of in _types_of(interfaces[step.interface]) if of not in known]
+
+
+def _types_of(interface: Interface) -> list[AnyType]:
+    return [parameter.of for method in interface.methods.values() for parameter in method.parameters]
 
 
 def interactions_of(runtime: Runtime) -> Interactions:
