@@ -307,7 +307,7 @@ def _both_kinds() -> Scenario:
 
 
 def _two_ports() -> Scenario:
-    calls = [("out.api", "alpha"), ("aux.api", "beta"), ("aux.api", "beta"), ("aux.api", "alpha")]
+    calls = [("out.api", "alpha"), *[("aux.api", "beta")] * 2, *[("aux.api", "alpha")] * 2]
     traces = (_trace("out.api", "alpha", "info"), _trace("aux.api", "beta", "error"))
     return _Cast(calls, {"out.api": "server", "aux.api": "other"}, {"client": traces}).scenario(*_read(3))
 

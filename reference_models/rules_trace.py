@@ -124,7 +124,15 @@ def log_recorded(ledger: Ledger, runtime: Runtime, event: Told) -> None:
     for message in (m for m in contents.messages if m.barred and m.record is not None):
         expected = f"no record below the threshold {ledger.claims.reading('log-threshold')}"
         observed = f"there was one of log({message.severity}, {_shown(message.text)})"
-        _violated(ledger, contents, message, "R-10.1.4.2-26", "log_recorded", "threshold", expected, observed)
+        ledger.violated(
+            "R-10.1.4.2-26",
+            "log_recorded",
+            "threshold",
+            expected,
+            observed,
+            (message.call.request.n, contents.reading.end.n),
+            contents.reading.end.step,
+        )
     if any(m.due and m.record for m in contents.messages) and not (contents.missing or contents.surplus):
         ledger.exercised("R-10.1.4.2-26")
 
@@ -179,8 +187,8 @@ def port_trace_recorded(ledger: Ledger, runtime: Runtime, event: Told) -> None:
         if contents is None or not tracing.is_traced:
             continue
         problem = _number_problem(ledger, contents, tracing)
-        if problem == _TOO_MANY and tracing.others:
-            continue  # they may be of calls that are not traced, which is another rule's matter
+        if problem == _TOO_MANY and _may_be_of_others(tracing):
+            continue  # another rule's matter
         if problem:
             _wrong_number(ledger, contents, tracing, problem)
         elif tracing.due and len(tracing.records) >= tracing.due:
@@ -214,6 +222,12 @@ def _has_too_many(ledger: Ledger, contents: Contents, tracing: Tracing) -> bool:
     return found > 2 * most or (between and (no_more_to_come or one_a_call))
 
 
+def _may_be_of_others(tracing: Tracing) -> bool:
+    """Can records that are too many be of calls that are not traced?"""
+    most = 2 * (tracing.most + tracing.others)
+    return tracing.others > 0 and (not tracing.is_traced or len(tracing.records) <= most)
+
+
 def _wrong_number(ledger: Ledger, contents: Contents, tracing: Tracing, problem: str) -> None:
     beside = [t for t in contents.tracings.values() if t.ports & tracing.ports]
     nothing = problem == "none" and not any(t.records for t in beside)
@@ -235,7 +249,7 @@ def port_trace_selective(ledger: Ledger, runtime: Runtime, event: Told) -> None:
     if contents is None:
         return
     works = any(t.is_traced and t.records for t in contents.tracings.values())
-    for tracing in (t for t in contents.tracings.values() if t.others):
+    for tracing in (t for t in contents.tracings.values() if _may_be_of_others(t)):
         if not _has_too_many(ledger, contents, tracing):
             if works and len(tracing.records) <= tracing.due:
                 ledger.exercised("R-10.1.4.2-33")
