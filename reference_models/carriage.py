@@ -1,7 +1,7 @@
 """What became of a value on its way: where it differs from what was sent, and which type is to blame (10.1.1).
 
-The innermost type that differs is to blame, unless the same value of it was carried well with less around it: then what is
-around it is. Pure comparison of data; rules_values.py says what is compared.
+The innermost type that differs is to blame, unless the same value of it was carried well elsewhere with no more around it:
+then what is around it is. Pure comparison of data; rules_values.py says what is compared.
 """
 
 from __future__ import annotations
@@ -97,8 +97,9 @@ class Evidence:
     def to_blame(self, part: Part) -> str:
         """The requirement that was broken when ``part`` was not carried well."""
         chain = (*part.around, part)
-        unseen = [index for index, one in enumerate(chain) if self.least.get(one.key, index) >= index]
-        return requirement_of(chain[unseen[-1]].of, is_innermost=unseen[-1] == len(chain) - 1)
+        unseen = [index for index, one in enumerate(chain) if self.least.get(one.key, index + 1) > index]
+        to_blame = unseen[-1] if unseen else len(chain) - 1
+        return requirement_of(chain[to_blame].of, is_innermost=to_blame == len(chain) - 1)
 
 
 def requirement_of(of: AnyType, is_innermost: bool = False) -> str:
@@ -170,11 +171,14 @@ def differences(part: Part, got: object) -> Iterator[Difference]:
         yield from differences(Part(inner, value, (*part.around, part), place), one)
 
 
-def distance(one: object, other: object) -> int:
-    """In how many places two data differ, whatever their types; a place that only one of them has counts, too."""
+def distance(one: object, other: object) -> float:
+    """How far two data are apart, whatever their types: from 0 to 1; each part of a list has the same weight."""
+    if one == other:
+        return 0
     if isinstance(one, list | tuple) and isinstance(other, list | tuple):
-        return abs(len(one) - len(other)) + sum(map(distance, one, other))
-    return int(one != other)
+        longer = max(len(one), len(other))
+        return (longer - min(len(one), len(other)) + sum(map(distance, one, other))) / longer
+    return 1
 
 
 def _arrived(of: AnyType, sent: Datum, got: object) -> list[Datum] | None:
@@ -203,7 +207,12 @@ def _shape(value: object, dimensions: int) -> object:
 
 
 def _is_another_order(sent: list[Datum], got: list[Datum]) -> bool:
-    """Are the same values at other places?"""
+    """Are the same values at other places, whatever their own order is?"""
     if got == sent:
         return False
-    return Counter(map(repr, sent)) == Counter(map(repr, got))
+    before, after = list(map(_unordered, sent)), list(map(_unordered, got))
+    return before != after and Counter(before) == Counter(after)
+
+
+def _unordered(value: object) -> str:
+    return f"[{', '.join(sorted(map(_unordered, value)))}]" if isinstance(value, list) else repr(value)

@@ -125,7 +125,7 @@ def _is_of_another(interactions: Interactions, call: MethodCall, delivery: Deliv
     return any(
         other.request.arguments == delivery.enter.arguments and other.request.method == call.request.method
         for other in interactions.calls
-        if other.caller is not call.caller
+        if other.link is call.link and other.caller is not call.caller
     )
 
 
