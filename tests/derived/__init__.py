@@ -13,6 +13,7 @@ from derived.registry import (
     POLICY_SUBJECTS,
     POLICY_VARIANTS,
     SUBJECTS,
+    VARIANT_CLAUSES,
     VARIANTS,
     WrongSubject,
 )
@@ -24,6 +25,7 @@ __all__ = [
     "POLICY_VARIANTS",
     "SUBJECTS",
     "VARIANTS",
+    "VARIANT_CLAUSES",
     "WrongSubject",
 ]
 

@@ -41,6 +41,9 @@ CORE_SUBJECTS: dict[str, WrongSubject] = {}
 
 CORE_VARIANTS: dict[str, type[ReferenceAdapter]] = {}
 
+VARIANT_CLAUSES: dict[str, tuple[str, ...]] = {}
+"""The clauses that a variant is of interest for; all of the core if it is not there."""
+
 
 def bind(name: str, mixin: type, doc: str | None = None) -> type[ReferenceAdapter]:
     """An adapter for the reference framework with ``mixin`` in front of both container classes."""
@@ -103,6 +106,17 @@ def core_variant(mixin: type) -> type:
     """Register the decorated mixin as a conformant framework that does clause 10.1 in its own way."""
     CORE_VARIANTS[mixin.__name__] = bind(mixin.__name__, mixin, mixin.__doc__)
     return mixin
+
+
+def core_variant_of(*clauses: str) -> Callable[[type], type]:
+    """Register the decorated mixin as a conformant framework that is of interest for the purposes of ``clauses``."""
+
+    def register(mixin: type) -> type:
+        core_variant(mixin)
+        VARIANT_CLAUSES[mixin.__name__] = clauses
+        return mixin
+
+    return register
 
 
 class Base(Container):
