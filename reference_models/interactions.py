@@ -214,6 +214,11 @@ class Interactions:
                 operation.end = end
                 return
 
+    def ends_phases(self, begin: int, end: int) -> bool:
+        """Was something in progress between these events that stops or removes components, or undoes connections?"""
+        ending = s.Stop | s.RemoveComponent | s.RemoveContainer | s.Destroy | s.Disconnect | s.Detach
+        return any(isinstance(o.step, ending) and o.overlaps(begin, end) for o in self.operations)
+
     def wait(self, event: Timeout) -> None:
         """A wait ran out of patience."""
         step = self._runtime.scenario.steps[event.step]

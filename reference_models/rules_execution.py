@@ -30,6 +30,9 @@ _SUPPORT = {
     "unprotected": "R-10.1.3.1-15",
 }
 _BY_ITSELF = {"passive": "R-10.1.3.2-14", "unprotected": "R-10.1.3.2-19"}
+_NOW = 2**63
+"""Later than all events so far."""
+
 _INTERVALS = 3
 """So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
 
@@ -96,7 +99,8 @@ def waiting_calls_served(ledger: Ledger, runtime: Runtime, call: BusinessCall, w
     if end and any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries):
         ledger.exercised("R-10.1.3.2-17")
         return
-    if not all(member.serving for member, _ in goals_of(runtime, call)):
+    ending = runtime.interactions is not None and runtime.interactions.ends_phases(call.n, end or _NOW)
+    if ending or not all(member.serving for member, _ in goals_of(runtime, call)):
         return  # who is being stopped serves nobody
     ledger.violated(
         "R-10.1.3.2-17",
