@@ -17,7 +17,7 @@ from ucm_cts.adapters.reference_py.policies import Executor
 
 T = TypeVar("T")
 
-_service_variant = core_variant_of("10.1.1", "10.1.2", "10.1.5")
+_service_variant = core_variant_of("10.1.1", "10.1.5")
 
 # threads
 
