@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import fnmatch
 import functools
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
 
@@ -69,6 +71,47 @@ def in_the_making(profile: str) -> str:
 def load_interpretations() -> tuple[Interpretation, ...]:
     """All decisions about unclear places. Raises ``DocumentError``."""
     return tuple(i for path in sorted(SUITE.glob("interpretations*.yaml")) for i in read(path, list[Interpretation]))
+
+
+class Capability(Value, frozen=True):
+    """A part of 10.1 that a vendor claims or leaves out; ``text`` says what it is."""
+
+    id: str
+    clause: str
+    text: str
+
+
+class Need(Value, frozen=True):
+    """What the vendor must claim, or declare (``option=value``), for the ``requirements`` to apply: all of ``needs``, and one
+    of ``one_of`` if there are any. ``requirements`` may hold ``*`` and ``[...]``.
+    """
+
+    requirements: tuple[str, ...]
+    needs: tuple[str, ...] = ()
+    one_of: tuple[str, ...] = ()
+
+
+class Capabilities(Value, frozen=True):
+    """The parts of 10.1, and what requirements need of them."""
+
+    capabilities: tuple[Capability, ...]
+    needs: tuple[Need, ...]
+
+    def of(self, requirement: str) -> list[Need]:
+        """What ``requirement`` needs; nothing for one that always applies."""
+        return [n for n in self.needs if any(fnmatch.fnmatchcase(requirement, p) for p in n.requirements)]
+
+
+@functools.cache
+def load_capabilities() -> Capabilities:
+    """What a vendor may leave out. Raises ``DocumentError``."""
+    return read(SUITE / "capabilities.yaml", Capabilities)
+
+
+@functools.cache
+def load_options() -> Mapping[str, tuple[str, ...]]:
+    """The values of all options of the interpretations; the first one holds unless the vendor declares another."""
+    return {option: values for entry in load_interpretations() for option, values in entry.options.items()}
 
 
 @functools.cache

@@ -1,4 +1,4 @@
-"""Read YAML (and so JSON) documents into typed values, with errors that name file, line and remedy.
+"""Read YAML (and so JSON) and TOML documents into typed values, with errors that name file, line and remedy.
 
 Documents may be hostile: size is bounded, anchors, aliases, tags, several documents and duplicate keys are refused.
 """
@@ -6,6 +6,7 @@ Documents may be hostile: size is bounded, anchors, aliases, tags, several docum
 from __future__ import annotations
 
 import re
+import tomllib
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -19,6 +20,9 @@ LARGEST = 4 * 1024 * 1024
 
 DEEPEST = 50
 """Levels a document may nest."""
+
+MOST_DOTS = 100
+"""Dots a line of a TOML document may have."""
 
 
 class DocumentError(Exception):
@@ -53,15 +57,15 @@ def convert(path: Path, value: object, type_: type[T], lines: dict[str, int]) ->
         raise DocumentError(path, line or lines.get("$"), problem + at) from None
 
 
-def read_text(path: Path) -> str:
+def read_text(path: Path, largest: int = LARGEST) -> str:
     """What the file at ``path`` holds. Raises ``DocumentError`` if it is not there, too large or not UTF-8."""
     try:
         with path.open("rb") as stream:
-            raw = stream.read(LARGEST + 1)
-    except OSError as error:
-        raise DocumentError(path, None, f"cannot be read: {error.strerror}") from None
-    if len(raw) > LARGEST:
-        raise DocumentError(path, None, f"is larger than {LARGEST} bytes; split it")
+            raw = stream.read(largest + 1)
+    except (OSError, ValueError) as error:
+        raise DocumentError(path, None, f"cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    if len(raw) > largest:
+        raise DocumentError(path, None, f"is larger than {largest} bytes; split it, or leave out what is not needed")
     try:
         return raw.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -83,6 +87,45 @@ def read_lines(path: Path) -> tuple[object, dict[str, int]]:
         raise DocumentError(path, mark.line + 1 if mark else None, f"not YAML: {error.problem}") from None
     except yaml.YAMLError as error:
         raise DocumentError(path, None, f"not YAML: {' '.join(str(error).split())}") from None
+
+
+def read_toml(path: Path, largest: int = LARGEST) -> tuple[dict[str, Any], dict[str, int]]:
+    """The TOML document at ``path``, and the line of each table and key (``readings``, ``readings.run-trigger``).
+
+    Raises ``DocumentError``.
+    """
+    text = read_text(path, largest).removeprefix("\ufeff")
+    for number, line in enumerate(text.split("\n"), 1):
+        if line.count(".") > MOST_DOTS:  # each may be one more level
+            raise DocumentError(path, number, "nests too deep")
+    try:
+        return tomllib.loads(text), _toml_lines(text)
+    except tomllib.TOMLDecodeError as error:
+        problem, _, place = str(error).partition(" (at ")
+        told = re.match(r"line (\d+)", place)
+        last = text.rstrip("\n").count("\n") + 1
+        raise DocumentError(path, int(told[1]) if told else last, f"not TOML: {problem}; mend it there") from None
+    except RecursionError:
+        raise DocumentError(path, None, "nests too deep") from None
+    except ValueError:
+        raise DocumentError(path, None, "a number this long is not allowed") from None
+
+
+_TABLE = re.compile(r"[ \t]*\[[ \t]*([^\[\]#\n]+?)[ \t]*\]")
+_KEY = re.compile(r"[ \t]*(?:\"([^\"\\\n]*)\"|'([^'\n]*)'|([A-Za-z0-9_-]+))[ \t]*=")
+
+
+def _toml_lines(text: str) -> dict[str, int]:
+    """Where tables and keys stand, as far as that can be told line by line; it is for messages only."""
+    lines: dict[str, int] = {}
+    table = ""
+    for number, line in enumerate(text.split("\n"), 1):
+        if opened := _TABLE.match(line):
+            table = f"{opened[1]}."
+            lines.setdefault(opened[1], number)
+        elif given := _KEY.match(line):
+            lines.setdefault(table + next(key for key in given.groups() if key is not None), number)
+    return lines
 
 
 def _line(mark: Any) -> int:

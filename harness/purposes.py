@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 
-from ucm_cts.harness.catalogue import load_interpretations, load_life_cycle, load_requirements
+from ucm_cts.harness.catalogue import load_life_cycle, load_options, load_requirements
 from ucm_cts.harness.circles import circle_purposes
 from ucm_cts.harness.container_service_scenarios import container_service_purposes
 from ucm_cts.harness.data_scenarios import data_purposes
@@ -30,9 +30,8 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     message_purposes,
     service_purposes,
     container_service_purposes,
-    data_purposes,
 )
-"""Where the purposes of profile core come from, beside scripts."""
+"""Where the purposes of profile core come from, beside scripts and those of data_scenarios.py."""
 
 
 @functools.cache
@@ -41,7 +40,9 @@ def load_purposes(profile: str, *readings: str) -> tuple[TestPurpose, ...]:
 
     Those for other ``readings`` (``option=value``) are left out; of an option that is not declared the first value holds.
     """
-    return tuple(purpose for purpose in _all_purposes(profile) if _is_for(purpose, _readings(readings)))
+    known = _readings(readings)
+    data = data_purposes(known) if "core" in PARTS[profile] else []
+    return tuple(purpose for purpose in (*_all_purposes(profile), *data) if _is_for(purpose, known))
 
 
 def _is_for(purpose: TestPurpose, readings: dict[str, str]) -> bool:
@@ -50,11 +51,8 @@ def _is_for(purpose: TestPurpose, readings: dict[str, str]) -> bool:
 
 
 def _readings(declared: tuple[str, ...]) -> dict[str, str]:
-    first = {option: values[0] for i in load_interpretations() for option, values in i.options.items()}
-    for reading in declared:
-        option, _, value = reading.partition("=")
-        first[option] = value
-    return first
+    first = {option: values[0] for option, values in load_options().items()}
+    return first | {option: value for option, _, value in (reading.partition("=") for reading in declared)}
 
 
 @functools.cache
