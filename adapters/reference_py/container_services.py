@@ -28,9 +28,6 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-SEVERITIES = ("trace", "debug", "info", "warning", "error", "critical")
-"""The enumerators of log_severity_t, least first."""
-
 _SERVICES = {CLOCK, COMPONENT_TRACE, PORT_TRACE}
 _SECOND, _MICROSECOND = 1_000_000_000, 1_000
 
@@ -67,9 +64,10 @@ class TraceElement(ServiceElement):
         if method != "log":
             raise UcmError(f"the trace has no method {method!r}")
         severity, message = arguments
-        if severity not in SEVERITIES:
+        container = self.member.container
+        if severity not in container.severities:
             raise UcmError(f"there is no severity {severity!r}")
-        self.member.container._log(self.member, str(severity), str(message))
+        container._log(self.member, str(severity), str(message))
         return []
 
 
@@ -93,6 +91,8 @@ class OffersServices(ExecutesComponents):
     """The part of a container that offers clock and trace. One concern each, for variants to override."""
 
     manager: ContainerManager
+    severities: Sequence[str] = ("trace", "debug", "info", "warning", "error", "critical")
+    """The enumerators of log_severity_t, least first."""
 
     def _check_policies(self, implementation: Implementation) -> None:
         others = [p for p in implementation.policies if p.definition not in _SERVICES]
@@ -106,7 +106,7 @@ class OffersServices(ExecutesComponents):
         if policy.definition == PORT_TRACE:
             fits = policy.port in {*implementation.provides, *implementation.requires} and not policy.element
             fits = fits and policy.parameters.keys() == {METHODS_TO_TRACE, LOG_SEVERITY}
-            fits = fits and policy.parameters[LOG_SEVERITY] in SEVERITIES
+            fits = fits and policy.parameters[LOG_SEVERITY] in self.severities
         else:
             fits = policy.port is None and policy.element is not None and not policy.parameters
         if not fits:

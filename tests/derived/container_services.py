@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import TypeVar
 
-from derived.registry import Base, core_variant
+from derived.registry import Base, core_variant_of
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
 from ucm_cts.adapters.contract.scenario import Policy
 from ucm_cts.adapters.reference_py.container_services import Record
@@ -20,7 +20,7 @@ LATE = 0.02
 """Seconds. Records are written so much later than they are made."""
 
 
-@core_variant
+@core_variant_of("10.1.4")
 class has_monotonic_clocks(Base):
     """Times begin when the machine was started; the one is an hour from the other."""
 
@@ -31,7 +31,7 @@ class has_monotonic_clocks(Base):
         return time.monotonic_ns() + 3600 * SECOND
 
 
-@core_variant
+@core_variant_of("10.1.4")
 class has_coarse_clocks(Base):
     """Times go on in steps."""
 
@@ -41,7 +41,7 @@ class has_coarse_clocks(Base):
     _synchronized_time = _local_time
 
 
-@core_variant
+@core_variant_of("10.1.4")
 class has_seconds_that_wrap(Base):
     """The seconds of a time have no more than 32 bits and begin at zero again, soon after the runtime was made."""
 
@@ -54,7 +54,7 @@ class has_seconds_that_wrap(Base):
     _synchronized_time = _local_time
 
 
-@core_variant
+@core_variant_of("10.1.4")
 class notices_clocks_at_start(Base):
     """Components with two clocks are added, and keep their container from starting."""
 
@@ -67,7 +67,7 @@ class notices_clocks_at_start(Base):
             super()._check_clocks(member.implementation)
 
 
-@core_variant
+@core_variant_of("10.1.4")
 class has_one_element_for_all(Base):
     """Components get the same object for the same policy, and get it first of all."""
 
@@ -81,7 +81,7 @@ class has_one_element_for_all(Base):
         return list(reversed(super()._dependencies_of(member)))
 
 
-@core_variant
+@core_variant_of("10.1.4")
 class writes_calls_and_returns(Base):
     """A traced call has a record when it is made and one when it returns."""
 
@@ -91,7 +91,7 @@ class writes_calls_and_returns(Base):
         return result
 
 
-@core_variant
+@core_variant_of("10.1.4")
 class writes_late(Base):
     """Another thread writes records, one by one, some time after they were made."""
 
@@ -108,7 +108,7 @@ class writes_late(Base):
         threading.Thread(target=later, daemon=True).start()
 
 
-@core_variant
+@core_variant_of("10.1.4")
 class keeps_logs_of_components(Base):
     """Each component has a log of its own; who reads the trace gets one after the other."""
 
