@@ -71,8 +71,9 @@ class LinkState:
 
     @property
     def is_proper(self) -> bool:
-        """Has it both sides, and no second server?"""
-        return bool(self.live(*_SENDERS) and self.live(*_TAKERS)) and len(self.live("server")) < 2
+        """Has it both sides, and no second server? Clients without server are not connected, and that is all."""
+        whole = bool(self.live(*_SENDERS) and self.live(*_TAKERS))
+        return (whole or bool(self.live("client"))) and len(self.live("server")) < 2
 
 
 @dataclass(slots=True, eq=False)
