@@ -23,6 +23,10 @@ from rich.progress import track
 from rich.table import Table
 
 
+WIDTH = 140
+"""Columns of the table in the terminal, however wide that says it is: it is mostly read from a log."""
+
+
 @dataclass(frozen=True)
 class SeriesRun:
     """One run of a series: what it was called, its verdict, and that of each requirement."""
@@ -56,7 +60,7 @@ def main(adapter: str, profile: str, runs: int, variants: Sequence[str], busy: i
         for variant, number in track(cases, "running", console=Console(stderr=True), transient=True):
             told.append(one_run(adapter, profile, variant, number))
     title = f"{adapter}, profile {profile}, {len(told)} runs{f', {busy} busy processors' if busy else ''}"
-    Console().print(table(title, told))
+    Console(width=WIDTH).print(table(title, told))
     if out is not None:
         out.write_text(markdown(title, told), encoding="utf-8")
     steady = all(run.verdict == "conformant" and not run.flips(told[0]) for run in told)

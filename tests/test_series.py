@@ -1,0 +1,48 @@
+"""Series: the same run again and again, told in one table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ucm_cts.harness import series
+from ucm_cts.harness.series import SeriesRun, markdown
+
+
+def told(name: str, verdict: str = "conformant", **verdicts: str) -> SeriesRun:
+    return SeriesRun(name, verdict, {"R-1": "pass", "R-2": "pass"} | verdicts, 0, 1.5, {})
+
+
+def run(monkeypatch: pytest.MonkeyPatch, runs: list[SeriesRun], *options: str) -> tuple[int, str]:
+    waiting = iter(runs)
+    monkeypatch.setattr(series, "one_run", lambda *asked: next(waiting))
+    done = CliRunner().invoke(series.main, ["reference-py", "--runs", str(len(runs)), *options])
+    return done.exit_code, done.output
+
+
+def test_steady_series_succeeds(monkeypatch: pytest.MonkeyPatch) -> None:
+    status, output = run(monkeypatch, [told("1"), told("2")])
+    assert status == 0
+    assert output.count("none") == 2
+
+
+def test_flip_is_told_and_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    flipped = {"R-2": "inconclusive"}
+    status, output = run(monkeypatch, [told("1"), told("2", "inconclusive", **flipped)])
+    assert status == 1
+    assert "R-2" in output
+
+
+def test_same_failure_each_time_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    status, _ = run(monkeypatch, [told(name, "not conformant", **{"R-1": "fail"}) for name in "12"])
+    assert status == 1
+
+
+def test_page_has_a_row_a_run(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    page = tmp_path / "series.md"
+    status, _ = run(monkeypatch, [told("1"), told("2")], "--out", str(page))
+    assert status == 0
+    assert page.read_text() == markdown("reference-py, profile core, 2 runs", [told("1"), told("2")])
+    assert page.read_text().count("| conformant | 2 | 0 | 0 | 0 | 0 | 1.5 | none |") == 2
