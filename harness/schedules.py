@@ -11,16 +11,21 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
 from ucm_cts.harness.scripts import TestPurpose
 
 _PORTS = ("in.api", "aux.api")
+_SERVICE_PORT = "service.api"
+_SERVICE = Interface({"serve": Method((Parameter("given", "IN", Integer("LONG")),))})
 _CLAUSE = "10.1.3.2"
 
 
 @dataclass(frozen=True)
 class _Way:
-    """A way into the server: its port element, called by the test or by a component, perhaps of another container."""
+    """A way into the server: its port element, called by the test or by a component, perhaps of another container; that of
+    the service through a service connector.
+    """
 
     port: str
     client: str = ""
@@ -30,7 +35,9 @@ class _Way:
         return f"{self.port.partition('.')[0]}{f' by {self.client}' if self.client else ''}"
 
 
-_WAYS = tuple(_Way(port, client) for client in ("", "component", "component elsewhere") for port in _PORTS)
+_CLIENTS = ("component", "component elsewhere")
+_WAYS = tuple(_Way(port, client) for client in ("", *_CLIENTS) for port in _PORTS)
+_SERVICE_WAYS = tuple(_Way(_SERVICE_PORT, client) for client in _CLIENTS)
 
 
 @dataclass(frozen=True)
@@ -54,6 +61,9 @@ _KINDS = (
         ("R-10.1.3.2-09",),
     ),
 )
+_ACTIVE_SERVICE = _Kind(
+    "active on a service", (Policy(s.ACTIVE, _SERVICE_PORT),), ("R-10.1.3.2-09",), ("R-10.1.3.2-10",)
+)
 _SELF_EXECUTING = _Kind("self-executing", (Policy(s.SELF_EXECUTING),), ("R-10.1.3.2-06",), ("R-10.1.3.2-06",))
 
 
@@ -71,7 +81,15 @@ def overlap_purposes() -> list[TestPurpose]:
             purposes.append(
                 TestPurpose(f"{kind.name}/{ports}", _CLAUSE, text, (*requirements, *_served(kind)), scenarios)
             )
-    runs = tuple((f"self-executing/{way.name}", _meeting_with_run(way)) for way in _WAYS)
+    for kind in (*_KINDS, _ACTIVE_SERVICE):
+        scenarios = tuple(
+            (f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways))
+            for ways in _combinations_with_services()
+        )
+        text = f"Clients of a service connector call a component that is {kind.name} while one is held inside."
+        requirements = dict.fromkeys((*kind.same, *kind.different, *_served(kind)))
+        purposes.append(TestPurpose(f"{kind.name}/services", _CLAUSE, text, tuple(requirements), scenarios))
+    runs = tuple((f"self-executing/{way.name}", _meeting_with_run(way)) for way in (*_WAYS, *_SERVICE_WAYS))
     text = "A self-executing component runs, once started and once started again, and one run at a time."
     alone = ("R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03", "R-10.1.3.2-05")
     purposes.append(TestPurpose("self-executing/alone", _CLAUSE, text, alone, (("self-executing/alone", _runs()),)))
@@ -98,8 +116,17 @@ def _combinations() -> Iterator[tuple[_Way, ...]]:
     yield from itertools.product(_WAYS[: len(_PORTS)], repeat=3)
 
 
+def _combinations_with_services() -> Iterator[tuple[_Way, ...]]:
+    """Clients of the service among themselves, and beside the test."""
+    yield from itertools.product(_SERVICE_WAYS, repeat=2)
+    for way in _SERVICE_WAYS:
+        yield from itertools.permutations((_WAYS[0], way))
+    yield (*_SERVICE_WAYS, _WAYS[0])
+
+
 def _meeting(kind: _Kind, ways: tuple[_Way, ...]) -> Scenario:
-    server = Declaration(_PORTS, plan={"exchange": (s.HoldAtGate("inside"),)}, policies=kind.policies)
+    hold = (s.HoldAtGate("inside"),)
+    server = _server(ways, {"exchange": hold, "method": hold}, kind.policies)
     callers = [f"caller {number}" for number in range(len(ways))]
     calls: list[Step] = []
     for number, caller in enumerate(callers):
@@ -111,7 +138,7 @@ def _meeting(kind: _Kind, ways: tuple[_Way, ...]) -> Scenario:
 
 def _meeting_with_run(way: _Way) -> Scenario:
     plan: dict[s.Hook, tuple[s.Action, ...]] = {"run": (s.HoldAtGate("running"),)}
-    server = Declaration(_PORTS, plan=plan, policies=_SELF_EXECUTING.policies)
+    server = _server((way,), plan, _SELF_EXECUTING.policies)
     calls: list[Step] = [s.ReachGate("running"), s.Invoke("way 0", 1, thread="caller"), s.Settle("caller")]
     return _scenario(server, (way,), [*calls, s.OpenGate("running"), s.Join("caller")])
 
@@ -145,6 +172,16 @@ def _runs() -> Scenario:
     return Scenario({"server": Declaration(plan=plan, policies=_SELF_EXECUTING.policies)}, steps)
 
 
+def _server(
+    ways: tuple[_Way, ...], plan: dict[s.Hook, tuple[s.Action, ...]], policies: tuple[Policy, ...]
+) -> Declaration:
+    """It has a service only where somebody calls it."""
+    if not any(way.port == _SERVICE_PORT for way in ways):
+        plan = {hook: actions for hook, actions in plan.items() if hook != "method"}
+        return Declaration(_PORTS, plan=plan, policies=policies)
+    return Declaration((*_PORTS, _SERVICE_PORT), plan=plan, policies=policies, ports={_SERVICE_PORT: "service"})
+
+
 def _scenario(server: Declaration, ways: tuple[_Way, ...], calls: list[Step]) -> Scenario:
     """The server is set up with one client for each way that wants one, called, and stopped."""
     components = {"server": server}
@@ -152,18 +189,31 @@ def _scenario(server: Declaration, ways: tuple[_Way, ...], calls: list[Step]) ->
     elsewhere = any(way.client == "component elsewhere" for way in ways)
     if elsewhere:
         steps.append(s.CreateContainer("elsewhere"))
+    if server.ports:
+        steps.append(s.Link("simple_service_connector", "service", "line"))
+        steps.append(s.Attach("line", "server", "server", _SERVICE_PORT))
     for number, way in enumerate(ways):
-        goal = f"goal {number}" if way.client else f"way {number}"
-        steps.append(s.GetPortElement("server", way.port, goal))
-        if way.client:
-            client, container = f"client {number}", "elsewhere" if way.client == "component elsewhere" else s.MANAGER
-            call = s.CallPort("out.api", number + 11)
-            components[client] = Declaration(("in.api",), ("out.api",), plan={"exchange": (call,)})
-            steps += [
-                s.AddComponent(client, container),
-                s.Connect(client, "out.api", goal, f"link {number}", container),
-                s.GetPortElement(client, "in.api", f"way {number}", container),
-            ]
+        if not way.client:
+            steps.append(s.GetPortElement("server", way.port, f"way {number}"))
+            continue
+        client, container = f"client {number}", "elsewhere" if way.client == "component elsewhere" else s.MANAGER
+        components[client] = _client(way, number)
+        if way.port == _SERVICE_PORT:
+            steps.append(s.AddComponent(client, container))
+            steps.append(s.Attach("line", "client", client, "out.api", container))
+        else:
+            steps.append(s.GetPortElement("server", way.port, f"goal {number}"))
+            steps.append(s.AddComponent(client, container))
+            steps.append(s.Connect(client, "out.api", f"goal {number}", f"link {number}", container))
+        steps.append(s.GetPortElement(client, "in.api", f"way {number}", container))
     steps += [s.Start(), *([s.Start("elsewhere")] if elsewhere else []), *calls]
     steps += [*([s.Stop("elsewhere")] if elsewhere else []), s.Stop(), s.GetComponents()]
-    return Scenario(components, tuple(steps))
+    return Scenario(components, tuple(steps), interfaces={"service": _SERVICE} if server.ports else {})
+
+
+def _client(way: _Way, number: int) -> Declaration:
+    if way.port != _SERVICE_PORT:
+        call: s.Action = s.CallPort("out.api", number + 11)
+        return Declaration(("in.api",), ("out.api",), plan={"exchange": (call,)})
+    call = s.CallMethod("out.api", "serve", (number + 11,))
+    return Declaration(("in.api",), ("out.api",), plan={"exchange": (call,)}, ports={"out.api": "service"})
