@@ -87,8 +87,8 @@ def overlap_purposes() -> list[TestPurpose]:
             for ways in _combinations_with_services()
         )
         text = f"Clients of a service connector call a component that is {kind.name} while one is held inside."
-        requirements = dict.fromkeys((*kind.same, *kind.different, *_served(kind)))
-        purposes.append(TestPurpose(f"{kind.name}/services", _CLAUSE, text, tuple(requirements), scenarios))
+        concerned = tuple(dict.fromkeys((*kind.same, *kind.different, *_served(kind))))
+        purposes.append(TestPurpose(f"{kind.name}/services", _CLAUSE, text, concerned, scenarios))
     runs = tuple((f"self-executing/{way.name}", _meeting_with_run(way)) for way in (*_WAYS, *_SERVICE_WAYS))
     text = "A self-executing component runs, once started and once started again, and one run at a time."
     alone = ("R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03", "R-10.1.3.2-05")

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TypeVar
 
 from derived.registry import Base, Proxy, breaks_policy
+from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
+from ucm_cts.adapters.reference_py.connectors import Link
 from ucm_cts.adapters.reference_py.framework import Failures, Member
 from ucm_cts.adapters.reference_py.policies import ProtectedElement, Trigger
 
@@ -71,6 +73,21 @@ class protects_from_the_outside_only(Base):
 
 def _without_protection(target: PortElementObject | None) -> PortElementObject | None:
     return target.element if isinstance(target, ProtectedElement) else target
+
+
+class _PastProtection(Link):
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        taker = self.takers[0]
+        element = taker.member.body.get_portElement(taker.port)
+        assert element is not None
+        return element.call(method, arguments)
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
+class protects_from_connections_only(Base):
+    """Connectors of services call bodies directly."""
+
+    link_class = _PastProtection
 
 
 @breaks_policy("R-10.1.3.2-10")
