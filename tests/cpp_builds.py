@@ -86,9 +86,31 @@ UCM_CTS_ADAPTER(Rude, "rude", "0");
 
 def guide_file(name: str) -> str:
     """The code block of the guide that is marked as file ``name``."""
-    found = re.search(rf"<!-- file: {re.escape(name)} -->\n```\w+\n(.*?)```", GUIDE.read_text(), re.DOTALL)
-    assert found, f"{GUIDE.name} has no file {name}"
+    return _guide_block(f"file: {name}")
+
+
+def guide_part(where: str) -> str:
+    """The code block of the guide that belongs into ``where``."""
+    return _guide_block(f"into: {where}")
+
+
+def _guide_block(mark: str) -> str:
+    found = re.search(rf"<!-- {re.escape(mark)} -->\n```\w+\n(.*?)```", GUIDE.read_text(), re.DOTALL)
+    assert found, f"{GUIDE.name} has no {mark}"
     return found[1]
+
+
+def beans_with_lines() -> str:
+    """The guide's beans adapter with the pieces for profile core put where the guide says."""
+    text = guide_file("beans_adapter.cpp")
+    for where, before in (
+        ("ServiceReference", "    const beans::Service service;\n"),
+        ("bean", "        }\n        bean.prepare"),
+        ("BeansAdapter", "\n  private:\n    static beans::Bean bean"),
+    ):
+        assert text.count(before) == 1, before
+        text = text.replace(before, guide_part(where) + before)
+    return text
 
 
 def run(command: Sequence[str | Path], **options: Any) -> subprocess.CompletedProcess[str]:
@@ -104,7 +126,7 @@ class Builds:
         self.folder = folder
         self._pool = ThreadPoolExecutor(os.cpu_count() or 2)
         self._prefix = self._pool.submit(self._install)
-        sources = [("rude", RUDE), ("beans", guide_file("beans_adapter.cpp"))]
+        sources = [("rude", RUDE), ("beans", guide_file("beans_adapter.cpp")), ("lines", beans_with_lines())]
         for name, text in sources:
             (folder / f"{name}.cpp").write_text(text)
         asan = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g1"]
@@ -115,6 +137,7 @@ class Builds:
             "spellings": self._compile("spellings", [SDK / "example" / "other_spellings.cpp"], STRICT),
             "patchbay": self._compile("patchbay", [NATIVE / "patchbay.cpp"], [*STRICT, *asan]),
             "power": self._compile("power", [NATIVE / "stress_power.cpp"], [*STRICT, "-O2"]),
+            "lines": self._compile("lines", [folder / "lines.cpp"], [*STRICT, "-I", str(SDK / "example")]),
             "beans": self._compile("beans", [folder / "beans.cpp"], [*STRICT, "-I", str(SDK / "example")]),
         }
         self._vendor = self._pool.submit(self._build_like_a_vendor)

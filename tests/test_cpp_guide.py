@@ -9,6 +9,7 @@ from typing import Any
 
 from cpp_builds import LIFE, PAIR, PROVIDER, Builds, concurrent_scenarios, events, run, talk
 
+from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
@@ -87,3 +88,39 @@ def test_guide_for_any_other_framework(builds: Builds) -> None:
         (t.Dependency("r_e", ("opaque",)),)
     ]
     assert [e.error for e in trace if isinstance(e, t.Raise)] == ["UCM_ERROR"], "only get_components is missing"
+
+
+def test_guide_for_profile_core(builds: Builds) -> None:
+    service = d.Interface({"ask": d.Method()})
+    asks = (s.CallMethod("out", "ask", (2**64 - 1, ["ä"])), s.CallMethod("out", "fail"))
+    answers = (s.Answer("ask"), s.Answer("fail", ("why",), "problem"))
+    components = {
+        "C": s.Declaration(("go",), ("out",), plan={"exchange": asks}, ports={"out": "service"}),
+        "S": s.Declaration(("in",), plan={"method": answers}, ports={"in": "service"}),
+    }
+    steps = (
+        s.AddComponent("S"),
+        s.AddComponent("C"),
+        s.GetPortElement("C", "go", "go"),
+        s.Link("simple_service_connector", "service", "l"),
+        s.Link("simple_message_connector", "service", "nolink"),
+        s.Attach("l", "server", "S", "in"),
+        s.Attach("l", "server", "S", "in"),
+        s.Attach("l", "client", "C", "out"),
+        s.Start(),
+        s.Invoke("go", 1),
+        s.Break("l"),
+        s.Invoke("go", 1),
+        s.Mend("l"),
+        s.Invoke("go", 1),
+        s.Stop(),
+        s.Detach("l", "C", "out"),
+        s.Detach("l", "S", "in"),
+        s.ReadLog(),
+    )
+    trace = events(builds.program("lines"), s.Scenario(components, steps, interfaces={"service": service}))
+    told = [(e.results, e.exception, e.raised) for e in trace if isinstance(e, t.Reply)]
+    served = [((2**64 - 1, ["ä"]), None, False), (("why",), "problem", False)]
+    assert told == [*served, (None, None, True), (None, None, True), *served]
+    assert [e.variable for e in trace if isinstance(e, t.Skip)] == ["link", "read_log"]
+    assert [(e.step, e.error) for e in trace if isinstance(e, t.Raise)] == [(6, "UCM_ERROR")]

@@ -33,7 +33,8 @@ struct Link {
 
     std::vector<End> takers() const {
         std::vector<End> found;
-        std::copy_if(ends.begin(), ends.end(), std::back_inserter(found), [](const End& end) { return end.element != nullptr; });
+        std::copy_if(ends.begin(), ends.end(), std::back_inserter(found),
+                     [](const End& end) { return end.element != nullptr; });
         return found;
     }
 

@@ -183,8 +183,7 @@ void stress(const Subject& subject, std::chrono::milliseconds duration, Sums& su
     for (const std::string& port : scenario->components[0].provided) {
         references.push_back(std::make_shared<Guarded>(body.get_portElement(port), guard));
     }
-    stage->stressed = true;
-    const std::shared_ptr<ucm_cts::Stress> storm = std::make_shared<ucm_cts::Stress>(references);
+    const std::shared_ptr<ucm_cts::Stress> storm = std::make_shared<ucm_cts::Stress>(stage, references);
     std::vector<std::thread> threads;
     for (const std::function<void()>& task : storm->tasks()) {
         threads.emplace_back(task);
@@ -193,11 +192,11 @@ void stress(const Subject& subject, std::chrono::milliseconds duration, Sums& su
     for (std::thread& thread : threads) {
         thread.join();
     }
-    const ucm_cts::Stress::Numbers numbers = storm->numbers();
+    const ucm_cts::Stress::Numbers numbers = storm->end();
     ++sums.trials;
-    sums.found += stage->overlaps != 0;
+    sums.found += numbers.overlaps != 0;
     sums.calls += numbers.calls;
-    sums.overlaps += stage->overlaps;
+    sums.overlaps += numbers.overlaps;
     sums.control_calls += numbers.control_calls;
     sums.control_overlaps += numbers.control_overlaps;
     sums.blind += numbers.control_overlaps == 0;

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,9 +18,19 @@ namespace beans {
 typedef std::function<int(int)> Service;
 typedef std::map<std::string, Service> Services;
 
-/// What a bean is made of: services it offers, and functions that the kernel calls.
+/// What goes over a line: the name of an operation and a text; what comes back is a text.
+typedef std::function<std::string(const std::string& operation, const std::string& text)> Talk;
+
+/// The service of one who is on a line, which is to talk.
+struct Speaker {
+    Talk talk;
+    int operator()(int) const { throw std::logic_error("lines are for talking"); }
+};
+
+/// What a bean is made of: services it offers, how it answers on a line, and functions that the kernel calls.
 struct Bean {
     Services offers;
+    std::map<std::string, Talk> answers;
     std::function<void()> prepare;
     std::function<void(const Services& needs)> activate;
     std::function<void()> deactivate;
@@ -116,6 +127,54 @@ class Kernel {
         return Code::ok;
     }
 
+    /// A new line, on which one bean answers and any number call.
+    int line() {
+        std::lock_guard<std::recursive_mutex> lock(mutex_);
+        lines_[++last_line_] = std::make_shared<Line>();
+        return last_line_;
+    }
+
+    Code answer(int line, const std::string& name, const std::string& offered) {
+        std::lock_guard<std::recursive_mutex> lock(mutex_);
+        Loaded* const loaded = find(name);
+        if (loaded == nullptr) {
+            return Code::no_such_bean;
+        }
+        const auto found = loaded->bean.answers.find(offered);
+        if (found == loaded->bean.answers.end()) {
+            return Code::no_such_service;
+        }
+        Line& on = *lines_.at(line);
+        if (running_ || on.answers) {
+            return Code::not_now;
+        }
+        on.answers = found->second;
+        return Code::ok;
+    }
+
+    /// Supplies what a bean needs by a Speaker; `wire` is set to a number for unwire.
+    Code call(int line, const std::string& name, const std::string& needed, int& number) {
+        const std::shared_ptr<Line> on = lines_.at(line);
+        return wire(name, needed, Speaker{[on](const std::string& operation, const std::string& text) {
+            if (on->is_cut || !on->answers) {
+                throw std::runtime_error("nobody answers");
+            }
+            return on->answers(operation, text);
+        }}, number);
+    }
+
+    /// Nobody answers any more.
+    void hang_up(int line) {
+        std::lock_guard<std::recursive_mutex> lock(mutex_);
+        lines_.at(line)->answers = Talk();
+    }
+
+    /// Cut, or mend, a line.
+    void cut(int line, bool is_cut) {
+        std::lock_guard<std::recursive_mutex> lock(mutex_);
+        lines_.at(line)->is_cut = is_cut;
+    }
+
     Code run() {
         std::lock_guard<std::recursive_mutex> lock(mutex_);
         for (const std::unique_ptr<Loaded>& each : loaded_) {
@@ -154,6 +213,11 @@ class Kernel {
         Services wires;
     };
 
+    struct Line {
+        Talk answers;
+        bool is_cut = false;
+    };
+
     static bool attempt(const std::function<void()>& callback) {
         try {
             callback();
@@ -176,7 +240,9 @@ class Kernel {
     std::map<std::string, Kind> kinds_;
     std::vector<std::unique_ptr<Loaded>> loaded_;
     std::map<int, std::pair<Loaded*, std::string>> wires_;
+    std::map<int, std::shared_ptr<Line>> lines_;
     int last_wire_ = 0;
+    int last_line_ = 0;
     bool running_ = false;
 };
 

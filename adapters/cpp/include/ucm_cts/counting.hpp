@@ -92,29 +92,38 @@ class MessageCounts {
     std::map<std::pair<std::string, std::int64_t>, std::shared_ptr<MessageCount>> counts_;
 };
 
+/// How those behave who stress a body. The hurried come back at once and mostly leave at once, which finds locks that are
+/// checked first and taken afterwards: those change hands often. Those who stroll take their time inside and outside, which
+/// finds locks that are missing on some calls: when such a call comes somebody is inside, and nobody waits.
+enum class Pace { none, hurried, strolling };
+
+/// A number below `most` that nobody can foresee, at the cost of nothing.
+inline int any_below(int most) {
+    static thread_local std::uint32_t random = 1;
+    random = random * 1664525u + 1013904223u;
+    return static_cast<int>((random >> 16) % static_cast<std::uint32_t>(most));
+}
+
+/// About a nanosecond each.
+inline void pass_moments(int moments) {
+    for (int n = moments; n > 0; --n) {
+        std::atomic_signal_fence(std::memory_order_seq_cst);  // a loop that compilers leave alone
+    }
+}
+
 /// Who is inside one body. Whoever goes in while somebody is there is an overlap; nobody is ever counted wrongly.
 class Occupancy {
   public:
     /// Goes in, stays for a moment, and leaves.
-    void visit(std::atomic<std::int64_t>& overlaps) {
+    void visit(Pace pace, std::atomic<std::int64_t>& overlaps) {
         if (inside_.fetch_add(1, std::memory_order_relaxed) != 0) {
             overlaps.fetch_add(1, std::memory_order_relaxed);
         }
-        for (int n = moment(); n > 0; --n) {
-            std::atomic_signal_fence(std::memory_order_seq_cst);  // a loop that compilers leave alone
-        }
+        pass_moments(pace == Pace::strolling ? 200 : any_below(64) != 0 ? 20 : 2000);
         inside_.fetch_sub(1, std::memory_order_relaxed);
     }
 
   private:
-    // Short visits find locks that are checked first and taken afterwards: those change hands often. Long ones, now and
-    // then, find locks that are missing on some calls: somebody is inside when such a call comes.
-    static int moment() {
-        static thread_local std::uint32_t random = 1;
-        random = random * 1664525u + 1013904223u;
-        return random >> 26 != 0 ? 20 : 2000;
-    }
-
     std::atomic<int> inside_{0};
 };
 

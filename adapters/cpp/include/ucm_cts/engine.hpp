@@ -160,25 +160,21 @@ class Engine : public std::enable_shared_from_this<Engine> {
         if (!operations_.references(number, step.refs, references)) {
             return;
         }
-        const std::shared_ptr<Stress> storm = std::make_shared<Stress>(references);
+        const std::shared_ptr<Stress> storm = std::make_shared<Stress>(stage_, references);
         std::vector<std::string> workers;
         for (const std::function<void()>& task : storm->tasks()) {
             workers.push_back("stress " + std::to_string(workers.size()));
             workers_.queue(workers.back(), task);
         }
-        stage_->overlaps = 0;
-        stage_->stressed = true;
         storm->conduct(std::chrono::milliseconds(std::max(step.value, 0)), stage_->patience);
         for (const std::string& worker : workers) {
             workers_.join(worker);
         }
-        stage_->stressed = false;
-        const Stress::Numbers found = storm->numbers();
-        const std::int64_t overlaps = stage_->overlaps;
-        stage_->recorder.record("stressed", [number, &found, overlaps](std::string& out) {
+        const Stress::Numbers found = storm->end();
+        stage_->recorder.record("stressed", [number, &found](std::string& out) {
             append_step(out, number);
             append_number(out, "calls", found.calls);
-            append_number(out, "overlaps", overlaps);
+            append_number(out, "overlaps", found.overlaps);
             append_number(out, "control_calls", found.control_calls);
             append_number(out, "control_overlaps", found.control_overlaps);
             append_number(out, "failed", found.failed);

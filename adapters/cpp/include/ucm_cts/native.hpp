@@ -47,7 +47,8 @@ class NativeBody final : public Body {
 inline Implementation native_implementation(const std::string& name, const std::vector<std::string>& provided,
                                             const std::vector<std::string>& required) {
     return Implementation{name,  provided, required, std::vector<std::string>(), false, false,
-                          [provided] { return std::make_shared<NativeBody>(provided); }, std::vector<Policy>(), Interfaces()};
+                          [provided] { return std::make_shared<NativeBody>(provided); }, std::vector<Policy>(),
+                          Interfaces()};
 }
 
 /// The Container API of a runtime's root container, call by call.

@@ -132,10 +132,11 @@ class Probe {
 
     // Under stress: counts who is met here, and tells that there is nothing else to do.
     bool is_stressed() {
-        if (!stage_->stressed.load(std::memory_order_relaxed)) {
+        const Pace pace = stage_->stress.load(std::memory_order_relaxed);
+        if (pace == Pace::none) {
             return false;
         }
-        occupancy_.visit(stage_->overlaps);
+        occupancy_.visit(pace, stage_->overlaps);
         return true;
     }
 

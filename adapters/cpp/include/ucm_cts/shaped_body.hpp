@@ -268,8 +268,10 @@ class ShapedBody : public Base, public NamedFeatures {
 
     Pointer shaped(const std::string& provided, const Reference& reference) const {
         const auto interface = interfaces_.find(provided);
-        const Pointer typed = interface != interfaces_.end() ? Pointer(detail::typed<Traits>(reference, interface->second, 0))
-                                                             : nullptr;
+        Pointer typed;
+        if (interface != interfaces_.end()) {
+            typed = detail::typed<Traits>(reference, interface->second, 0);
+        }
         return typed ? typed : std::make_shared<ShapedPort<Traits>>(reference);
     }
 

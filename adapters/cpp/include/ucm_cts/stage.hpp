@@ -27,8 +27,8 @@ class Stage {
     Gates gates;
     MessageCounts messages;
 
-    /// While this is set probes record and do nothing, and count their `overlaps`.
-    std::atomic<bool> stressed{false};
+    /// Under stress probes record and do nothing, and count their `overlaps`.
+    std::atomic<Pace> stress{Pace::none};
     std::atomic<std::int64_t> overlaps{0};
 
     /// The adapter broke the contract, so the trace cannot be told; the first problem counts.

@@ -20,6 +20,7 @@
 
 #include "ucm_cts/adapter.hpp"
 #include "ucm_cts/counting.hpp"
+#include "ucm_cts/stage.hpp"
 
 namespace ucm_cts {
 namespace detail {
@@ -60,19 +61,20 @@ inline void stay_on_core(std::size_t number) {
 
 }  // namespace detail
 
-/// Threads that call as fast as they can: by turns `exchange` of their references, and a body that nobody protects,
-/// which proves that on this machine, at this moment, threads do meet. Tasks keep it alive.
+/// Threads that call again and again: by turns `exchange` of their references, and a body that nobody protects, which
+/// proves that on this machine, at this moment, threads do meet. Tasks keep it alive.
 class Stress : public std::enable_shared_from_this<Stress> {
   public:
     struct Numbers {
         std::int64_t calls;
         std::int64_t failed;
+        std::int64_t overlaps;
         std::int64_t control_calls;
         std::int64_t control_overlaps;
     };
 
-    explicit Stress(std::vector<Reference> references)
-        : references_(std::move(references)), tallies_(new Tally[references_.size()]) {
+    Stress(std::shared_ptr<Stage> stage, std::vector<Reference> references)
+        : stage_(std::move(stage)), references_(std::move(references)), tallies_(new Tally[references_.size()]) {
         detail::cores();  // asked for here, since the tasks' threads have one core each
     }
 
@@ -86,15 +88,18 @@ class Stress : public std::enable_shared_from_this<Stress> {
         return all;
     }
 
-    /// Has the references called for `duration` in all, once every thread is there, or `patience` has run out.
+    /// Has the references called for `duration` in all, once every thread is there, or `patience` has run out. From then on
+    /// the bodies of the stage are under stress.
     void conduct(std::chrono::milliseconds duration, std::chrono::milliseconds patience) {
         const auto deadline = std::chrono::steady_clock::now() + patience;
         while (arrived_.load() < references_.size() && std::chrono::steady_clock::now() < deadline) {
             std::this_thread::sleep_for(std::chrono::microseconds(50));
         }
+        stage_->overlaps = 0;
         auto left = std::chrono::duration_cast<std::chrono::microseconds>(duration);
         while (left.count() > 0 && !references_.empty()) {
-            const auto turn = std::min(left, std::chrono::microseconds(4000));
+            const auto turn = std::min(left, std::chrono::microseconds(2000));
+            stage_->stress = stage_->stress == Pace::hurried ? Pace::strolling : Pace::hurried;
             take_turn(Turn::references, turn);
             take_turn(Turn::control, turn / 4);
             left -= turn;
@@ -102,9 +107,10 @@ class Stress : public std::enable_shared_from_this<Stress> {
         turn_.store(Turn::over);
     }
 
-    /// What has come of it so far.
-    Numbers numbers() const {
-        Numbers all = {0, 0, 0, control_overlaps_.load()};
+    /// To be called when the tasks are done, or nobody waits for them any more: ends the stress, and tells what it found.
+    Numbers end() {
+        stage_->stress = Pace::none;
+        Numbers all = {0, 0, stage_->overlaps, 0, control_overlaps_};
         for (std::size_t number = 0; number < references_.size(); ++number) {
             all.calls += tallies_[number].calls.load();
             all.failed += tallies_[number].failed.load();
@@ -131,24 +137,22 @@ class Stress : public std::enable_shared_from_this<Stress> {
 
     void keep_calling(std::size_t number) {
         detail::stay_on_core(number);
-        PortElement& reference = *references_[number];
         Tally& tally = tallies_[number];
         ++arrived_;
         while (true) {
+            const Pace pace = stage_->stress.load(std::memory_order_relaxed);
+            if (pace == Pace::strolling) {
+                pass_moments(any_below(400));
+            }
             switch (turn_.load(std::memory_order_relaxed)) {
                 case Turn::none:
                     std::this_thread::yield();
                     break;
                 case Turn::references:
-                    try {
-                        reference.exchange(1);
-                        count(tally.calls);
-                    } catch (...) {
-                        count(tally.failed);
-                    }
+                    call(*references_[number], tally);
                     break;
                 case Turn::control:
-                    control_.visit(control_overlaps_);
+                    control_.visit(pace, control_overlaps_);
                     count(tally.control_calls);
                     break;
                 case Turn::over:
@@ -157,10 +161,20 @@ class Stress : public std::enable_shared_from_this<Stress> {
         }
     }
 
+    static void call(PortElement& reference, Tally& tally) {
+        try {
+            reference.exchange(1);
+            count(tally.calls);
+        } catch (...) {
+            count(tally.failed);
+        }
+    }
+
     static void count(std::atomic<std::int64_t>& counter) {
         counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     }
 
+    const std::shared_ptr<Stage> stage_;
     const std::vector<Reference> references_;
     const std::unique_ptr<Tally[]> tallies_;
     std::atomic<std::size_t> arrived_{0};
