@@ -6,9 +6,10 @@ in ``also``: requirements that are truly broken by the same defect.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference_py.framework import Container, ContainerManager, Member
@@ -131,6 +132,9 @@ class Proxy(PortElementObject):
 
     def exchange(self, value: int) -> int:
         return self.target.exchange(value)
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return self.target.call(method, arguments)
 
 
 class GivesOutProxies(Base):
