@@ -9,7 +9,12 @@ from typing import TypeVar
 
 from derived.registry import Base, core_variant_of
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.programming_model import DeclaredException, UcmError
+from ucm_cts.adapters.contract.programming_model import (
+    DeclaredException,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
 from ucm_cts.adapters.contract.scenario import SERVICE_CONNECTOR
 from ucm_cts.adapters.reference_py.connectors import Link, LinkElement, Taker
 from ucm_cts.adapters.reference_py.framework import Container, Member
@@ -225,3 +230,23 @@ class undoes_connections_at_once(Base):
     """Ends may be detached while everything is started; the calls that a server is executing then end with an exception."""
 
     link_class = _DropsServers
+
+
+# connectors that are hardly there
+
+
+@core_variant_of("10.1.5")
+class wires_clients_to_servers(Base):
+    """A connector is what containers know of a connection; clients are given the reference of the server itself."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(map(_server_behind, d.to_port))) for d in given]
+
+
+def _server_behind(target: PortElementObject | None) -> PortElementObject | None:
+    link = target.link if isinstance(target, LinkElement) else None
+    if link is None or link.connector != SERVICE_CONNECTOR or not link.takers:
+        return target
+    server = link.takers[0].member
+    return server.container._reference_to(server, link.takers[0].port)
