@@ -20,6 +20,7 @@ from ucm_cts.harness.statement import HOOKS, Statement, default_statement
 _BROKEN = {"transport": "transport-fault=hook", "inside": "connector-fault=hook"}
 
 Cases = tuple[tuple[str, Scenario], ...]
+Draw = Callable[[int, Mapping[str, str]], Cases]
 
 
 def purposes_for(statement: Statement, profile: str) -> tuple[TestPurpose, ...]:
@@ -89,8 +90,8 @@ def _reduced(purpose: TestPurpose, statement: Statement) -> TestPurpose:
     return replace(purpose, scenarios=_fitting(purpose.scenarios, statement), draw=draw)
 
 
-def _drawn(draw: Callable[[int], Cases], statement: Statement, seed: int) -> Cases:
-    return _fitting(draw(seed), statement)
+def _drawn(draw: Draw, statement: Statement, seed: int, readings: Mapping[str, str]) -> Cases:
+    return _fitting(draw(seed, readings), statement)
 
 
 def _fitting(cases: Cases, statement: Statement) -> Cases:

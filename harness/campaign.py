@@ -18,6 +18,8 @@ from ucm_cts.harness.payloads import Payloads
 from ucm_cts.harness.purposes import PARTS
 from ucm_cts.harness.results import Effort, Execution, IncidentKind, Report
 from ucm_cts.harness.scripts import TestPurpose
+from ucm_cts.harness.statement import Statement, default_statement
+from ucm_cts.harness.statement_checks import check_statement
 from ucm_cts.harness.tally import Cause, Tally, cause_of, overall
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
@@ -42,16 +44,25 @@ class Checked:
 class Campaign:
     """Runs test purposes on the driver's implementation and collects verdicts. Use ``check`` often, ``report`` once."""
 
-    def __init__(self, driver: Driver, profile: str, known_failures: Sequence[KnownFailure] = ()) -> None:
+    def __init__(
+        self,
+        driver: Driver,
+        profile: str,
+        known_failures: Sequence[KnownFailure] = (),
+        statement: Statement | None = None,
+    ) -> None:
         self._driver = driver
         self._profile = profile
         self.known = known_failures
         self.checked: list[TestPurpose] = []
-        self._judge = Judge(load_life_cycle())
+        self._judge = Judge(load_life_cycle(), self.statement.claims)
+        self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
         self._tally = Tally()
+        self.statement = statement or default_statement()
         self._payloads = Payloads(driver.seed)
         self._spent: dict[str, float] = {}
         self._began = time.monotonic()
+        check_statement(self.statement, profile, self._requirements, self._tally)
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
 
     def check(self, purposes: Iterable[TestPurpose]) -> Iterator[Checked]:
@@ -107,6 +118,8 @@ class Campaign:
                 if shown is None:
                     return None
                 self._tally.replace(cause, *shown[1:])
+            if failure.execution is None:
+                continue
                 return shown[0]
 
             if incident is None or incident.kind in _QUICK:
@@ -122,7 +135,8 @@ class Campaign:
         """
         first: tuple[int, Finding, Execution] | None = None
         cases = [(f"{cause[0]}-shortest", c) for c in candidates]
-        alone = self._tally.failures[cause].execution.incident is not None
+        known = self._tally.failures[cause].execution
+        alone = known is not None and known.incident is not None
         answers = self._one_by_one(cases, until) if alone else self._driver.run(cases)
         for index, answer in enumerate(answers):
             if first is None:
@@ -149,8 +163,7 @@ class Campaign:
 
     def report(self) -> Report:
         """All verdicts of the run so far."""
-        requirements = [r for r in load_requirements() if r.profile in PARTS[self._profile]]
-        results = self._tally.results(requirements, self.known)
+        results = self._tally.results(self._requirements, self.known)
         incidents = self._tally.incidents
         identity = self._driver.identity
         return Report(
@@ -173,3 +186,5 @@ class Campaign:
                 {clause: round(seconds, 3) for clause, seconds in self._spent.items()},
             ),
         )
+            statement=self.statement,
+            readings={option: tuple(sorted(values)) for option, values in sorted(self._tally.readings.items())},

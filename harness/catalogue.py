@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
 
+import msgspec
+
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.documents import read
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
@@ -41,12 +43,16 @@ SUITE = Path(__file__).parent.parent / "suite"
 
 
 class Interpretation(Value, frozen=True):
-    """A place where the text is silent or contradicts itself: the decision, and the readings a framework may take."""
+    """A place where the text is silent or contradicts itself: the decision, and the readings a framework may take.
+
+    The first value of an option holds unless the vendor declares another. ``profile`` is the one that asks first.
+    """
 
     id: str
     clauses: tuple[str, ...]
     text: str
     options: dict[str, tuple[str, ...]] = {}
+    profile: str = "container"
 
 
 @functools.cache
@@ -70,7 +76,12 @@ def in_the_making(profile: str) -> str:
 @functools.cache
 def load_interpretations() -> tuple[Interpretation, ...]:
     """All decisions about unclear places. Raises ``DocumentError``."""
-    return tuple(i for path in sorted(SUITE.glob("interpretations*.yaml")) for i in read(path, list[Interpretation]))
+    files = (("container", "interpretations.yaml"), ("core", "interpretations_10_1.yaml"))
+    return tuple(
+        msgspec.structs.replace(entry, profile=profile)
+        for profile, name in files
+        for entry in read(SUITE / name, list[Interpretation])
+    )
 
 
 class Capability(Value, frozen=True):

@@ -1,4 +1,4 @@
-"""The command line: ``ucm-cts run``, ``explain``, ``replay``. Thin: reads arguments, calls the pipeline, prints."""
+"""The command line: ``ucm-cts run``, ``ics``, ``explain``, ``replay``. Thin: reads arguments, calls the pipeline, prints."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import click
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 import ucm_cts
+from ucm_cts.harness.applicability import purposes_for
 from ucm_cts.harness.campaign import Campaign
 from ucm_cts.harness.catalogue import in_the_making, load_life_cycle
 from ucm_cts.harness.documents import DocumentError
@@ -21,12 +22,14 @@ from ucm_cts.harness.explanation import explanation, overview
 from ucm_cts.harness.hosts import HostUnavailable
 from ucm_cts.harness.known_failures import known_today, stale, succeeded
 from ucm_cts.harness.locate import WrongUse, locate
-from ucm_cts.harness.purposes import PROFILES, load_purposes, select
+from ucm_cts.harness.purposes import PROFILES, select
 from ucm_cts.harness.report.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import prepare_folder, save_report
 from ucm_cts.harness.scripts import TestPurpose, read_scripts, to_scenario
+from ucm_cts.harness.statement_files import check_subject, stated_by
+from ucm_cts.harness.statement_writing import write_statement
 from ucm_cts.harness.terminal import Output, ends_like_interrupts
 from ucm_cts.reference_models.judgement import Judge
 
@@ -67,6 +70,7 @@ class _Profile(click.Choice):  # type: ignore[type-arg] # generic since click 8.
         return super().convert(value, param, ctx)
 
 
+ics_option = click.option("--ics", type=click.Path(dir_okay=False, path_type=Path), help="The vendor's statement.")
 timeout_option = click.option(
     "--timeout", type=_Seconds(min=0.1), default=Limits.seconds, show_default=True, help="Seconds a scenario may take."
 )
@@ -90,6 +94,7 @@ def cli() -> None:
     show_default=True,
 )
 @click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
+@ics_option
 @in_process_option
 @timeout_option
 @click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
@@ -107,6 +112,7 @@ def run(
     seed: int | None,
     out: Path,
     known_failures: Path | None,
+    ics: Path | None,
     in_process: bool,
     timeout: float,
     memory: int,
@@ -120,7 +126,8 @@ def run(
     """
     console = Output()
     known = known_today(known_failures)
-    purposes = load_purposes(profile)
+    statement = stated_by(ics, adapter)
+    purposes = purposes_for(statement, profile)
     if expression:
         purposes = select(purposes, expression)
         if not purposes:
@@ -129,8 +136,9 @@ def run(
     limits = Limits(timeout, memory, incident_seconds=incident_time)
     with ends_like_interrupts():
         with Driver(locate(adapter, in_process), drawn, limits) as driver:
-            campaign = Campaign(driver, profile, known)
             identity = driver.identity
+            check_subject(statement, identity, profile)
+            campaign = Campaign(driver, profile, known, statement)
             name = one_line(f"{identity.product} {identity.version}", 80)
             console.print(
                 f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}, seed {drawn}",
@@ -182,6 +190,26 @@ def _leave(console: Output, status: int, remainder: str = "") -> NoReturn:
 
 
 @cli.command()
+@adapter_argument
+@click.option(
+    "--out", type=click.Path(dir_okay=False, path_type=Path), default=Path("ucm-cts-ics.toml"), show_default=True
+)
+@click.option("--force", is_flag=True, help="Write over a file that is there.")
+def ics(adapter: str, out: Path, force: bool) -> None:
+    """Write the statement of the product behind ADAPTER, for its vendor to edit.
+
+    It names the parts that can be claimed, every reading that can be declared, times and tolerances. As written it changes
+    nothing: give the edited one to 'ucm-cts run --ics'.
+    """
+    with ends_like_interrupts(), Driver(locate(adapter), 0) as driver:
+        identity = driver.identity
+    write_statement(out, identity, adapter, force)
+    console = Output()
+    console.print(f"{out} is written; edit it, then: ucm-cts run {adapter} --ics {out}", markup=False, soft_wrap=True)
+    _leave(console, CONFORMANT)
+
+
+@cli.command()
 @click.argument("requirement", default="", required=False)
 def explain(requirement: str) -> None:
     """Show REQUIREMENT: clause, meaning, interpretation, scenarios. Without it, list the catalogue."""
@@ -196,16 +224,17 @@ def explain(requirement: str) -> None:
 @cli.command()
 @click.argument("file", type=click.Path(dir_okay=False, path_type=Path))
 @adapter_argument
+@ics_option
 @in_process_option
 @seed_option
 @timeout_option
-def replay(file: Path, adapter: str, in_process: bool, seed: int | None, timeout: float) -> None:
+def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: int | None, timeout: float) -> None:
     """Run the scenario in FILE on ADAPTER and print what happens as a sequence diagram.
 
     Exit status 1 if any rule was broken.
     """
     scripts = read_scripts(file)
-    judge = Judge(load_life_cycle())
+    judge = Judge(load_life_cycle(), stated_by(ics, adapter).claims)
     console = Output()
     failed = False
     with ends_like_interrupts(), Driver(locate(adapter, in_process), seed or 0, Limits(timeout)) as driver:

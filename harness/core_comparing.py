@@ -9,9 +9,9 @@ from typing import Literal
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.core_spellings import INTEGERS, KNOWN_ATTRIBUTES, KNOWN_TAGS, Element, is_printed, words
 
-Status = Literal["kept", "broken", "absent", "unclear"]
-"""``absent``: there is nothing to look at, because it may be missing or because what should contain it is missing.
-``unclear``: it is missing, but something is there in a spelling that the text never prints."""
+Status = Literal["kept", "broken", "absent", "left out", "unclear"]
+"""``absent``: there is nothing to look at, because what should contain it is missing. ``left out``: it may be missing, and it
+is. ``unclear``: it is missing, but something is there in a spelling that the text never prints."""
 
 
 class Reading(Value, frozen=True):
@@ -164,7 +164,7 @@ class Comparing:
         if scope is None:
             fact = Fact("absent", what, "what should contain it is missing")
         elif reading is not None or declaration.optional:
-            fact = Fact("absent", what, "it may be missing")
+            fact = Fact("left out", what, "it may be missing, and it is")
             if reading is not None:
                 self._met(reading)
         else:

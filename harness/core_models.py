@@ -1,7 +1,8 @@
 """Compares the models of clause 10.1 that a framework ships with the suite's own (``suite/models/core``).
 
 ``compare(paths, claims)`` takes the framework's files and what its vendor declares of ``interpretations_10_1.yaml``. It
-says of each requirement that a model can show whether it is kept, broken, absent or unclear, and which readings it met.
+says of each requirement that a model can show whether it is kept, broken, absent, left out or unclear, and which readings it
+met.
 """
 
 from __future__ import annotations
@@ -141,4 +142,4 @@ def _result(requirement: str, check: str, facts: list[Fact]) -> ModelResult:
     return ModelResult(requirement, check, "absent", observed="there is no model to look at")
 
 
-_WORST_FIRST: tuple[Status, ...] = ("broken", "unclear", "kept", "absent")
+_WORST_FIRST: tuple[Status, ...] = ("broken", "unclear", "kept", "absent", "left out")

@@ -20,6 +20,9 @@ from urllib.parse import urlsplit
 GROUP = "ucm_cts.adapters"
 """The entry point group in which packages publish short names of adapters."""
 
+STATEMENTS = "ucm_cts.statements"
+"""The entry point group in which they publish paths of their vendors' statements, under the same names."""
+
 FORMS = "a short name, package.module:Class, package.module, a path, tcp://HOST:PORT or unix:/PATH"
 
 DoorKind = Literal["python", "executable", "tcp", "unix"]
@@ -43,9 +46,20 @@ class Door:
     in_process: bool = False
 
 
+def published_statement(text: str) -> Path | None:
+    """The statement that goes with the short name ``text``, if one is published. Raises ``WrongUse``."""
+    entry = _published(STATEMENTS).get(text)
+    if entry is None:
+        return None
+    found = _load(entry)
+    if not isinstance(found, str | Path):
+        raise WrongUse(f"'{entry.value}' is to be the path of a statement, and is a {type(found).__name__}")
+    return Path(found)
+
+
 def locate(text: str, in_process: bool = False) -> Door:
     """The door that ``text`` names. Raises ``WrongUse``."""
-    published = _published()
+    published = _published(GROUP)
     door = _follow(published[text]) if text in published else _parse(text, published)
     if in_process and door.kind != "python":
         raise WrongUse(
@@ -54,9 +68,9 @@ def locate(text: str, in_process: bool = False) -> Door:
     return replace(door, text=text, in_process=in_process)
 
 
-def _published() -> dict[str, EntryPoint]:
+def _published(group: str) -> dict[str, EntryPoint]:
     published: dict[str, EntryPoint] = {}
-    for entry in entry_points(group=GROUP):
+    for entry in entry_points(group=group):
         known = published.setdefault(entry.name, entry)
         if known.value != entry.value:
             raise WrongUse(f"'{entry.name}' is published twice, as {known.value} and as {entry.value}; uninstall one")
@@ -67,15 +81,19 @@ def _follow(entry: EntryPoint) -> Door:
     """Classes and modules are loaded by the host; anything else must be looked at to know which door it names."""
     if not entry.attr:
         return Door(entry.name, "python", entry.value)
+    found = _load(entry)
+    if isinstance(found, str | Path):
+        return _parse(str(found), {})
+    return Door(entry.name, "python", f"{entry.module}:{entry.attr}")
+
+
+def _load(entry: EntryPoint) -> object:
     try:
-        found = entry.load()
+        return entry.load()
     except (Exception, SystemExit) as error:
         raise WrongUse(
             f"'{entry.name}' stands for {entry.value}, which fails: {type(error).__name__}: {error}"
         ) from error
-    if isinstance(found, str | Path):
-        return _parse(str(found), {})
-    return Door(entry.name, "python", f"{entry.module}:{entry.attr}")
 
 
 def _parse(text: str, published: Mapping[str, EntryPoint]) -> Door:

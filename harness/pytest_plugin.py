@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ucm_cts.harness.campaign import Campaign
     from ucm_cts.harness.results import Execution, Report
     from ucm_cts.harness.scripts import TestPurpose
+    from ucm_cts.harness.statement import Statement
     from ucm_cts.reference_models.findings import Finding
 
 
@@ -32,6 +33,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--iut-seed", type=int, help="repeat a run: names and payloads are drawn from it")
     group.addoption("--iut-out", metavar="DIR", help="write report.html, report.json and junit.xml there")
     group.addoption("--iut-known-failures", metavar="FILE", help="failures expected for now; they count as xfailed")
+    group.addoption("--iut-ics", metavar="FILE", help="the vendor's statement, as for 'ucm-cts run'")
     group.addoption("--iut-timeout", type=_seconds, metavar="SECONDS", help="how long a scenario may take (default: 5)")
     group.addoption("--iut-memory", type=int, metavar="MIB", help="how much memory a host may use (default: 1024)")
     group.addoption(
@@ -66,11 +68,28 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Each suite module asks for the purposes of its clauses: ``CLAUSES`` is a tuple of prefixes."""
     if not metafunc.module.__name__.startswith("ucm_cts.suite."):
         return
-    from ucm_cts.harness.purposes import load_purposes
+    from ucm_cts.harness.applicability import purposes_for
 
     profile = metafunc.config.getoption("--iut-profile")
-    chosen = [p for p in load_purposes(profile) if _belongs(p, metafunc.module.CLAUSES)]
+    chosen = [p for p in purposes_for(_statement(metafunc.config), profile) if _belongs(p, metafunc.module.CLAUSES)]
     metafunc.parametrize("purpose", chosen, ids=[p.id.replace(" ", "-") for p in chosen])
+
+
+def _statement(config: pytest.Config) -> Statement:
+    """What the vendor states; wrong use is told before anything runs."""
+    if _STATEMENT not in config.stash:
+        from pathlib import Path
+
+        from ucm_cts.harness.documents import DocumentError
+        from ucm_cts.harness.locate import WrongUse
+        from ucm_cts.harness.statement_files import stated_by
+
+        given = config.getoption("--iut-ics")
+        try:
+            config.stash[_STATEMENT] = stated_by(Path(given) if given else None, config.getoption("--iut") or "")
+        except (WrongUse, DocumentError) as error:
+            pytest.exit(f"ucm-cts: {error}", returncode=2)
+    return config.stash[_STATEMENT]
 
 
 def _belongs(purpose: TestPurpose, clauses: tuple[str, ...]) -> bool:
@@ -90,6 +109,7 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
     from ucm_cts.harness.known_failures import known_today
     from ucm_cts.harness.locate import WrongUse, locate
     from ucm_cts.harness.report.write import prepare_folder, save_report
+    from ucm_cts.harness.statement_files import check_subject
 
     config = request.config
     adapter, out, seed, list_of_known = (
@@ -98,6 +118,7 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
     if not adapter:
         message = "say which implementation to test: --iut ADAPTER, for instance --iut reference-py"
         pytest.exit(f"ucm-cts: {message}", returncode=2)
+    statement = _statement(config)
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
     given = {
         limit: config.getoption(f"--iut-{name}")
@@ -110,11 +131,13 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
             door = locate(adapter, config.getoption("--iut-in-process"))
             driver = cleanup.enter_context(Driver(door, drawn, limits))
             _ = driver.disguise  # asks who is there
+            profile = config.getoption("--iut-profile")
+            check_subject(statement, driver.identity, profile)
+            running = Campaign(driver, profile, known, statement)
             if out:
                 prepare_folder(Path(out))
         except (WrongUse, DocumentError, HostUnavailable) as error:
             pytest.exit(f"ucm-cts: {error}", returncode=2)
-        running = Campaign(driver, config.getoption("--iut-profile"), known)
         yield running
         if out:
             for _ in running.shorten():
@@ -126,15 +149,16 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
 
 
 _UNDECIDED = pytest.StashKey[list[str]]()
+_STATEMENT: pytest.StashKey[Statement] = pytest.StashKey()
 
 
 def _undecided(campaign: Campaign, report: Report) -> list[str]:
     """What no node shows and yet is not green: a line each. Of a selection only what it meant to find out counts."""
+    from ucm_cts.harness.applicability import purposes_for
     from ucm_cts.harness.known_failures import stale
-    from ucm_cts.harness.purposes import load_purposes
 
     meant = {requirement for purpose in campaign.checked for requirement in purpose.requirements}
-    whole = len(campaign.checked) == len(load_purposes(report.profile))
+    whole = len(campaign.checked) == len(purposes_for(campaign.statement, report.profile))
     lines = [
         f"{r.verdict} {r.id}: {r.reason}"
         for r in report.requirements

@@ -7,6 +7,7 @@ from typing import Literal
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.statement import Statement
 from ucm_cts.reference_models.findings import Finding
 
 Verdict = Literal["pass", "fail", "inconclusive", "not applicable", "error"]
@@ -60,10 +61,13 @@ class Execution(Value, frozen=True):
 
 
 class FailedExecution(Value, frozen=True):
-    """A finding with the shortest execution that shows it, and how many executions of the run showed the same cause."""
+    """A finding with the shortest execution that shows it, and how many executions of the run showed the same cause.
+
+    There is no ``execution`` where models or the vendor's statement show it and nothing was run.
+    """
 
     finding: Finding
-    execution: Execution
+    execution: Execution | None
     occurrences: int = 1
     waived: str = ""
 
@@ -122,4 +126,6 @@ class Report(Value, frozen=True):
     seconds: float
     scenarios: int
     events: int
+    statement: Statement
+    readings: dict[str, tuple[str, ...]]
     effort: Effort = Effort()

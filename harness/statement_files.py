@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue import load_options
 from ucm_cts.harness.documents import DocumentError, read_toml
-from ucm_cts.harness.locate import WrongUse
+from ucm_cts.harness.locate import WrongUse, published_statement
 from ucm_cts.harness.purposes import PARTS
 from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.statement import IXIT, Statement, default_statement
@@ -20,27 +20,29 @@ LARGEST = 256 * 1024
 """Bytes a statement may have."""
 
 
-def statement_for(path: Path | None, identity: Welcome, profile: str) -> Statement:
-    """The statement in the file at ``path``, if there is one, for the product that the adapter tells and for ``profile``.
+def stated_by(path: Path | None, adapter: str) -> Statement:
+    """The statement in the file at ``path``, else the one published with ``adapter``, else what holds without any.
 
-    Raises ``DocumentError``, and ``WrongUse`` if it is about something else.
+    Raises ``DocumentError``.
     """
-    if path is None:
-        return default_statement()
-    statement = read_statement(path)
+    path = path or published_statement(adapter)
+    return read_statement(path) if path is not None else default_statement()
+
+
+def check_subject(statement: Statement, identity: Welcome, profile: str) -> None:
+    """Is ``statement`` about the product that the adapter tells, and about ``profile``? Raises ``WrongUse`` if not."""
     for what, stated, told in (
         ("product", statement.product, identity.product),
         ("version", statement.version, identity.version),
     ):
         if stated and one_line(stated) != one_line(told):
             raise WrongUse(
-                f"{path} is about {what} '{one_line(stated, 80)}', and the adapter says that it is '{one_line(told, 80)}'; "
-                f"check the statement and correct {what}"
+                f"{statement.source} is about {what} '{one_line(stated, 80)}', and the adapter says '{one_line(told, 80)}'; "
+                "check whom it is about and correct it there"
             )
     if profile not in statement.profiles:
         claimed = ", ".join(statement.profiles) or "none"
-        raise WrongUse(f"{path} does not claim profile '{profile}'; it claims {claimed}")
-    return statement
+        raise WrongUse(f"{statement.source} does not claim profile '{profile}'; it claims {claimed}")
 
 
 def read_statement(path: Path) -> Statement:
@@ -122,10 +124,7 @@ class _Reader:
         table = self.table("models")
         for key in table:
             self.known(key, f"models.{key}", ("core",), "key")
-        for model in self.strings(table.get("core", []), "models.core"):
-            if not _is_there(self.path.parent / model):
-                self.wrong("models.core", f"there is no file or folder '{_short(model)}' beside this file")
-            yield model
+        yield from self.strings(table.get("core", []), "models.core")
 
     def table(self, name: str) -> dict[str, Any]:
         given = self.document.get(name, {})
@@ -147,13 +146,6 @@ class _Reader:
     def wrong(self, place: str, problem: str) -> NoReturn:
         line = self.lines.get(place) or self.lines.get(place.partition(".")[0])
         raise DocumentError(self.path, line, problem)
-
-
-def _is_there(path: Path) -> bool:
-    try:
-        return path.exists()
-    except (OSError, ValueError):  # no file can have such a name
-        return False
 
 
 def _list(names: Collection[str]) -> str:

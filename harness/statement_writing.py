@@ -7,13 +7,34 @@ import textwrap
 from pathlib import Path
 
 import jinja2
+import msgspec
 
 import ucm_cts
+from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue import Interpretation, load_capabilities, load_interpretations
+from ucm_cts.harness.locate import WrongUse
 from ucm_cts.harness.purposes import PARTS
-from ucm_cts.harness.statement import IXIT, Statement
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.statement import IXIT, Statement, default_statement
 
 WIDTH = 120
+
+
+def write_statement(out: Path, identity: Welcome, adapter: str, force: bool = False) -> None:
+    """Write what holds without a statement, for the vendor of ``identity`` to edit. Raises ``WrongUse``."""
+    product, version = one_line(identity.product), one_line(identity.version)
+    statement = msgspec.structs.replace(default_statement(), product=product, version=version)
+    text = to_toml(statement, one_line(adapter), one_line(str(out)))
+    try:
+        with out.open("w" if force else "x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise WrongUse(
+            f"'{out}' is there already; choose another file with --out, or --force to write over it"
+        ) from None
+    except (OSError, ValueError) as error:
+        told = getattr(error, "strerror", None) or error
+        raise WrongUse(f"'{out}' cannot be written: {told}; choose another file with --out") from None
 
 
 def to_toml(statement: Statement, adapter: str, file: str) -> str:

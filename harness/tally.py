@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import msgspec
 
 from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.core_models import Comparison
 from ucm_cts.harness.incidents import finding_of_incident
 from ucm_cts.harness.known_failures import KnownFailure, waiver_for
+from ucm_cts.harness.report.failures import length
 from ucm_cts.harness.results import (
     FRAMEWORK_INCIDENTS,
     Execution,
@@ -19,6 +21,7 @@ from ucm_cts.harness.results import (
     Overall,
     RequirementResult,
     TransitionResult,
+    Verdict,
 )
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.ledger import Ledger, RowTally
@@ -47,6 +50,9 @@ class Tally:
         self.scenarios = 0
         self.events = 0
         self.measures: Counter[str] = Counter()
+        self.readings: dict[str, set[str]] = {}
+        self._settled: dict[str, tuple[Verdict, str]] = {}
+        self._reasons: dict[str, str] = {}
 
     def add(self, execution: Execution, ledger: Ledger, findings: Sequence[Finding]) -> None:
         """Take in one execution, what the judge says of it, and the findings as people read them."""
@@ -54,6 +60,7 @@ class Tally:
         self.events += len(execution.trace)
         self.exercised.update(ledger.exercises)
         self.measures.update(ledger.measures)
+        self._observe(ledger.readings)
         for row, tally in ledger.rows.items():
             total = self.rows.setdefault(row, RowTally())
             total.exercised += tally.exercised
@@ -62,13 +69,45 @@ class Tally:
         for finding in findings:
             self.add_failure(finding, execution)
 
-    def add_failure(self, finding: Finding, execution: Execution) -> None:
-        """One more execution that shows ``finding``."""
+    def _observe(self, readings: Mapping[str, Iterable[str]]) -> None:
+        for option, values in readings.items():
+            self.readings.setdefault(option, set()).update(values)
+
+    def add_models(self, comparison: Comparison) -> None:
+        """What the framework's own models show."""
+        self._observe(comparison.readings)
+        for result in comparison.results:
+            if result.status in ("kept", "broken"):
+                self.exercised[result.requirement] += 1
+            if result.status == "broken":
+                self.add_failure(
+                    Finding(result.requirement, result.check, "models", result.expected, result.observed), None
+                )
+            elif result.status == "left out":
+                self.settle(result.requirement, "not applicable", f"{result.expected}: {result.observed}")
+            elif result.status != "kept":
+                self.explain(result.requirement, f"models: {result.observed}")
+
+    def settle(self, requirement: str, verdict: Verdict, reason: str) -> None:
+        """What becomes of a requirement that no run decides, unless something breaks it all the same."""
+        self._settled.setdefault(requirement, (verdict, reason))
+
+    def explain(self, requirement: str, reason: str) -> None:
+        """Why nothing exercises a requirement."""
+        self._reasons.setdefault(requirement, reason)
+
+    def deny(self, finding: Finding) -> None:
+        """The vendor's statement itself shows ``finding``."""
+        self.exercised[finding.requirement] += 1
+        self.add_failure(finding, None)
+
+    def add_failure(self, finding: Finding, execution: Execution | None) -> None:
+        """One more execution that shows ``finding``, or something else that does."""
         known = self.failures.get(cause_of(finding))
         if known is None:
             self.failures[cause_of(finding)] = FailedExecution(finding, execution)
             return
-        best = known if _length(known.execution) <= _length(execution) else FailedExecution(finding, execution)
+        best = known if length(known.execution) <= length(execution) else FailedExecution(finding, execution)
         self.failures[cause_of(finding)] = msgspec.structs.replace(best, occurrences=known.occurrences + 1)
 
     def replace(self, cause: Cause, finding: Finding, execution: Execution) -> None:
@@ -125,17 +164,22 @@ class Tally:
         exercised = self.exercised[requirement.id]
         waived = tuple(
             msgspec.structs.replace(f, waived=waiver_for(f.finding, known_failures))
-            for f in sorted(failures, key=lambda f: _length(f.execution))
+            for f in sorted(failures, key=lambda f: length(f.execution))
         )
         if waived:
             return RequirementResult(requirement.id, requirement.clause, requirement.title, "fail", exercised, waived)
+        if requirement.id in self._settled:
+            verdict, reason = self._settled[requirement.id]
+            return RequirementResult(
+                requirement.id, requirement.clause, requirement.title, verdict, exercised, (), reason
+            )
         if requirement.id in self.lost:
             reason = f"a scenario that was to exercise it was lost ({self.lost[requirement.id]})"
             return RequirementResult(
                 requirement.id, requirement.clause, requirement.title, "error", exercised, (), reason
             )
         if not exercised:
-            reason = "its condition never arose in this run"
+            reason = self._reasons.get(requirement.id, "its condition never arose in this run")
             if requirement.id in self._left_out:
                 reason += f"; scenarios that were to exercise it were {self._left_out[requirement.id]}"
             return RequirementResult(
@@ -157,7 +201,3 @@ def overall(results: Sequence[RequirementResult], incidents: Sequence[IncidentRe
     if incidents or any(r.verdict in ("inconclusive", "error") for r in results) or not results:
         return "inconclusive"
     return "conformant"
-
-
-def _length(execution: Execution) -> tuple[int, int]:
-    return len(execution.scenario.steps), len(execution.trace)

@@ -42,6 +42,7 @@ from ucm_cts.harness.results import (
     RequirementResult,
     TransitionResult,
 )
+from ucm_cts.harness.statement import default_statement
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, Outcome, Row
 
@@ -307,6 +308,8 @@ def sample(**changes: Any) -> Report:
         seconds=12.34,
         scenarios=4_711,
         events=123_456,
+        statement=default_statement(),
+        readings={"double-start": ("noop",), "late-add": ("deferred", "refuse")},
     )
     return msgspec.structs.replace(report, **changes)
 

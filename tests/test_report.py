@@ -263,6 +263,7 @@ def test_the_verdict_comes_first_and_then_what_to_fix(page: Any) -> None:
         "Life cycle",
         "Requirements",
         "Not testable from the outside",
+        "Statement (ICS and IXIT)",
         "This run",
     ]
     assert text.index(marks[0]) < text.index(marks[1])
@@ -453,7 +454,8 @@ def test_json_follows_its_schema_and_its_order_of_keys(out: Path) -> None:
     jsonschema.validate(document, json_report.schema())
     assert list(document) == [
         *("product", "version", "profile", "verdict", "requirements", "incidents", "transitions", "adapter"),
-        *("suite_version", "seed", "started", "seconds", "scenarios", "events", "measures", "seconds_by_clause"),
+        *("suite_version", "seed", "started", "seconds", "scenarios", "events", "statement", "readings"),
+        *("measures", "seconds_by_clause"),
     ]
     failed = {entry["id"]: entry for entry in document["requirements"]}["R-11.1.3-01"]
     assert list(failed) == ["id", "clause", "title", "level", "verdict", "exercised", "reason", "findings"]

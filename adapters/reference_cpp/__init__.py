@@ -6,3 +6,6 @@ from pathlib import Path
 
 COMMAND = Path(__file__).parent.parent / "bin" / "reference-cpp"
 """The stand-alone adapter; an installed ucm-cts has it."""
+
+STATEMENT = Path(__file__).parent / "ics.toml"
+"""What is stated of the framework."""

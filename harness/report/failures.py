@@ -15,6 +15,9 @@ from ucm_cts.harness.results import Execution, FailedExecution, Report
 
 FOLDER = "failures"
 
+STATEMENT = f"{FOLDER}/ics.toml"
+"""The vendor's statement, for replays; it is there if a vendor gave one."""
+
 _ODD = re.compile(r"[^A-Za-z0-9._-]+")
 
 
@@ -25,8 +28,13 @@ def file_name(requirement: str, number: int) -> str:
 
 
 def shortest_first(findings: tuple[FailedExecution, ...]) -> list[FailedExecution]:
-    """Findings by the length of their scenarios."""
-    return sorted(findings, key=lambda failed: (len(failed.execution.scenario.steps), len(failed.execution.trace)))
+    """Findings by the length of their scenarios; those without come first."""
+    return sorted(findings, key=lambda failed: length(failed.execution))
+
+
+def length(execution: Execution | None) -> tuple[int, int]:
+    """How long a reader has to read: steps, then events."""
+    return (len(execution.scenario.steps), len(execution.trace)) if execution is not None else (0, 0)
 
 
 def incident_file(number: int) -> str:
@@ -34,14 +42,18 @@ def incident_file(number: int) -> str:
     return f"{FOLDER}/incident-{number + 1}.json"
 
 
-def replay_command(file: str, adapter: str) -> str:
+def replay_command(file: str, report: Report) -> str:
     """The command that plays a saved scenario again, from the report's folder."""
-    return f"ucm-cts replay {file} {shlex.quote(one_line(adapter))}"
+    statement = f" --ics {STATEMENT}" if report.statement.source else ""
+    return f"ucm-cts replay {file} {shlex.quote(one_line(report.adapter))}{statement}"
 
 
-def repeat_command(adapter: str, profile: str, seed: int) -> str:
+def repeat_command(report: Report) -> str:
     """The command that repeats the whole run."""
-    return f"ucm-cts run {shlex.quote(one_line(adapter))} --profile {shlex.quote(one_line(profile))} --seed {seed}"
+    adapter, profile = shlex.quote(one_line(report.adapter)), shlex.quote(one_line(report.profile))
+    source = report.statement.source
+    statement = f" --ics {shlex.quote(one_line(source))}" if source else ""
+    return f"ucm-cts run {adapter} --profile {profile} --seed {report.seed}{statement}"
 
 
 def saved(execution: Execution, exercises: tuple[str, ...]) -> dict[str, Any]:
@@ -53,7 +65,8 @@ def all_files(report: Report) -> Iterator[tuple[str, dict[str, Any]]]:
     """Every file to write, by its name relative to the report."""
     for result in report.requirements:
         for number, failed in enumerate(shortest_first(result.findings)):
-            yield file_name(result.id, number), saved(failed.execution, (result.id,))
+            if failed.execution is not None:
+                yield file_name(result.id, number), saved(failed.execution, (result.id,))
     for number, incident in enumerate(report.incidents):
         yield incident_file(number), saved(incident.execution, ())
 

@@ -12,6 +12,7 @@ import jinja2
 from markupsafe import Markup
 
 from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.purposes import PARTS
 from ucm_cts.harness.report import life_cycle_diagram, sequence_svg
 from ucm_cts.harness.report.excerpt import compare, excerpt
 from ucm_cts.harness.report.failures import (
@@ -26,6 +27,7 @@ from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, clause_key, count, to_fix
 from ucm_cts.harness.report.sequence import last_call
 from ucm_cts.harness.report.sequence_text import failure_text, to_text
+from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.transitions import STATES, RowSeen, choices, rows_seen, worst
 from ucm_cts.harness.results import FailedExecution, IncidentReport, Report, RequirementResult
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, State
@@ -46,7 +48,9 @@ _TEMPLATES = Path(__file__).parent / "templates"
 
 @dataclass(frozen=True)
 class Evidence:
-    """One cause of failure as the page shows it; without diagrams once the budget is spent."""
+    """One cause of failure as the page shows it; without diagrams once the budget is spent, without ``command`` where nothing
+    was run.
+    """
 
     failed: FailedExecution
     command: str
@@ -129,12 +133,13 @@ def to_html(
         cells=_cells(rows),
         choices=choices(rows),
         states=STATES,
+        stated=stated(report.statement, report.readings, PARTS[report.profile]),
         rows=rows,
         shortest_first=shortest_first,
         style=Markup(_read("report.css")),
         script=Markup(script),
         digest=digest,
-        repeat=repeat_command(report.adapter, report.profile, report.seed),
+        repeat=repeat_command(report),
     )
 
 
@@ -160,22 +165,25 @@ def _items(report: Report, catalogue: Sequence[Requirement], interpretations: Ma
 
 
 def _evidence(failed: FailedExecution, file: str, report: Report, drawn: bool) -> Evidence:
-    command = replay_command(file, report.adapter)
+    execution = failed.execution
+    if execution is None:
+        return Evidence(failed, "")
+    command = replay_command(file, report)
     if not drawn:
         return Evidence(failed, command)
-    both = compare(failed.finding, failed.execution)
+    both = compare(failed.finding, execution)
     return Evidence(
         failed,
         command,
-        scenario_text(failed.execution),
+        scenario_text(execution),
         sequence_svg.to_svg(both.observed, f"Observed: {one_line(failed.finding.observed)}"),
         sequence_svg.to_svg(both.expected, f"Expected: {one_line(failed.finding.expected)}"),
-        failure_text(failed.finding, failed.execution),
+        failure_text(failed.finding, execution),
     )
 
 
 def _incident(item: IncidentReport, number: int, report: Report) -> IncidentItem:
-    command = replay_command(incident_file(number), report.adapter)
+    command = replay_command(incident_file(number), report)
     last = last_call(item.execution)
     if number >= INCIDENTS:
         return IncidentItem(item, last, command, Markup(""), "")

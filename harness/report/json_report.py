@@ -20,6 +20,7 @@ from ucm_cts.harness.results import (
     TransitionResult,
     Verdict,
 )
+from ucm_cts.harness.statement import Statement
 
 SCHEMA_FILE = "report.schema.json"
 
@@ -32,7 +33,10 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class FindingEntry(Entry, frozen=True):
-    """One cause of failure: what was expected and observed, in which scenario, and the file that replays it."""
+    """One cause of failure: what was expected and observed, in which scenario, and the file that replays it.
+
+    ``scenario`` and ``replay`` are empty where models or the vendor's statement show it and nothing was run.
+    """
 
     rule: str
     expected: str
@@ -77,6 +81,19 @@ class TransitionEntry(Entry, frozen=True):
     readings: tuple[str, ...]
 
 
+class StatementEntry(Entry, frozen=True):
+    """What the vendor states; ``source`` is the file's name, empty where nobody gave one and defaults hold."""
+
+    source: str
+    product: str
+    version: str
+    profiles: tuple[str, ...]
+    capabilities: dict[str, bool]
+    readings: dict[str, str]
+    ixit: dict[str, float]
+    models: tuple[str, ...]
+
+
 class ReportEntry(Entry, frozen=True):
     """The whole of ``report.json``."""
 
@@ -94,6 +111,8 @@ class ReportEntry(Entry, frozen=True):
     seconds: float
     scenarios: int
     events: int
+    statement: StatementEntry
+    readings: dict[str, tuple[str, ...]]
     measures: dict[str, int]
     seconds_by_clause: dict[str, float]
 
@@ -118,6 +137,8 @@ def to_json(report: Report, catalogue: Sequence[Requirement]) -> bytes:
         seconds=report.seconds,
         scenarios=report.scenarios,
         events=report.events,
+        statement=_statement(report.statement),
+        readings=report.readings,
         measures=report.effort.measures,
         seconds_by_clause=report.effort.seconds,
     )
@@ -150,17 +171,17 @@ def _requirement(result: RequirementResult, known: Mapping[str, Requirement]) ->
 
 
 def _finding(failed: FailedExecution, replay: str) -> FindingEntry:
-    suspects = set(failed.finding.events)
-    events = tuple(event for event in failed.execution.trace if event.n in suspects)
+    suspects, execution = set(failed.finding.events), failed.execution
+    events = tuple(event for event in execution.trace if event.n in suspects) if execution is not None else ()
     return FindingEntry(
         rule=failed.finding.rule,
         expected=failed.finding.expected,
         observed=failed.finding.observed,
         occurrences=failed.occurrences,
         waived=failed.waived,
-        scenario=failed.execution.name,
+        scenario=execution.name if execution is not None else "",
         events=events[:EVENTS],
-        replay=replay,
+        replay=replay if execution is not None else "",
     )
 
 
@@ -172,6 +193,19 @@ def _incident(incident: Incident, scenario: str, number: int) -> IncidentEntry:
         reproduced=incident.reproduced,
         scenario=scenario,
         replay=incident_file(number),
+    )
+
+
+def _statement(statement: Statement) -> StatementEntry:
+    return StatementEntry(
+        source=statement.source,
+        product=statement.product,
+        version=statement.version,
+        profiles=statement.profiles,
+        capabilities=statement.capabilities,
+        readings=statement.readings,
+        ixit=statement.ixit,
+        models=statement.models,
     )
 
 

@@ -79,11 +79,13 @@ def _story(result: RequirementResult, report: Report) -> str:
         finding = failed.finding
         parts.append(
             f"expected: {finding.expected}\nobserved: {finding.observed}\n"
-            f"seen {failed.occurrences} times; rule {finding.rule}; scenario {failed.execution.name}\n"
+            f"seen {failed.occurrences} times; rule {finding.rule}"
+            + (f"; scenario {failed.execution.name}\n" if failed.execution is not None else "\n")
             + (f"waived: {failed.waived}\n" if failed.waived else "")
-            + f"replay:   {replay_command(file_name(result.id, number), report.adapter)}\n\n"
-            + failure_text(finding, failed.execution)
         )
+        if failed.execution is not None:
+            parts[-1] += f"replay:   {replay_command(file_name(result.id, number), report)}\n\n"
+            parts[-1] += failure_text(finding, failed.execution)
     if len(shortest) > FINDINGS:
         parts.append(f"{len(shortest) - FINDINGS} more causes: see report.html")
     return "\n\n".join(parts)
@@ -95,7 +97,7 @@ def _incident(case: etree._Element, report_of: IncidentReport, number: int, repo
         incident.detail,
         f"last call: {last_call(execution) or 'none'}",
         f"reproduced: {'yes' if incident.reproduced else 'no'}",
-        f"replay:    {replay_command(incident_file(number), report.adapter)}",
+        f"replay:    {replay_command(incident_file(number), report)}",
         "",
         to_text(excerpt(execution)),
         *(["", "stacks", incident.stacks] if incident.stacks else []),

@@ -12,12 +12,13 @@ import msgspec
 from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_life_cycle, load_requirements
 from ucm_cts.harness.locate import WrongUse
 from ucm_cts.harness.purposes import PARTS
-from ucm_cts.harness.report.failures import FOLDER, all_files
-from ucm_cts.harness.report.foreign import clean_report
+from ucm_cts.harness.report.failures import FOLDER, STATEMENT, all_files
+from ucm_cts.harness.report.foreign import clean_report, one_line
 from ucm_cts.harness.report.html import to_html
 from ucm_cts.harness.report.json_report import to_json
 from ucm_cts.harness.report.junit import to_junit
 from ucm_cts.harness.results import Report
+from ucm_cts.harness.statement_writing import to_toml
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
 
 
@@ -56,6 +57,11 @@ def write_report(
     for name, content in all_files(report):
         _write(out / name, msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n")
         names.add(out / name)
+    if cleaned.statement.source:
+        text = to_toml(cleaned.statement, one_line(cleaned.adapter), STATEMENT)
+        _write(out / STATEMENT, text.encode())
+    else:
+        (out / STATEMENT).unlink(missing_ok=True)
     _write(out / "report.json", to_json(cleaned, catalogue))
     _write(out / "junit.xml", to_junit(cleaned, catalogue))
     _write(out / "report.html", to_html(cleaned, catalogue, table, interpretations).encode())
