@@ -129,13 +129,15 @@ class Builds:
         sources = [("rude", RUDE), ("beans", guide_file("beans_adapter.cpp")), ("lines", beans_with_lines())]
         for name, text in sources:
             (folder / f"{name}.cpp").write_text(text)
+        tsan = ["-fsanitize=thread", "-g1"]
         asan = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g1"]
         self._programs: dict[str, Future[Path]] = {
             "rude": self._compile("rude", [folder / "rude.cpp"], STRICT),
-            "tsan": self._compile("tsan", REFERENCE, ["-std=c++11", "-fsanitize=thread", "-g1"]),
+            "tsan": self._compile("tsan", REFERENCE, ["-std=c++11", *tsan]),
             "asan": self._compile("asan", REFERENCE, ["-std=c++11", *asan]),
             "spellings": self._compile("spellings", [SDK / "example" / "other_spellings.cpp"], STRICT),
             "patchbay": self._compile("patchbay", [NATIVE / "patchbay.cpp"], [*STRICT, *asan]),
+            "links": self._compile("links", [NATIVE / "lwucm_links.cpp", *REFERENCE[1:]], ["-std=c++11", *tsan]),
             "power": self._compile("power", [NATIVE / "stress_power.cpp"], [*STRICT, "-O2"]),
             "lines": self._compile("lines", [folder / "lines.cpp"], [*STRICT, "-I", str(SDK / "example")]),
             "beans": self._compile("beans", [folder / "beans.cpp"], [*STRICT, "-I", str(SDK / "example")]),

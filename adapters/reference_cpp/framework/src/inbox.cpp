@@ -16,7 +16,7 @@ Inbox::~Inbox() { end(); }
 
 bool Inbox::put(const Message& message) {
     std::unique_lock<std::mutex> lock(mutex_);
-    if (capacity_ != 0 && thread_.get_id() != std::this_thread::get_id()) {
+    if (capacity_ != 0 && !Awaited::now()) {
         delivered_.wait(lock, [this] { return messages_.size() < capacity_ || !open_; });
     }
     if (!open_ && not_ready_ != Options::NotReady::hold) {
