@@ -119,8 +119,7 @@ class MethodCall:
     """A body's call of a method. ``broken`` says where its link was broken when it was made, ``targets`` are the other ends
     that were attached then, with whether each was operational. ``idle`` are those that certainly were not. ``ready`` says
     that the caller was operational, ``prepared`` that all ends were attached before the components there were started. A
-    message is ``crowded`` if another one was on its way when it was pushed, or pushed
-    before it was answered.
+    message is ``crowded`` if another one was on its way when it was pushed, or pushed before it was answered.
     """
 
     request: Request

@@ -7,10 +7,10 @@ import time
 from collections.abc import Sequence
 from typing import ClassVar
 
-from derived.registry import Base, breaks_core
+from derived.registry import Base, breaks_core, is_below
 from ucm_cts.adapters.contract.data_types import Datum, Interface, Parameter
 from ucm_cts.adapters.contract.programming_model import DeclaredException, NotFound, UcmError
-from ucm_cts.adapters.contract.scenario import SERVICE_CONNECTOR
+from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SERVICE_CONNECTOR
 from ucm_cts.adapters.reference_py.connectors import Link, LinkElement, Taker
 from ucm_cts.adapters.reference_py.framework import Container, Member
 
@@ -191,6 +191,28 @@ class refuses_while_the_server_is_busy(Base):
     link_class = _Busy
 
 
+class _ShortQueue(_Services):
+    def __init__(self, *arguments: object) -> None:
+        super().__init__(*arguments)  # type: ignore[arg-type]
+        self.queue: list[int] = []
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if len(self.queue) > 1 and self.server.member.execution.definition == PROTECTED_PASSIVE:
+            threading.Event().wait()
+        self.queue.append(threading.get_ident())
+        try:
+            return super()._request(method, arguments)
+        finally:
+            self.queue.remove(threading.get_ident())
+
+
+@breaks_core(_CLIENTS, clauses=_CLAUSES)
+class forgets_the_third_in_the_queue(Base):
+    """If two clients wait for a protected server, the third one waits for ever."""
+
+    link_class = _ShortQueue
+
+
 class _OneSlot(_Services):
     last: Sequence[Datum] = ()
 
@@ -222,6 +244,20 @@ class replaces_the_server(Base):
     """A second server takes the place of the first."""
 
     link_class = _Replaces
+
+
+class _AtHome(_Services):
+    def _attach_taker(self, member: Member, port: str) -> None:
+        if self.connector == SERVICE_CONNECTOR and is_below(member.container):
+            raise UcmError("servers are in the root container")
+        super()._attach_taker(member, port)
+
+
+@breaks_core(_CALLS, clauses=_CLAUSES)
+class takes_servers_of_the_root_container(Base):
+    """A server in a sub-container is refused."""
+
+    link_class = _AtHome
 
 
 class _Adds(_Services):
