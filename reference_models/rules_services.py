@@ -11,6 +11,7 @@ from ucm_cts.reference_models.runtime import Runtime, Window, lane
 from ucm_cts.reference_models.services import (
     ServiceCall,
     Trouble,
+    disturbed_at,
     ended_by,
     interactions_of,
     is_disturbed,
@@ -68,8 +69,9 @@ def service_call(ledger: Ledger, runtime: Runtime) -> None:
             observed = _what_failed(runtime, one, trouble)
             _violate(ledger, _concerned(runtime, one, good), "service_call", trouble, one, expected, observed)
     for one in service_calls(runtime):
-        waiting = one.call.reply is None and not is_disturbed(runtime, one)
-        if waiting and _may_be_expected(one) and is_left_hanging(runtime, one.call.business.worker, one.call.request.n):
+        began, disturbed = one.call.request.n, disturbed_at(runtime, one)
+        waiting = one.call.reply is None and _may_be_expected(one)
+        if waiting and is_left_hanging(runtime, one.call.business.worker, began, disturbed):
             observed = "the server was left, and the call did not end" if one.exit else "it did not end"
             _violate(ledger, _concerned(runtime, one, good), "service_call", "hangs", one, expected, observed)
 
@@ -183,7 +185,8 @@ def call_in_flight_ends(ledger: Ledger, runtime: Runtime) -> None:
                 observed = f"{s.operation(operation.step)} did not end"
                 _violate(ledger, _IN_FLIGHT, "call_in_flight_ends", "operation", one, expected, observed)
         if one.call.reply is None:
-            if is_left_hanging(runtime, one.call.business.worker, one.call.request.n):
+            began = min(o.begin.n for o in ending)
+            if not _has_hung(runtime, one, began) and is_left_hanging(runtime, one.call.business.worker, began):
                 expected = "ends once the server is let go"
                 _violate(ledger, _IN_FLIGHT, "call_in_flight_ends", "hangs", one, expected, "it did not end")
             continue
@@ -196,6 +199,11 @@ def call_in_flight_ends(ledger: Ledger, runtime: Runtime) -> None:
         expected = f"{declared} as declared" if reading else "ends with what the server gave, or with an exception"
         observed = "it was otherwise" if reading else f"it returned {_values(one.call.reply.results)}"
         _violate(ledger, _IN_FLIGHT, "call_in_flight_ends", reading or "invented", one, expected, observed)
+
+
+def _has_hung(runtime: Runtime, one: ServiceCall, until: int) -> bool:
+    """Was it left hanging before?"""
+    return is_left_hanging(runtime, one.call.business.worker, one.call.request.n, until)
 
 
 def _how_it_ended(one: ServiceCall, reply: Reply) -> str:

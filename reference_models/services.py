@@ -125,9 +125,16 @@ def operations_beside(runtime: Runtime, one: ServiceCall) -> list[Operation]:
     return [o for o in interactions.operations if o.overlaps(one.call.request.n, one.over)]
 
 
+def disturbed_at(runtime: Runtime, one: ServiceCall) -> int | None:
+    """When something began, while it was in progress or before, that may be a reason not to carry it out."""
+    beside = operations_beside(runtime, one)
+    disturbing = [o for o in beside if isinstance(o.step, _ENDING) or _takes_away(runtime, one, o)]
+    return min((o.begin.n for o in disturbing), default=None)
+
+
 def is_disturbed(runtime: Runtime, one: ServiceCall) -> bool:
     """Was anything in progress beside it that may be a reason not to carry it out?"""
-    return any(isinstance(o.step, _ENDING) or _takes_away(runtime, one, o) for o in operations_beside(runtime, one))
+    return disturbed_at(runtime, one) is not None
 
 
 def _takes_away(runtime: Runtime, one: ServiceCall, operation: Operation) -> bool:
@@ -153,13 +160,13 @@ def ended_by(runtime: Runtime, one: ServiceCall) -> list[Operation]:
     ]
 
 
-def is_left_hanging(runtime: Runtime, worker: str | None, since: int) -> bool:
-    """Was ``worker`` waited for in vain, after the event ``since``, while nobody was held and nothing happened?"""
+def is_left_hanging(runtime: Runtime, worker: str | None, since: int, until: int | None = None) -> bool:
+    """Was ``worker`` waited for in vain, between these events, while nobody was held and nothing happened?"""
     quiet = runtime.scenario.patience * _NANOSECONDS * _QUIET
     return worker is not None and any(
         isinstance(wait.step, s.Join)
         and wait.step.worker == worker
-        and wait.timeout.n > since
+        and since < wait.timeout.n < (until or _NEVER)
         and not wait.held
         and wait.timeout.t - wait.quiet_since >= quiet
         for wait in interactions_of(runtime).waits
