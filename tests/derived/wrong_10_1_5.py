@@ -206,7 +206,7 @@ class _ShortQueue(_Services):
             self.queue.remove(threading.get_ident())
 
 
-@breaks_core(_CLIENTS, clauses=_CLAUSES)
+@breaks_core(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.3.2-17",))
 class forgets_the_third_in_the_queue(Base):
     """If two clients wait for a protected server, the third one waits for ever."""
 
