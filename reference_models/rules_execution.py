@@ -90,7 +90,7 @@ def run_kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, met: li
         ledger.exercised("R-10.1.3.2-05")
 
 
-@rule("served", "R-10.1.3.2-17")
+@rule("served", "R-10.1.3.2-17", timed=True)
 def waiting_calls_served(ledger: Ledger, runtime: Runtime, call: BusinessCall, waited: Execution, end: int) -> None:
     """Who had to wait for an execution is served when it has ended; ``end`` is 0 if the call never came back."""
     enter = waited.enter
@@ -241,7 +241,7 @@ def run_phases(ledger: Ledger, runtime: Runtime, execution: Execution, met: list
     )
 
 
-@rule("waited", "R-10.1.3.2-01", "R-10.1.3.2-03")
+@rule("waited", "R-10.1.3.2-01", "R-10.1.3.2-03", timed=True)
 def run_triggered(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
     """Once started, a self-executing component is executed within the scenario's patience."""
     step = runtime.scenario.steps[event.step]
