@@ -218,11 +218,13 @@ def _stop_meanwhile() -> TestPurpose:
         s.GetComponents(place),
         s.Start(place),
         s.Invoke("tell later", 2),
-        s.ReachGate("got", more=1),
+        s.ReachGate("got", total=_MANY + 1),
         s.ReachGate("seen", total=2 * _MANY),
     ]
     text = "A receiver is stopped and started again while its emitter goes on pushing."
-    return _purpose("messages/stop meanwhile", text, ("09", "04"), (("messages/stop meanwhile", cast.scenario(calls)),))
+    return _purpose(
+        "messages/stop meanwhile", text, ("09", "04"), (("messages/stop meanwhile", cast.scenario(calls, 1000)),)
+    )
 
 
 def _bursts() -> list[TestPurpose]:
@@ -249,7 +251,7 @@ def _burst(emitters: int, receivers: int, count: int) -> Scenario:
         burst = Declaration(("in.api",), ("out.api",), plan=plan, ports={"out.api": _NUMBERS})  # type: ignore[arg-type]
         cast.add_emitter(name, "link", burst)
     waits: list[Step] = [s.AwaitMessages(f"receiver {number}", emitters * count) for number in range(receivers)]
-    return cast.scenario([*_told(names, True), *waits], patience=30_000)
+    return cast.scenario([*_told(names, True), *waits], patience=10_000)
 
 
 def _purpose(

@@ -17,6 +17,9 @@ CODES = (OK, INTERNAL_ERROR, COMM_ERROR)
 _NANOSECONDS = 1_000_000
 """In a millisecond."""
 
+_WITHOUT_EFFECT = (s.Invoke, s.GetPortElement, s.GetComponents, s.ReadLog)
+"""Operations that change nothing about who is operational."""
+
 _PUNCTUALITY = 0.9
 """A wait for patience may end after this part of it: clocks differ."""
 
@@ -84,9 +87,15 @@ def is_quiet(runtime: Runtime, call: MethodCall) -> bool:
 
 
 def is_healthy(runtime: Runtime, call: MethodCall) -> bool:
-    """Are its emitter and all its receivers, one at least, operational, and have they been since it was pushed?"""
+    """Are its emitter and all its receivers, one at least, operational, and have they been since it was pushed?
+
+    Nobody knows of those that are being started or stopped meanwhile.
+    """
     receivers = lasting(runtime, call)
-    return call.caller is not None and call.caller.serving and 0 < len(receivers) == len(call.targets)
+    if call.caller is None or not call.caller.serving or not 0 < len(receivers) == len(call.targets):
+        return False
+    changes = [o for o in interactions_of(runtime).operations if not isinstance(o.step, _WITHOUT_EFFECT)]
+    return not any(operation.end is None or operation.end.n > call.request.n for operation in changes)
 
 
 def is_disturbed(runtime: Runtime, call: MethodCall) -> bool:

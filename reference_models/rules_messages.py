@@ -261,7 +261,7 @@ def delivered_at_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Ret
     for call in messages(runtime):
         for target in of_one_phase(runtime, call) if call.code == OK and is_whole(call) else ():
             here = target.member.container is window.container and not counts(target.member)
-            if not here or _was_delivered(call, target):
+            if not here or call.request.n > window.call or _was_delivered(call, target):
                 continue
             if ledger.claims.reading("pending-at-stop") == "deliver":
                 ledger.violated(
