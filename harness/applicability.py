@@ -50,7 +50,8 @@ def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, st
     of_tests = [all(need.partition("=")[0] in HOOKS for need in needs) for needs in missing]
     verdict: Verdict = "inconclusive" if all(of_tests) else "not applicable"
     telling = missing[of_tests.index(True)] if all(of_tests) else missing[of_tests.index(False)]
-    return verdict, f"the vendor does not claim {' or '.join(need.replace('=', ' = ') for need in telling)}"
+    said = f"{statement.source} says" if statement.source else "without a statement it holds that"
+    return verdict, f"{said} {' and '.join(dict.fromkeys(_told(need, statement) for need in telling))}"
 
 
 def asked_in_vain(statement: Statement, profile: str) -> Mapping[str, str]:
@@ -67,6 +68,11 @@ def asked_in_vain(statement: Statement, profile: str) -> Mapping[str, str]:
 
 
 _WITH_MODELS = "core-models=shipped"
+
+
+def _told(need: str, statement: Statement) -> str:
+    option = need.partition("=")[0]
+    return f"{option} = {statement.readings[option]}" if option != need else f"{need} = false"
 
 
 def _unmet(need: Need, statement: Statement) -> Iterator[tuple[str, ...]]:

@@ -8,7 +8,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_requirements
+from ucm_cts.harness.catalogue import Need, Requirement, load_capabilities, load_interpretations, load_requirements
 from ucm_cts.harness.core_models import CHECKS
 from ucm_cts.harness.locate import WrongUse
 from ucm_cts.harness.purposes import PROFILES, load_purposes
@@ -36,6 +36,8 @@ def explanation(identifier: str) -> RenderableType:
         entry = interpretations[name]
         lines += [Text(), Text(f"Interpretation {name}: ", style="bold") + Text(entry.text)]
         lines += [Text(f"  {option}: {', '.join(readings)}") for option, readings in entry.options.items()]
+    for need in load_capabilities().of(requirement.id):
+        lines += [Text(), Text("Applies where the vendor states: ", style="bold") + Text(_needed(need))]
     for rule in requirement.rules:
         doc = CHECKS[rule] if rule in CHECKS else (RULES[rule].check.__doc__ or "").strip().splitlines()[0]
         lines += [Text(), Text(f"Rule {rule}: ", style="bold") + Text(doc)]
@@ -56,6 +58,11 @@ def overview() -> RenderableType:
         remark = " (not testable)" if r.untestable else " (not checked yet)" if r.pending else ""
         table.add_row(r.id, r.clause, r.level, r.title + remark)
     return table
+
+
+def _needed(need: Need) -> str:
+    all_of, one_of = ", ".join(need.needs), " or ".join(need.one_of)
+    return (", ".join(filter(None, (all_of, one_of)))).replace("=", " = ")
 
 
 def _find(identifier: str) -> Requirement:

@@ -80,7 +80,7 @@ def _belied(ledger: Ledger, window: Window, end: Return | Raise, member: Member 
         row.requirement,
         "declared_choices",
         f"{row.id} {taken}",
-        f"{window.operation} goes the way that the vendor declares: {', '.join(declared)}",
+        f"{window.operation} goes as the vendor declares: {', '.join(declared)}",
         f"it went the way of {taken}" + (f" ({member.lane}, {row.state})" if member is not None else ""),
         (window.call, end.n),
         window.step_number,
