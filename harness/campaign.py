@@ -11,6 +11,7 @@ import ucm_cts
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness import shrink
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.doubts import Doubts
 from ucm_cts.harness.driver import Answer, Driver
 from ucm_cts.harness.incidents import finding_of_incident
 from ucm_cts.harness.known_failures import KnownFailure
@@ -59,6 +60,7 @@ class Campaign:
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
         self._tally = Tally()
         self.statement = statement or default_statement()
+        self._doubts = Doubts(driver, self._judge)
         self._payloads = Payloads(driver.seed)
         self._spent: dict[str, float] = {}
         self._began = time.monotonic()
@@ -102,7 +104,10 @@ class Campaign:
             self._tally.add(Execution(answer.name, answer.scenario, answer.trace), ledger, ())
             return
         execution = self._driver.revealed(answer)
-        findings = [self._driver.reveal(finding) for finding in ledger.findings]
+        stand, doubted = self._doubts.sort(answer, ledger.findings)
+        for finding, reason in doubted:
+            self._tally.settle(finding.requirement, "inconclusive", reason)
+        findings = [self._driver.reveal(finding) for finding in stand]
         self._tally.add(execution, ledger, findings)
         for finding in findings:
             yield finding, execution
@@ -159,7 +164,8 @@ class Campaign:
         if answer.incident is not None:
             finding = finding_of_incident(execution)
             return [finding] if finding is not None else []
-        return [self._driver.reveal(finding) for finding in self._judge.judge(answer.disguised, answer.trace).findings]
+        findings = self._judge.judge(answer.disguised, answer.trace).findings
+        return [self._driver.reveal(finding) for finding in self._doubts.stalled(answer, findings)]
 
     def report(self) -> Report:
         """All verdicts of the run so far."""

@@ -122,6 +122,17 @@ class Driver:
         name, scenario = case
         return _Case(name, scenario, Run(next(self._numbers), self.disguise.scenario(scenario)))
 
+    def again(self, answer: Answer, patience: int) -> tuple[Scenario, Trace]:
+        """The same scenario, in disguise, run once more on a host of its own with other ``patience`` (milliseconds).
+
+        The trace is empty if there is none that can be believed. May be called between two answers of a ``run``.
+        """
+        scenario = msgspec.structs.replace(answer.disguised, patience=patience)
+        reply = self._hosts.look_again(Run(next(self._numbers), scenario)).reply
+        if not isinstance(reply, Traced) or contradiction(scenario, reply.events, bool(reply.stuck)) is not None:
+            return scenario, ()
+        return scenario, reply.events
+
     def reveal(self, value: T) -> T:
         """``value`` in the script's own names."""
         return self.disguise.reveal(value)

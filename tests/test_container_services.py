@@ -162,7 +162,6 @@ def test_clock_that_goes_back_is_excused_only_if_it_may_have_been_set() -> None:
     assert findings(scenario, events).keys() == {ORDER, RATE}
     set_back = with_calendar(events, -1500)
     assert findings(scenario, set_back) == {}
-    assert not {ORDER, RATE} & exercised(scenario, with_times(set_back, 5000, 4000))
     assert findings(scenario, set_back, local_clock="monotonic").keys() == {ORDER, RATE}
 
 

@@ -1,0 +1,219 @@
+"""What depends on time is held against nobody whose machine stood still, and against nobody who does it once only."""
+
+from __future__ import annotations
+
+import gc
+import importlib
+import threading
+import time
+from dataclasses import replace
+from typing import Any
+
+import msgspec
+import pytest
+from derived.registry import Base, bind
+
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Call, Trace
+from ucm_cts.adapters.reference_py.framework import Member
+from ucm_cts.harness import doubts as module
+from ucm_cts.harness.campaign import Campaign
+from ucm_cts.harness.doubts import Doubts
+from ucm_cts.harness.driver import Answer, Driver
+from ucm_cts.harness.locate import locate
+from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.results import Report
+from ucm_cts.harness.scripts import TestPurpose
+from ucm_cts.harness.stalls import StallWatch
+from ucm_cts.harness.statement import default_statement
+from ucm_cts.reference_models.findings import Finding
+
+MILLISECOND = 1_000_000
+
+
+def trace(first: int, last: int) -> Trace:
+    """From one millisecond to the other."""
+    return Call(n=1, t=first * MILLISECOND, thread=0, step=0), Call(n=2, t=last * MILLISECOND, thread=0, step=1)
+
+
+class Clock:
+    """Tells times that are set, in milliseconds, and lets the watch see each of them."""
+
+    def __init__(self) -> None:
+        self.now = 0
+        self.seen = threading.Semaphore(0)
+
+    def __call__(self) -> int:
+        self.seen.release()
+        return self.now * MILLISECOND
+
+    def pass_on_to(self, now: int) -> None:
+        self.now = now
+        while self.seen.acquire(blocking=False):
+            pass
+        for _ in range(2):
+            assert self.seen.acquire(timeout=10)
+
+
+def test_stall_is_noted_and_found_by_the_traces_it_met() -> None:
+    clock = Clock()
+    watch = StallWatch(clock)
+    for now in (20, 100, 850, 870):
+        clock.pass_on_to(now)
+    assert watch.longest(trace(0, 60)) == 0
+    assert watch.longest(trace(50, 200)) == 750
+    assert watch.longest(trace(300, 400)) == 750
+    assert watch.longest(trace(860, 1000)) == 0
+    assert watch.longest(()) == 0
+
+
+def test_stall_that_the_watch_has_not_woken_up_from_counts() -> None:
+    clock = Clock()
+    watch = StallWatch(clock)
+    clock.pass_on_to(10)
+    watch.close()
+    time.sleep(0.05)
+    clock.now = 600
+    assert watch.longest(trace(0, 500)) == 590
+
+
+def test_watch_ends_with_whoever_holds_it() -> None:
+    def watching() -> int:
+        return sum(thread.name == "stall watch" for thread in threading.enumerate())
+
+    before = watching()
+    watch = StallWatch()
+    assert watching() == before + 1
+    del watch
+    gc.collect()
+    until = time.monotonic() + 10
+    while watching() > before:
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+# made-up runs
+
+TIMED = Finding("R-10.1.4.2-26", "log_recorded", "none", "a record", "there was none")
+LASTING = Finding("R-10.1.4.2-51", "log_severity_kept", "info", "info", "debug")
+ANSWER = Answer("a", Scenario({}, ()), Scenario({}, (), patience=100), trace(0, 10))
+
+
+class MadeUp:
+    """A driver, a judge and a watch in one: the second look finds ``second``, and the machine stood still for ``stalls``."""
+
+    def __init__(self, second: list[Finding], *stalls: int) -> None:
+        self.second, self.stalls = second, list(stalls)
+        self.findings = second
+        self.patience: list[int] = []
+
+    def again(self, answer: Answer, patience: int) -> tuple[Scenario, Trace]:
+        self.patience.append(patience)
+        return answer.disguised, trace(20, 30)
+
+    def judge(self, scenario: Scenario, events: Trace) -> Any:
+        return self
+
+    def longest(self, events: Trace) -> int:
+        return self.stalls.pop(0) if self.stalls else 0
+
+    def doubts(self) -> Doubts:
+        return Doubts(self, self, self)  # type: ignore[arg-type]
+
+
+def test_what_does_not_depend_on_time_is_not_doubted() -> None:
+    run = MadeUp([], 900)
+    assert run.doubts().sort(ANSWER, [LASTING]) == ([LASTING], [])
+    assert run.patience == []
+
+
+def test_what_is_found_again_stands_and_is_not_doubted_twice() -> None:
+    run = MadeUp([TIMED])
+    doubts = run.doubts()
+    for _ in range(2):
+        assert doubts.sort(ANSWER, [LASTING, TIMED]) == ([LASTING, TIMED], [])
+    assert run.patience == [500]
+
+
+def test_what_is_not_found_again_is_unstable() -> None:
+    run = MadeUp([])
+    doubts = run.doubts()
+    stand, doubted = doubts.sort(ANSWER, [TIMED, LASTING])
+    assert stand == [LASTING]
+    assert doubted == [
+        (TIMED, "unstable: seen once, and not when the same scenario was run again with 5 times the patience")
+    ]
+    for _ in range(5):
+        assert doubts.sort(ANSWER, [TIMED])[0] == []
+    assert len(run.patience) == module.LOOKS
+
+
+@pytest.mark.parametrize("stalls", [(700, 0), (0, 700), (300, 700)])
+def test_stall_is_the_reason(stalls: tuple[int, int]) -> None:
+    run = MadeUp([] if stalls[0] else [TIMED], *stalls)
+    ((finding, reason),) = run.doubts().sort(ANSWER, [TIMED])[1]
+    assert finding is TIMED
+    assert reason == "the machine stood still for 700 ms when it was to be seen"
+
+
+def test_what_is_found_again_without_a_stall_stands() -> None:
+    assert MadeUp([TIMED], 700, 0).doubts().sort(ANSWER, [TIMED]) == ([TIMED], [])
+
+
+def test_shorter_scenarios_do_not_count_if_the_machine_stood_still() -> None:
+    assert MadeUp([], 700, 700).doubts().stalled(ANSWER, [TIMED, LASTING]) == [LASTING]
+    assert MadeUp([]).doubts().stalled(ANSWER, [TIMED, LASTING]) == [TIMED, LASTING]
+
+
+# whole runs
+
+
+class _Forgets(Base):
+    """Does not record what an error is, while there is something to forget."""
+
+    left = 0
+
+    def _log(self, member: Member, severity: str, message: str) -> None:
+        if severity == "error" and _Forgets.left > 0:
+            _Forgets.left -= 1
+        else:
+            super()._log(member, severity, message)
+
+
+Forgetful = bind("Forgetful", _Forgets)
+READABLE = msgspec.structs.replace(default_statement(), readings=default_statement().readings | {"trace-sink": "hook"})
+
+
+def report_of(forgotten: int) -> Report:
+    (purpose,) = (p for p in load_purposes("core") if p.id == "log-of-several-components")
+    importlib.import_module("test_stalls")._Forgets.left = forgotten  # as an adapter, this module is imported by name
+    with Driver(locate("test_stalls:Forgetful", True), seed=5) as driver:
+        campaign = Campaign(driver, "core", (), READABLE)
+        for _ in campaign.check([_impatient(purpose)]):
+            pass
+        return campaign.report()
+
+
+def _impatient(purpose: TestPurpose) -> TestPurpose:
+    shorter = tuple((name, msgspec.structs.replace(asked, patience=100)) for name, asked in purpose.scenarios)
+    return replace(purpose, scenarios=shorter)
+
+
+@pytest.mark.parametrize(
+    ("forgotten", "verdict", "why"),
+    [(0, "pass", ""), (1, "inconclusive", "unstable: seen once"), (1000, "fail", "")],
+)
+def test_failure_must_be_shown_again(forgotten: int, verdict: str, why: str) -> None:
+    (result,) = (r for r in report_of(forgotten).requirements if r.id == "R-10.1.4.2-26")
+    assert result.verdict == verdict
+    assert result.reason.startswith(why)
+    assert bool(result.reason) == (verdict == "inconclusive")
+
+
+def test_verdict_is_inconclusive_if_the_machine_stood_still(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(StallWatch, "longest", lambda watch, events: 800)
+    (result,) = (r for r in report_of(1000).requirements if r.id == "R-10.1.4.2-26")
+    assert (result.verdict, result.reason) == (
+        "inconclusive",
+        "the machine stood still for 800 ms when it was to be seen",
+    )
