@@ -111,6 +111,9 @@ void Instance::start() {
         execution_.enter([&] { body_->on_startup(dependencies); });
     } catch (...) {
         shut_ends();
+        for (const Joined& one : joined_) {
+            one.end->shutting_down();
+        }
         throw;
     }
     ready_ = true;

@@ -117,8 +117,10 @@ class MessageConnector::ImmediateReceiver final : public Receiver {
     }
 
     void started() override { door_.open(); }
-    void stopping() override { door_.shut(); }
-    void await_calls() override { door_.await_leaving(); }
+    void shutting_down() override {
+        door_.shut();
+        door_.await_leaving();
+    }
     void left() override { door_.shut(); }
 
   private:
