@@ -124,7 +124,7 @@ def test_host_and_harness_agree_on_what_is_a_message(builds: Builds) -> None:
     lines += [b'\xff{"type":"hello","protocol":1}', b'{"type":"hello","protocol":2}', b"[" * 100_000]
     lines = [line for line in lines if b'"stream": true' not in line]
     assert len(lines) > 500
-    answers, _, status = talk(builds.reference, b"".join(line + b"\n" for line in lines), m.Hello(m.PROTOCOL))
+    answers, _, status = talk(builds.program("patchbay"), b"".join(line + b"\n" for line in lines), m.Hello(m.PROTOCOL))
     assert status == 0
     assert len(answers) == len(lines) + 1
     decoder = m.to_host_decoder()
