@@ -248,6 +248,9 @@ class _Check:
         self.done[event.step] = True
         if isinstance(event, Raise):
             return None
+        too_early = event.t - top.t < self.shortest_wait
+        if isinstance(step, s.ReadLog) and len(event.records or ()) < step.records and too_early:
+            return f"step {event.step} gives up waiting for {step.records} records too early"
         self.bound.update(bound_by(step))
         if isinstance(step, s.GetPortElement):
             (self.null.add if event.value is None else self.null.discard)(step.bind)

@@ -37,9 +37,7 @@ def clock_answers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     if not method or reply is None or caller is None or caller.suspended:
         return
     if time_told(call) is not None:
-        others = (c for c in runtime.interactions.calls if c.caller is caller) if runtime.interactions else ()
-        told = {clock_call(c, runtime.scenario.components) for c in others if time_told(c) is not None}
-        if told >= set(CLOCK_METHODS):
+        if _has_told(runtime, call, *(other for other in CLOCK_METHODS if other != method)):
             ledger.exercised("R-10.1.4.1-06")
         return
     failed = reply.raised or reply.exception is not None
@@ -51,6 +49,13 @@ def clock_answers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
         "it raised" if failed else f"it gave {list(reply.results or ())}",
         (call.request.n, reply.n),
     )
+
+
+def _has_told(runtime: Runtime, call: MethodCall, *methods: str) -> bool:
+    """Have other methods told this caller the time, too?"""
+    calls = runtime.interactions.calls if runtime.interactions is not None else ()
+    own = (c for c in reversed(calls) if c.caller is call.caller and time_told(c) is not None)
+    return any(clock_call(c, runtime.scenario.components) in methods for c in own)
 
 
 @rule("completed", "R-10.1.4.2-14")

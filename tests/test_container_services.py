@@ -20,6 +20,7 @@ from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference_py.framework import Member
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.disguise import Disguise
+from ucm_cts.harness.integrity import contradiction
 from ucm_cts.harness.purposes import load_purposes
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.clock_readings import SECOND, passed
@@ -210,6 +211,15 @@ def with_log(events: list[Event], change: Any) -> list[Event]:
         else e
         for e in events
     ]
+
+
+def test_who_gives_up_waiting_for_records_too_early_tells_no_truth() -> None:
+    scenario = purpose(LOG)
+    events = events_of(scenario)
+    assert contradiction(scenario, events) is None
+    problem = contradiction(scenario, with_log(events, lambda records: records[1:]))
+    assert problem is not None
+    assert "gives up waiting for 5 records too early" in problem
 
 
 def test_record_is_missing_only_when_somebody_waited_for_it() -> None:

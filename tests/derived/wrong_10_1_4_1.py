@@ -76,6 +76,15 @@ class hands_over_the_clock_once(Withholds):
         member.__dict__["has been stopped"] = True
 
 
+@breaks_core("R-11.2.1.2-09", clauses=HERE, also=("R-11.2.3-10",))
+class hands_over_clocks_to_everybody(Base):
+    """on_startup tells of a clock that was not asked for."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        clock = self._service_element(member, Policy(CLOCK, element="clock_clock_api"))
+        return [*super()._dependencies_of(member), clock]
+
+
 @breaks_core("R-10.1.4.1-06", clauses=HERE)
 class has_no_synchronized_time(Base):
     """The clock's second method fails."""
