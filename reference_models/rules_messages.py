@@ -185,12 +185,12 @@ def message_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None
         return
     if delivery.link is None or delivery.link.connector != s.MESSAGE_CONNECTOR:
         return
-    if receiver.operational:
+    starting = any(o.end is None and isinstance(o.step, s.Start) for o in interactions_of(runtime).operations)
+    if receiver.operational or starting:
         if call is not None and _was_kept_waiting(runtime, call, receiver):
             ledger.exercised("R-10.1.6.1-09")
         return
-    starting = any(o.end is None and isinstance(o.step, s.Start) for o in interactions_of(runtime).operations)
-    if receiver.container.started is not False or starting:
+    if receiver.container.started is not False:
         return
     when = "after it was stopped" if receiver.startups else "before it was started"
     ledger.violated(
@@ -354,10 +354,13 @@ def _was_delivered(call: MethodCall, end: End) -> bool:
 
 
 def _was_kept_waiting(runtime: Runtime, call: MethodCall, receiver: Member) -> bool:
-    """Had something been pushed to it before this that could have come while it was not operational?"""
+    """Has this message, or one before it, been pushed when it could have come while the receiver was not operational?"""
     since = runtime.startups.get((receiver.component, receiver.instance or 0), (0, 0))[0]
-    earlier = [c for c in messages(runtime) if c.link is call.link and c.request.n < min(call.request.n, since)]
-    pending = [c for c in earlier if not c.delivered_to(receiver)]
+    starts = [o.begin.n for o in interactions_of(runtime).operations if isinstance(o.step, s.Start)]
+    started = max((n for n in starts if n < since), default=0)
+    last = min(call.request.n, started - 1)
+    earlier = [c for c in messages(runtime) if c.link is call.link and c.request.n <= last]
+    pending = [c for c in earlier if all(d.enter.n > since for d in c.delivered_to(receiver))]
     return any(end.member is receiver for c in pending for end, _ in c.targets)
 
 
