@@ -87,13 +87,14 @@ def is_quiet(runtime: Runtime, call: MethodCall) -> bool:
 
 
 def is_healthy(runtime: Runtime, call: MethodCall) -> bool:
-    """Are its emitter and all its receivers, one at least, operational, and have they been since it was pushed?
-
-    Nobody knows of those that are being started or stopped meanwhile.
-    """
+    """Are its emitter and all its receivers, one at least, operational, and have they been since it was pushed?"""
     receivers = lasting(runtime, call)
-    if call.caller is None or not call.caller.serving or not 0 < len(receivers) == len(call.targets):
-        return False
+    all_ready = call.caller is not None and call.caller.serving and 0 < len(receivers) == len(call.targets)
+    return all_ready and is_calm(runtime, call)
+
+
+def is_calm(runtime: Runtime, call: MethodCall) -> bool:
+    """Has nothing been started, stopped or changed since it was pushed?"""
     changes = [o for o in interactions_of(runtime).operations if not isinstance(o.step, _WITHOUT_EFFECT)]
     return not any(operation.end is None or operation.end.n > call.request.n for operation in changes)
 

@@ -14,6 +14,7 @@ from ucm_cts.reference_models.messages import (
     answer_to_push,
     counts,
     events_of,
+    is_calm,
     is_disturbed,
     is_healthy,
     is_quiet,
@@ -142,7 +143,7 @@ def ok_kept(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
 @rule("completed", "R-10.1.2-10")
 def delivered_before_ok(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """Where the vendor has declared it, push gives ok when every receiver has the message."""
-    if not call.is_message or call.code != OK or not is_whole(call):
+    if not call.is_message or call.code != OK or not is_whole(call) or not is_calm(runtime, call):
         return
     receivers = [end for end in lasting(runtime, call) if is_well(end.member) and not counts(end.member)]
     late = [end for end in receivers if not call.delivered_to(end.member, end.port)]

@@ -80,6 +80,7 @@ class Taker:
     entrance: Entrance = field(default_factory=Entrance)
     messages: queue.SimpleQueue[Datum | None] = field(default_factory=queue.SimpleQueue)
     thread: threading.Thread | None = None
+    lock: threading.Lock = field(default_factory=threading.Lock)
 
     def enter(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         """Call the body, which may be protected."""
@@ -95,7 +96,18 @@ class Taker:
     def close(self) -> None:
         """Nothing comes in any more, and nothing waits."""
         self.entrance.close()
-        self.messages.put(None)
+        with self.lock:
+            self.forget()
+            thread, self.thread = self.thread, None
+            if thread is not None:
+                self.messages.put(None)
+                thread.join()
+
+    def forget(self) -> None:
+        """What waits is dropped."""
+        with suppress(queue.Empty):
+            while True:
+                self.messages.get_nowait()
 
 
 class LinkElement(PortElementObject):
@@ -211,10 +223,12 @@ class Link:
         return OK
 
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        taker.messages.put(arguments[0])
-        if taker.thread is None:
-            taker.thread = threading.Thread(target=self._deliver, args=(taker, method), daemon=True)
-            taker.thread.start()
+        with taker.lock:
+            if taker.entrance.is_open:
+                taker.messages.put(arguments[0])
+                if taker.thread is None:
+                    taker.thread = threading.Thread(target=self._deliver, args=(taker, method), daemon=True)
+                    taker.thread.start()
 
     def _deliver(self, taker: Taker, method: str) -> None:
         while (message := taker.messages.get()) is not None:
@@ -252,7 +266,7 @@ class UsesConnectors:
 
     def _close_entrances(self: Container, member: Member) -> None:  # type: ignore[misc]
         for _, taker in self._takers_of(member):
-            taker.entrance.close()
+            taker.close()
 
     def _leave_links(self: Container, member: Member) -> None:  # type: ignore[misc]
         for link, taker in self._takers_of(member):

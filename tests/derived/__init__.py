@@ -14,6 +14,7 @@ from derived.registry import (
     POLICY_VARIANTS,
     SUBJECTS,
     VARIANT_CLAUSES,
+    VARIANT_READINGS,
     VARIANTS,
     WrongSubject,
 )
@@ -26,6 +27,7 @@ __all__ = [
     "SUBJECTS",
     "VARIANTS",
     "VARIANT_CLAUSES",
+    "VARIANT_READINGS",
     "WrongSubject",
 ]
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
-from derived.registry import Base, core_variant
+from derived.registry import Base, core_variant_of
 from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import UcmError
@@ -17,6 +17,7 @@ from ucm_cts.adapters.reference_py.connectors import COMM_ERROR, INTERNAL_ERROR,
 from ucm_cts.adapters.reference_py.framework import Member
 
 _FEW, _FULL = 20, 500
+_CLAUSES = ("10.1.2", "10.1.6")
 
 
 class _Codes(Link):
@@ -55,7 +56,17 @@ class _Synchronous(_Codes):
         return OK
 
 
-@core_variant
+@core_variant_of(
+    *_CLAUSES,
+    readings={
+        "message-delivery": "synchronous",
+        "receiver-not-ready": "error",
+        "pending-at-stop": "deliver",
+        "message-order": "fifo",
+        "slow-receiver": "shared",
+        "comm-error": "at-once",
+    },
+)
 class delivers_on_the_emitters_thread(Base):
     """Push returns when all receivers have got the message; it is refused if one is not operational."""
 
@@ -63,7 +74,15 @@ class delivers_on_the_emitters_thread(Base):
         unready = INTERNAL_ERROR
 
 
-@core_variant
+@core_variant_of(
+    *_CLAUSES,
+    readings={
+        "receiver-code": "passed",
+        "push-without-receiver": "refused",
+        "service-failure": "wait",
+        "message-delivery": "synchronous",
+    },
+)
 class passes_codes_on(Base):
     """Push is answered what the last receiver did that was not ok. Who calls a server that is out of reach waits. Emitters
     without receivers are not started.
@@ -129,7 +148,7 @@ class _SharedThread(_Holding):
                 receiver.enter(of, arguments)
 
 
-@core_variant
+@core_variant_of(*_CLAUSES, readings={"receiver-not-ready": "hold", "message-order": "fifo", "pending-at-stop": "drop"})
 class delivers_all_on_one_thread(_ReleasesHeld):
     """Receivers wait for each other, and messages for receivers that are not operational for their start."""
 
@@ -154,7 +173,10 @@ class _Pooled(_Codes):
             posted.pop().exception()
 
 
-@core_variant
+@core_variant_of(
+    *_CLAUSES,
+    readings={"message-order": "unordered", "pending-at-stop": "deliver", "push-without-receiver": "comm_error"},
+)
 class delivers_in_any_order(Base):
     """Messages may pass each other. What waits when a receiver is stopped is delivered before."""
 
@@ -197,11 +219,20 @@ class _LearningLate(_Codes):
         return OK if self.broken else super()._emit(method, arguments)
 
 
-@core_variant
+@core_variant_of(*_CLAUSES, readings={"comm-error": "eventually", "message-overflow": "refuse"})
 class tells_late_and_refuses_much(Base):
     """Push is answered ok while the connector has not noticed that the transport is broken, and not if it has much to do."""
 
     link_class = _LearningLate
+
+
+class _KeepingTaker(Taker):
+    """What waits when it is stopped is kept."""
+
+    def forget(self) -> None:
+        with suppress(queue.Empty):
+            while True:
+                self.__dict__.setdefault("kept", []).append(("push", [self.messages.get_nowait()]))
 
 
 class _Bounded(_Holding):
@@ -209,6 +240,7 @@ class _Bounded(_Holding):
 
     def _attach_taker(self, member: Member, port: str) -> None:
         super()._attach_taker(member, port)
+        self.takers[-1] = _KeepingTaker(member, port)
         self.takers[-1].messages = queue.Queue(_FULL)  # type: ignore[assignment]
 
     def _deliver(self, taker: Taker, method: str) -> None:
@@ -221,14 +253,16 @@ class _Bounded(_Holding):
                 continue
 
 
-@core_variant
+@core_variant_of(
+    *_CLAUSES, readings={"message-overflow": "block", "pending-at-stop": "keep", "receiver-not-ready": "hold"}
+)
 class waits_for_room_and_keeps_at_stop(_ReleasesHeld):
     """Nothing is refused; who pushes too fast waits. What waits when a receiver is stopped comes when it is started."""
 
     link_class = _Bounded
 
 
-@core_variant
+@core_variant_of(*_CLAUSES)
 class breaks_nothing(Base):
     """The adapter cannot break connections."""
 
@@ -237,3 +271,22 @@ class breaks_nothing(Base):
             raise NotOffered
 
         mend_link = break_link  # type: ignore[assignment]
+
+
+_DECLARED = {
+    "comm-error": "at-once",
+    "message-delivery": "asynchronous",
+    "message-order": "fifo",
+    "message-overflow": "block",
+    "pending-at-stop": "drop",
+    "push-without-receiver": "ok",
+    "receiver-code": "dropped",
+    "receiver-not-ready": "drop",
+    "service-failure": "raise",
+    "slow-receiver": "independent",
+}
+
+
+@core_variant_of(*_CLAUSES, readings=_DECLARED)
+class declares_what_the_reference_does(Base):
+    """The reference framework, with everything declared."""

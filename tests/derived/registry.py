@@ -43,6 +43,7 @@ CORE_SUBJECTS: dict[str, WrongSubject] = {}
 CORE_VARIANTS: dict[str, type[ReferenceAdapter]] = {}
 
 VARIANT_CLAUSES: dict[str, tuple[str, ...]] = {}
+VARIANT_READINGS: dict[str, Mapping[str, str]] = {}
 """The clauses that a variant is of interest for; all of the core if it is not there."""
 
 
@@ -109,12 +110,15 @@ def core_variant(mixin: type) -> type:
     return mixin
 
 
-def core_variant_of(*clauses: str) -> Callable[[type], type]:
-    """Register the decorated mixin as a conformant framework that is of interest for the purposes of ``clauses``."""
+def core_variant_of(*clauses: str, readings: Mapping[str, str] = {}) -> Callable[[type], type]:
+    """Register the decorated mixin as a conformant framework that is of interest for the purposes of ``clauses``.
+
+    ``readings`` are what its vendor declares of options.
+    """
 
     def register(mixin: type) -> type:
         core_variant(mixin)
-        VARIANT_CLAUSES[mixin.__name__] = clauses
+        VARIANT_CLAUSES[mixin.__name__], VARIANT_READINGS[mixin.__name__] = clauses, readings
         return mixin
 
     return register
