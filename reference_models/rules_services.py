@@ -68,12 +68,21 @@ def service_call(ledger: Ledger, runtime: Runtime) -> None:
         elif trouble in ("not served", "elsewhere", "failed"):
             observed = _what_failed(runtime, one, trouble)
             _violate(ledger, _concerned(runtime, one, good), "service_call", trouble, one, expected, observed)
+
+
+@rule("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE, timed=True)
+def service_call_ends(ledger: Ledger, runtime: Runtime) -> None:
+    """A call that nothing disturbs ends when its server has been left, if that waits for nobody."""
     for one in service_calls(runtime):
-        began, disturbed = one.call.request.n, disturbed_at(runtime, one)
-        waiting = one.call.reply is None and _may_be_expected(one)
-        if waiting and is_left_hanging(runtime, one.call.business.worker, began, disturbed):
-            observed = "the server was left, and the call did not end" if one.exit else "it did not end"
-            _violate(ledger, _concerned(runtime, one, good), "service_call", "hangs", one, expected, observed)
+        if one.call.reply is None and _may_be_expected(one) and _hangs(runtime, one, disturbed_at(runtime, one)):
+            good = [other for other, trouble in _undisturbed(runtime) if not trouble]
+            observed = "the server was left, and it did not end" if one.exit else "it did not end"
+            requirement = _concerned(runtime, one, good)
+            _violate(ledger, requirement, "service_call_ends", "hangs", one, "ends", observed)
+
+
+def _hangs(runtime: Runtime, one: ServiceCall, until: int | None = None) -> bool:
+    return is_left_hanging(runtime, one.call.business.worker, one.call.request.n, until)
 
 
 def _what_failed(runtime: Runtime, one: ServiceCall, trouble: Trouble) -> str:
@@ -174,21 +183,10 @@ def service_blocks(ledger: Ledger, runtime: Runtime) -> None:
 
 @rule("closed", _IN_FLIGHT)
 def call_in_flight_ends(ledger: Ledger, runtime: Runtime) -> None:
-    """A call whose client or server is stopped, or whose connection is undone, ends in earnest, and so does what did it."""
+    """A call whose client or server is stopped, or whose connection is undone, brings what its server gave, or an exception."""
     for one in service_calls(runtime):
         ending = ended_by(runtime, one)
-        if not ending:
-            continue
-        for operation in ending:
-            if operation.end is None and is_left_hanging(runtime, operation.step.thread, operation.begin.n):
-                expected = f"and {s.operation(operation.step)}, called meanwhile, end once the server is let go"
-                observed = f"{s.operation(operation.step)} did not end"
-                _violate(ledger, _IN_FLIGHT, "call_in_flight_ends", "operation", one, expected, observed)
-        if one.call.reply is None:
-            began = min(o.begin.n for o in ending)
-            if not _has_hung(runtime, one, began) and is_left_hanging(runtime, one.call.business.worker, began):
-                expected = "ends once the server is let go"
-                _violate(ledger, _IN_FLIGHT, "call_in_flight_ends", "hangs", one, expected, "it did not end")
+        if not ending or one.call.reply is None:
             continue
         reading = _how_it_ended(one, one.call.reply)
         was_inside = bool(one.served) and one.served[0].enter.n < min(o.begin.n for o in ending)
@@ -201,9 +199,20 @@ def call_in_flight_ends(ledger: Ledger, runtime: Runtime) -> None:
         _violate(ledger, _IN_FLIGHT, "call_in_flight_ends", reading or "invented", one, expected, observed)
 
 
-def _has_hung(runtime: Runtime, one: ServiceCall, until: int) -> bool:
-    """Was it left hanging before?"""
-    return is_left_hanging(runtime, one.call.business.worker, one.call.request.n, until)
+@rule("closed", _IN_FLIGHT, timed=True)
+def nobody_is_left_hanging(ledger: Ledger, runtime: Runtime) -> None:
+    """Neither the call nor what stops its client or server, or undoes its connection, waits for ever."""
+    for one in service_calls(runtime):
+        ending = ended_by(runtime, one)
+        for operation in ending:
+            if operation.end is None and is_left_hanging(runtime, operation.step.thread, operation.begin.n):
+                expected = f"and {s.operation(operation.step)}, called meanwhile, end once the server is let go"
+                observed = f"{s.operation(operation.step)} did not end"
+                _violate(ledger, _IN_FLIGHT, "nobody_is_left_hanging", "operation", one, expected, observed)
+        began = min((o.begin.n for o in ending), default=None)
+        if began is not None and one.call.reply is None and not _hangs(runtime, one, began) and _hangs(runtime, one):
+            expected = "ends once the server is let go"
+            _violate(ledger, _IN_FLIGHT, "nobody_is_left_hanging", "hangs", one, expected, "it did not end")
 
 
 def _how_it_ended(one: ServiceCall, reply: Reply) -> str:
