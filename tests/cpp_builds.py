@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 
 import ucm_cts
+from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
@@ -403,4 +404,57 @@ def concurrent_scenarios() -> list[s.Scenario]:
             s.Stress(tuple(f"ref {name}" for name in executed), 5),
         ),
     )
-    return [gates, crowd, left, s.Scenario(PAIR, (*LIFE, s.Destroy())), settled, policies, stressed]
+    return [gates, crowd, left, s.Scenario(PAIR, (*LIFE, s.Destroy())), settled, policies, stressed, talking()]
+
+
+def talking() -> s.Scenario:
+    """Three threads have a client call, while the connections break, and an emitter push to two receivers."""
+    text = d.String("CHAR32")
+    problem = d.Structure("problem", {"why": text})
+    ask = d.Method((d.Parameter("text", "INOUT", text), d.Parameter("all", "IN", d.Sequence(text))), (problem,))
+    asks = s.CallMethod("out", "ask", ("?", ["a", "b"]))
+    push = s.Burst("news", 0, 200)
+    log = s.CallMethod("p.trace_api", "log", ("info", "called"))
+    typed = {"out": "service", "news": "messages"}
+    client = s.Declaration(
+        ("go",),
+        tuple(typed),
+        plan={"exchange": (asks, log, push)},
+        ports=typed,
+        policies=(s.Policy(s.COMPONENT_TRACE, element="p.trace_api"),),
+    )
+    server = s.Declaration(("in",), plan={"method": (s.Answer("ask", ("!",)),)}, ports={"in": "service"})
+    fails = s.Declaration(("in",), plan={"method": (s.Answer("ask", ("!",), "problem"),)}, ports={"in": "service"})
+    counts = s.Declaration(("in",), plan={"method": (s.CountMessages(),)}, ports={"in": "messages"})
+    ends = (
+        ("l", "server", "S", "in"),
+        ("l", "client", "C", "out"),
+        ("k", "server", "F", "in"),
+        ("k", "client", "D", "out"),
+    )
+    news = (*(("m", "emitter", name, "news") for name in "CD"), *(("m", "receiver", name, "in") for name in "MN"))
+    steps = (
+        *(s.AddComponent(name) for name in "SFMN"),
+        *(s.AddComponent("C", bind=name) for name in "CD"),
+        s.Link("simple_service_connector", "service", "l"),
+        s.Link("simple_service_connector", "service", "k"),
+        s.Link("simple_message_connector", "messages", "m"),
+        *(s.Attach(*end) for end in (*ends, *news)),
+        *(s.GetPortElement(name, "go", f"go {name}") for name in "CD"),
+        s.Start(),
+        *(s.Invoke(f"go {name}", n, thread=f"w{n}") for n in range(3) for name in "CD"),
+        s.Break("m"),
+        s.Break("l"),
+        s.ReadLog(2),
+        s.Mend("l"),
+        s.Mend("m"),
+        *(s.Join(f"w{n}") for n in range(3)),
+        s.Invoke("go C", 1),
+        s.AwaitMessages("M", 200),
+        s.AwaitMessages("N", 200),
+        s.Stop(),
+        s.Detach("l", "S", "in"),
+    )
+    components = {"S": server, "F": fails, "M": counts, "N": counts, "C": client}
+    interfaces = {"service": d.Interface({"ask": ask}), "messages": d.message_interface(d.Integer("ULONG"))}
+    return s.Scenario(components, steps, interfaces=interfaces)
