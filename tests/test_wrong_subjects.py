@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from derived import POLICY_SUBJECTS, SUBJECTS, WrongSubject
+from derived import CORE_SUBJECTS, POLICY_SUBJECTS, SUBJECTS, WrongSubject
 from pipeline import failing_requirements
 
 from ucm_cts.harness.catalogue import load_requirements
@@ -20,7 +20,7 @@ def test_subject_fails_for_the_right_reason(subject: WrongSubject) -> None:
 
 
 def test_every_testable_requirement_has_a_wrong_subject() -> None:
-    subjects = [*SUBJECTS.values(), *POLICY_SUBJECTS.values()]
+    subjects = [*SUBJECTS.values(), *POLICY_SUBJECTS.values(), *CORE_SUBJECTS.values()]
     broken = {requirement for subject in subjects for requirement in subject.requirements}
     testable = {r.id for r in load_requirements() if any(rule in RULES for rule in r.rules)}
     permissions = {r.id for r in load_requirements() if r.level == "may"}  # nothing can break them

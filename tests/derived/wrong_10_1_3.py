@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TypeVar
 
-from derived.registry import Base, Proxy, breaks_policy
+from derived.registry import Base, Proxy, breaks_core, breaks_policy
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
@@ -411,3 +411,8 @@ class truncates_results_of_libraries(_Truncates):
     """Of what an unprotected passive component returns only 16 bits come back."""
 
     definition = UNPROTECTED_PASSIVE
+
+
+@breaks_core("R-10.1.3-02", clauses=("10.1.3",), readings={"missing-execution-policy": "refuse"})
+class starts_what_it_says_it_refuses(Base):
+    """Components without execution policy are said to be refused, and are started."""
