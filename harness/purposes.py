@@ -17,7 +17,7 @@ from ucm_cts.harness.scripts import TestPurpose, load_scripts, to_scenario
 from ucm_cts.harness.service_scenarios import service_purposes
 from ucm_cts.harness.stress import stress_purposes
 
-PROFILES = ("container",)
+PROFILES = ("container", "core")
 """What a run can choose: profiles that are complete."""
 
 PARTS = {"container": ("container",), "core": ("container", "core")}

@@ -22,7 +22,6 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-
 WIDTH = 140
 """Columns of the table in the terminal, however wide that says it is: it is mostly read from a log."""
 
