@@ -1,0 +1,137 @@
+"""Which push a delivery belongs to, when several could be meant (10.1.6)."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import pytest
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration, Scenario
+from ucm_cts.adapters.contract.trace import Call, Enter, Exit, Reply, Request, Return
+from ucm_cts.reference_models.executions import BusinessCall
+from ucm_cts.reference_models.interactions import Delivery, Interactions, MethodCall
+from ucm_cts.reference_models.runtime import Container, Member, Runtime
+
+EMITTER = Declaration(("in.api",), ("out.api",), ports={"out.api": "numbers"})
+RECEIVER = Declaration(("in.api", "aux.api"), ports={"in.api": "numbers", "aux.api": "numbers"})
+
+
+class Story:
+    """Two connections; what happens is told step by step."""
+
+    def __init__(self) -> None:
+        self.runtime = Runtime(Scenario({}, ()))
+        self.told = Interactions(self.runtime)
+        self._numbers: Iterator[int] = itertools.count(1)
+        for link in ("left", "right"):
+            self._link(s.Link("simple_message_connector", "numbers", link))
+            self._member(f"{link} emitter", EMITTER)
+            self._link(s.Attach(link, "emitter", f"{link} emitter", "out.api"))
+            self._member(f"{link} receiver", RECEIVER)
+            self._link(s.Attach(link, "receiver", f"{link} receiver", "in.api"))
+
+    def _member(self, name: str, declaration: Declaration) -> None:
+        member = Member(name, name, declaration, Container(s.MANAGER, True), len(self.runtime.members), 1, True)
+        self.runtime.members[name] = self.runtime.bodies[name, 1] = member
+
+    def _link(self, step: s.ConnectorCall) -> None:
+        begin, end = Call(next(self._numbers), 0, 0, 0), Return(next(self._numbers), 0, 0, 0)
+        self.told.linked(step, begin, end)
+
+    def attach(self, link: str, receiver: str, port: str) -> None:
+        self._link(s.Attach(link, "receiver", receiver, port))
+
+    def start_again(self, receiver: str) -> None:
+        self.runtime.startups[receiver, 1] = next(self._numbers), 0
+
+    def push(self, link: str, value: int, code: str = "ok", answered: bool = True) -> MethodCall:
+        number = next(self._numbers)
+        event = Request(number, number, number, f"{link} emitter", 1, "out.api", 0, s.PUSH, (value,))
+        self.told.request(event, BusinessCall(0, number, event))
+        if answered:
+            self.answer(self.told.calls[-1], code)
+        return self.told.calls[-1]
+
+    def answer(self, call: MethodCall, code: str = "ok") -> None:
+        event = call.request
+        self.told.reply(
+            Reply(next(self._numbers), 0, event.thread, event.component, 1, event.port, results=(code,)),
+        )
+
+    def deliver(self, link: str, value: int, port: str = "in.api") -> Delivery:
+        number, name = next(self._numbers), f"{link} receiver"
+        delivery = self.told.enter(Enter(number, 0, 0, name, 1, "method", port, method=s.PUSH, arguments=(value,)))
+        self.told.exit(Exit(next(self._numbers), 0, 0, name, 1, "method", results=("ok",)))
+        return delivery
+
+
+@pytest.fixture
+def story() -> Story:
+    return Story()
+
+
+def test_equal_messages_are_two(story: Story) -> None:
+    first, second = story.push("left", 1), story.push("left", 1)
+    assert [story.deliver("left", 1).call for _ in range(2)] == [first, second]
+    assert story.deliver("left", 1).fit == "repeated"
+
+
+def test_a_message_of_this_phase_comes_first(story: Story) -> None:
+    early = story.push("left", 1)
+    story.start_again("left receiver")
+    late = story.push("left", 1)
+    assert [story.deliver("left", 1).call for _ in range(2)] == [late, early]
+
+
+def test_what_was_refused_comes_last(story: Story) -> None:
+    refused, taken = story.push("left", 1, "comm_error"), story.push("left", 1)
+    assert [story.deliver("left", 1).call for _ in range(2)] == [taken, refused]
+
+
+def test_another_connections_message_is_nobodys(story: Story) -> None:
+    own = story.push("left", 1)
+    story.push("right", 2)
+    strange = story.deliver("left", 2)
+    assert (strange.call, strange.fit) == (None, "stray")
+    assert story.deliver("left", 1).call is own
+
+
+def test_what_seemed_to_be_altered_was_invented(story: Story) -> None:
+    own = story.push("left", 1)
+    strange = story.deliver("left", 7)
+    assert (strange.call, strange.fit) == (own, "altered")
+    true = story.deliver("left", 1)
+    assert (true.call, true.fit) == (own, "same")
+    assert (strange.call, strange.fit) == (None, "stray")
+    assert own.deliveries == [true]
+
+
+def test_what_seemed_to_be_the_first_altered_was_the_second(story: Story) -> None:
+    first, second = story.push("left", 1), story.push("left", 2)
+    altered = story.deliver("left", 7)
+    story.deliver("left", 1)
+    assert (altered.call, altered.fit) == (second, "altered")
+    assert [d.fit for d in first.deliveries] == ["same"]
+
+
+def test_a_receiver_at_two_ports_gets_it_twice(story: Story) -> None:
+    story.attach("left", "left receiver", "aux.api")
+    call = story.push("left", 1)
+    assert [story.deliver("left", 1, port).fit for port in ("in.api", "aux.api")] == ["same", "same"]
+    assert len(call.deliveries) == 2
+
+
+def test_who_pushes_alone_is_not_crowded(story: Story) -> None:
+    assert not story.push("left", 1).crowded
+    assert story.push("left", 2).crowded  # the first one has not arrived
+    story.deliver("left", 1)
+    story.deliver("left", 2)
+    assert not story.push("left", 3).crowded
+
+
+def test_pushes_at_once_are_crowded(story: Story) -> None:
+    one, other = story.push("left", 1, answered=False), story.push("right", 2, answered=False)
+    assert one.crowded
+    assert other.crowded
