@@ -62,12 +62,16 @@ def settling_time(ledger: Ledger) -> float:
     return ledger.claims.tolerance("error-known-within") * _NANOSECONDS
 
 
-def is_whole(call: MethodCall, settling: float = 0) -> bool:
-    """Has its link not been broken when it was pushed, nor since, nor mended less than ``settling`` ns before?"""
-    link = call.link
-    if link is None or call.broken or link.broken or link.broken_at > call.request.t:
+def is_whole(ledger: Ledger, runtime: Runtime, call: MethodCall) -> bool:
+    """Has nothing been broken when it was pushed, nor since, nor mended so lately that the connector need not know?
+
+    Connections may share what is broken.
+    """
+    links = interactions_of(runtime).links.values()
+    if call.link is None or any(link.broken or link.broken_at > call.request.t for link in links):
         return False
-    return not link.mended_at or call.request.t - link.mended_at >= settling
+    mended_at = max(link.mended_at for link in links)
+    return not mended_at or call.request.t - mended_at >= settling_time(ledger)
 
 
 def lasting(runtime: Runtime, call: MethodCall) -> list[End]:
@@ -121,7 +125,7 @@ def waited_for(runtime: Runtime, timeout: Timeout, since: int) -> bool:
 def overdue(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> Iterator[tuple[MethodCall, list[End]]]:
     """Answered messages, and the receivers that are well and operational all the while and were waited for in vain."""
     for call in messages(runtime):
-        if call.reply is None or not is_whole(call, settling_time(ledger)):
+        if call.reply is None or not is_whole(ledger, runtime, call):
             continue
         if not waited_for(runtime, timeout, call.reply.t):
             continue

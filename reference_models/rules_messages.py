@@ -23,7 +23,6 @@ from ucm_cts.reference_models.messages import (
     of_one_phase,
     overdue,
     pushed_before_start,
-    settling_time,
     waited_for,
 )
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
@@ -75,7 +74,12 @@ def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     for call in messages(runtime):
         holding = {d.receiver for d in call.deliveries if d.receiver is not None and d.exit is None}
         own = {(member.component, member.instance or 0) for member in holding}
-        if not held or not held <= own or not is_whole(call) or (call.reply is not None and call.code != OK):
+        if (
+            not held
+            or not held <= own
+            or not is_whole(ledger, runtime, call)
+            or (call.reply is not None and call.code != OK)
+        ):
             continue
         if timeout.t - call.request.t < runtime.scenario.patience * 900_000:
             continue
@@ -229,7 +233,7 @@ def later_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
 def kept_for_later_phases(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """A message that waits for the next start comes then, where the vendor has declared it."""
     for call in messages(runtime):
-        if call.code != OK or not is_whole(call, settling_time(ledger)):
+        if call.code != OK or not is_whole(ledger, runtime, call):
             continue
         for end, was_ready in call.targets:
             since, _ = runtime.startups.get((end.member.component, end.member.instance or 0), (0, 0))
@@ -259,7 +263,7 @@ def delivered_at_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Ret
     if isinstance(end, Raise) or runtime.interactions is None:
         return
     for call in messages(runtime):
-        for target in of_one_phase(runtime, call) if call.code == OK and is_whole(call) else ():
+        for target in of_one_phase(runtime, call) if call.code == OK and is_whole(ledger, runtime, call) else ():
             here = target.member.container is window.container and not counts(target.member)
             if not here or call.request.n > window.call or _was_delivered(call, target):
                 continue
@@ -318,6 +322,8 @@ def message_connector(
         known = step.port in ports.get(step.role, ())
         if member is None or member.gone or member.suspended or not known or _is_taken(member, step.port):
             return
+        if step.role == "emitter" and not link.live("receiver") and end.error in ("UCM_ERROR", "BAD_PARAMETER"):
+            return  # refused_attachment's matter
         several = "R-10.1.6.1-03" if step.role == "emitter" else "R-10.1.6.1-04"
         requirement = several if link.live(step.role) else "R-10.1.6.1-10"
         what = f"{step.port} of {member.lane} as {step.role} of {link.name}, which has {len(link.live(step.role))}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Return, Timeout
-from ucm_cts.reference_models.interactions import MethodCall
+from ucm_cts.reference_models.interactions import LinkState, MethodCall
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.messages import (
     CODES,
@@ -47,7 +47,13 @@ def known_codes(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
 @rule("completed", "R-10.1.2-02")
 def without_receivers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """A push that nobody receives is answered what the vendor has declared."""
-    if not call.is_message or call.targets or not call.ready or not is_whole(call) or call.code not in CODES:
+    if (
+        not call.is_message
+        or call.targets
+        or not call.ready
+        or not is_whole(ledger, runtime, call)
+        or call.code not in CODES
+    ):
         return
     if not ledger.observed("push-without-receiver", str(call.code)):
         declared = ledger.claims.reading("push-without-receiver")
@@ -78,10 +84,24 @@ def refused_without_receivers(ledger: Ledger, runtime: Runtime, window: Window, 
         )
 
 
+@rule("linked", "R-10.1.2-02")
+def refused_attachment(
+    ledger: Ledger, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+) -> None:
+    """An emitter that has no receiver yet is refused only where the vendor has declared it."""
+    if not isinstance(step, s.Attach) or step.role != "emitter" or link is None or link.live("receiver"):
+        return
+    if isinstance(end, Raise) and not ledger.observed("push-without-receiver", "refused"):
+        declared = ledger.claims.reading("push-without-receiver")
+        expected = f"push-without-receiver was declared as {declared}: an emitter can be attached before a receiver"
+        observed = f"it raised {end.error}"
+        ledger.violated("R-10.1.2-02", "refused_attachment", "refused", expected, observed, (end.n,), end.step)
+
+
 @rule("completed", "R-10.1.2-09")
 def ok_when_healthy(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """Nothing disturbs the push, so it gives ok."""
-    if not _is_undisturbed(runtime, call) or call.link is None or call.link.broken_at:
+    if not _is_undisturbed(ledger, runtime, call) or call.link is None or call.link.broken_at:
         return
     if all(is_well(end.member) for end, _ in call.targets):
         if call.code == OK:
@@ -96,7 +116,7 @@ def ok_when_healthy(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
 @rule("completed", "R-10.1.2-09")
 def receivers_codes(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """What a receiver answers is dropped, and the code is ok, or passed on, and the code is that of one that was not ok."""
-    if not _is_undisturbed(runtime, call) or not is_quiet(runtime, call):
+    if not _is_undisturbed(ledger, runtime, call) or not is_quiet(runtime, call):
         return
     answers = {answer_to_push(end.member) for end, _ in call.targets}
     if answers == {OK} or not answers <= {*CODES}:
@@ -116,7 +136,7 @@ def receivers_codes(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
 def answered_at_all(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """A push that nothing disturbs is answered."""
     for call in messages(runtime):
-        if call.reply is not None or not is_whole(call, settling_time(ledger)) or not is_healthy(runtime, call):
+        if call.reply is not None or not is_whole(ledger, runtime, call) or not is_healthy(runtime, call):
             continue
         if waited_for(runtime, timeout, call.request.t):
             _violate(ledger, "R-10.1.2-09", "answered_at_all", call, "is answered ok", "no answer")
@@ -143,7 +163,7 @@ def ok_kept(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
 @rule("completed", "R-10.1.2-10")
 def delivered_before_ok(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """Where the vendor has declared it, push gives ok when every receiver has the message."""
-    if not call.is_message or call.code != OK or not is_whole(call) or not is_calm(runtime, call):
+    if not call.is_message or call.code != OK or not is_whole(ledger, runtime, call) or not is_calm(runtime, call):
         return
     receivers = [end for end in lasting(runtime, call) if is_well(end.member) and not counts(end.member)]
     late = [end for end in receivers if not call.delivered_to(end.member, end.port)]
@@ -220,9 +240,9 @@ def comm_error_when_due(ledger: Ledger, runtime: Runtime, call: MethodCall) -> N
 def ok_after_mending(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """When what was broken has been mended push gives ok again."""
     link = call.link
-    if link is None or not link.mended_at or not _is_undisturbed(runtime, call) or not is_quiet(runtime, call):
+    if link is None or not link.mended_at or not _is_undisturbed(ledger, runtime, call) or not is_quiet(runtime, call):
         return
-    if not is_whole(call, settling_time(ledger)) or not all(is_well(end.member) for end, _ in call.targets):
+    if not all(is_well(end.member) for end, _ in call.targets):
         return
     requirement, _ = _DUE[link.was_broken]
     if call.code == OK:
@@ -234,7 +254,7 @@ def ok_after_mending(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None
 @rule("completed", "R-10.1.6.1-09")
 def unready_receivers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """What is pushed to a receiver that is not operational is answered as the vendor has declared."""
-    if not call.is_message or not call.idle or not is_whole(call) or not is_quiet(runtime, call):
+    if not call.is_message or not call.idle or not is_whole(ledger, runtime, call) or not is_quiet(runtime, call):
         return
     others = [end for end, ready in call.targets if ready and end not in call.idle]
     if len(others) + len(call.idle) < len(call.targets) or not all(is_well(end.member) for end in others):
@@ -246,9 +266,9 @@ def unready_receivers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> Non
         _violate(ledger, "R-10.1.6.1-09", "unready_receivers", call, expected, "receiver-not-ready")
 
 
-def _is_undisturbed(runtime: Runtime, call: MethodCall) -> bool:
+def _is_undisturbed(ledger: Ledger, runtime: Runtime, call: MethodCall) -> bool:
     """Is it a message that has been answered, by a connector that was whole and had only receivers that are operational?"""
-    return call.is_message and call.reply is not None and is_whole(call) and is_healthy(runtime, call)
+    return call.is_message and call.reply is not None and is_whole(ledger, runtime, call) and is_healthy(runtime, call)
 
 
 def _is_still_broken(call: MethodCall) -> bool:
