@@ -1,4 +1,4 @@
-"""Connectors, clock and trace of the C++ reference framework, and its options: whatever is chosen conforms, and is what it says."""
+"""Options of the C++ reference framework: whatever is chosen conforms, and is what it is said to be."""
 
 from __future__ import annotations
 
@@ -43,7 +43,11 @@ DEFAULT = {
 
 OPTIONS: dict[str, Mapping[str, str]] = {
     "": {"slow-receiver": "independent", "clock-epoch": "unix"},
-    "delivery=synchronous": {"message-delivery": "synchronous", "receiver-not-ready": "drop", "pending-at-stop": "drop"},
+    "delivery=synchronous": {
+        "message-delivery": "synchronous",
+        "receiver-not-ready": "drop",
+        "pending-at-stop": "drop",
+    },
     "executor=component": {},
     "executor=shared": {},
     "ids=random,removal=cascade": {"remove-while-ready": "cascade", "remove-provider-in-use": "cascade"},
@@ -51,7 +55,10 @@ OPTIONS: dict[str, Mapping[str, str]] = {
     "service-failure=wait,unconnected=tolerate": {"service-failure": "wait", "start-unconfigured": "tolerate"},
     "not-ready=drop,pending=drop": {"receiver-not-ready": "drop", "pending-at-stop": "drop"},
     "not-ready=error,pending=deliver": {"receiver-not-ready": "error", "pending-at-stop": "deliver"},
-    "delivery=synchronous,not-ready=error,executor=component": {"receiver-not-ready": "error", "pending-at-stop": "drop"},
+    "delivery=synchronous,not-ready=error,executor=component": {
+        "receiver-not-ready": "error",
+        "pending-at-stop": "drop",
+    },
     "inbox=4,clock=uptime,port-trace=call-and-return": {"port-trace-records": "call-and-return"},
 }
 """Options, and the readings in which they differ from ``DEFAULT``, or which it leaves open."""

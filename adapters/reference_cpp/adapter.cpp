@@ -152,7 +152,9 @@ class LwucmAdapter final : public ucm_cts::ShapedAdapter<Lwucm> {
                                                                  {"server", lwucm::Role::server},
                                                                  {"emitter", lwucm::Role::emitter},
                                                                  {"receiver", lwucm::Role::receiver}};
-        translate([&] { of_link(link).attach(roles.at(role), own(container), static_cast<lwucm::componentId>(id), port); });
+        translate([&] {
+            of_link(link).attach(roles.at(role), own(container), static_cast<lwucm::componentId>(id), port);
+        });
     }
 
     void detach(const ucm_cts::LinkHandle& link, const Handle& container, ucm_cts::Id id,

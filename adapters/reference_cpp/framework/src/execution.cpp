@@ -58,7 +58,8 @@ std::shared_ptr<PortElementObject> Execution::provided(const std::string& port,
     Way& way = ways_in_[port];
     if (way.element != element) {
         const std::shared_ptr<Guard>& guard = demands_.active_ports.count(port) != 0 ? active_guard_ : guard_;
-        way.seen = intercepted(element, std::make_shared<Interception>(traces_of(port), guard), implementation_->policies);
+        const auto interceptor = std::make_shared<Interception>(traces_of(port), guard);
+        way.seen = intercepted(element, interceptor, implementation_->policies);
         way.element = element;
     }
     return way.seen;

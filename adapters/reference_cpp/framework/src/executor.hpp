@@ -46,8 +46,8 @@ class Executor {
     std::thread thread_;
 };
 
-/// Enters a component on the thread of an executor. A chain that is inside already, and the executor's own thread, go on
-/// where they are.
+/// Enters a component on the thread of an executor. A chain that is inside already, and the executor's own thread, go
+/// on where they are.
 class OnExecutor final : public Guard {
   public:
     OnExecutor(std::shared_ptr<Monitor> monitor, std::shared_ptr<Executor> executor);

@@ -26,8 +26,8 @@ class Inbox {
     Inbox(const Inbox&) = delete;
     Inbox& operator=(const Inbox&) = delete;
 
-    /// False if it is not open and that shall be an error. Waits while the inbox is full, unless somebody may be waiting
-    /// for the caller: receivers that send to each other would wait in a circle.
+    /// False if it is not open and that shall be an error. Waits while the inbox is full, unless somebody may be
+    /// waiting for the caller: receivers that send to each other would wait in a circle.
     bool put(const Message& message);
 
     void open();

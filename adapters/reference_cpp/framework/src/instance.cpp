@@ -171,7 +171,8 @@ void Instance::join(std::shared_ptr<LinkImpl> link, std::shared_ptr<End> end) {
 }
 
 void Instance::part(const End& end) {
-    joined_.erase(std::find_if(joined_.begin(), joined_.end(), [&end](const Joined& one) { return one.end.get() == &end; }));
+    const auto is_it = [&end](const Joined& one) { return one.end.get() == &end; };
+    joined_.erase(std::find_if(joined_.begin(), joined_.end(), is_it));
 }
 
 std::vector<std::shared_ptr<LinkImpl>> Instance::links() const {

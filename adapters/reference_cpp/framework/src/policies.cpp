@@ -84,9 +84,10 @@ class Reading {
         if (!contains(implementation_.provided, policy.port) && !contains(implementation_.required, policy.port)) {
             throw UCM_ERROR("policy '" + PORT_TRACE + "' needs a port element");
         }
-        const auto methods = policy.parameters.find(METHODS_TO_TRACE);
-        const auto severity = policy.parameters.find(LOG_SEVERITY);
-        if (policy.parameters.size() != 2 || methods == policy.parameters.end() || severity == policy.parameters.end()) {
+        const std::map<std::string, std::string>& parameters = policy.parameters;
+        const auto methods = parameters.find(METHODS_TO_TRACE);
+        const auto severity = parameters.find(LOG_SEVERITY);
+        if (parameters.size() != 2 || methods == parameters.end() || severity == parameters.end()) {
             throw UCM_ERROR("policy '" + PORT_TRACE + "' has parameters " + METHODS_TO_TRACE + " and " + LOG_SEVERITY);
         }
         PortTrace trace = {{}, log_severity_t::trace};

@@ -1,5 +1,5 @@
-// Transport: what the two sides of a connector have between them. Bytes get through in memory, so all that can happen to
-// them is what somebody does to the transport on purpose.
+// Transport: what the two sides of a connector have between them. Bytes get through in memory, so all that can happen
+// to them is what somebody does to the transport on purpose.
 #ifndef LWUCM_SRC_TRANSPORT_HPP
 #define LWUCM_SRC_TRANSPORT_HPP
 

@@ -22,15 +22,15 @@ TypePtr comm_ecode_type();
 /// message_intf (10.1.6), bound to a type of messages.
 InterfacePtr message_interface(const TypePtr& message_type);
 
-/// A connection with a connector. Its ends are port elements of components in any containers of the runtime; clients and
-/// emitters require them, servers and receivers provide them.
+/// A connection with a connector. Its ends are port elements of components in any containers of the runtime; clients
+/// and emitters require them, servers and receivers provide them.
 class Link {
   public:
     virtual ~Link() = default;
 
-    /// Makes a port element an end. NOT_FOUND if the container has no such component; BAD_PARAMETER if the connector has
-    /// no such role, or the component no such port element with the interface of the link; UCM_ERROR if the container is
-    /// started, the required port element is connected already, or the service has its server.
+    /// Makes a port element an end. NOT_FOUND if the container has no such component; BAD_PARAMETER if the connector
+    /// has no such role, or the component no such port element with the interface of the link; UCM_ERROR if the
+    /// container is started, the required port element is connected already, or the service has its server.
     virtual void attach(Role role, const std::shared_ptr<Container>& container, componentId component,
                         const std::string& port) = 0;
 
@@ -38,8 +38,8 @@ class Link {
     virtual void detach(const std::shared_ptr<Container>& container, componentId component,
                         const std::string& port) = 0;
 
-    // To see what an application does when communication fails: from now on nothing can be transmitted, or the connector
-    // itself does not work, until it is mended. These operations may be called at any time from any thread.
+    // To see what an application does when communication fails: from now on nothing can be transmitted, or the
+    // connector itself does not work, until it is mended. These operations may be called at any time from any thread.
     virtual void break_transport() = 0;
     virtual void break_connector() = 0;
     virtual void mend() = 0;

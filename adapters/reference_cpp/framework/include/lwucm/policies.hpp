@@ -20,8 +20,8 @@ class component_execution_intf : public PortElementObject {
 };
 
 /// `port` is the port element that the policy manages, empty if it is a policy of the component. `element` is the name
-/// under which the component gets the port element that it requires by the policy; if it is empty, that of the policy and
-/// that of its port element, as in `clock_clock_api`.
+/// under which the component gets the port element that it requires by the policy; if it is empty, that of the policy
+/// and that of its port element, as in `clock_clock_api`.
 struct Policy {
     std::string definition;
     std::string port;
@@ -34,8 +34,8 @@ class Interceptor {
   public:
     virtual ~Interceptor() = default;
 
-    /// Somebody calls `method`. Has `code` executed, which carries it out, and returns when that is done; an exception of
-    /// `code` leaves here.
+    /// Somebody calls `method`. Has `code` executed, which carries it out, and returns when that is done; an exception
+    /// of `code` leaves here.
     virtual void call(const std::string& method, const std::function<void()>& code) = 0;
 };
 

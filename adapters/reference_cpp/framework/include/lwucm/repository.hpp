@@ -16,8 +16,8 @@
 namespace lwucm {
 
 /// What the runtime must know of an implementation: its model (names of port elements and attributes) and how to make
-/// and configure bodies. `set_attribute` is called once for each attribute that add_component configures. `interfaces` are
-/// those of the port elements that can be called by name; only they can be ends of links.
+/// and configure bodies. `set_attribute` is called once for each attribute that add_component configures. `interfaces`
+/// are those of the port elements that can be called by name; only they can be ends of links.
 struct Implementation {
     typedef std::vector<std::string> Names;
     typedef std::function<std::shared_ptr<ComponentObject>()> Create;

@@ -11,9 +11,10 @@ namespace lwucm {
 class Value;
 typedef std::vector<Value> Values;
 
-/// A value of one of the shapes that data types have. It says nothing of its type: an integer of any kind is an `integer`
-/// (beyond 2^63-1 a `natural`), characters and strings hold code points, structures, arrays (dimension by dimension) and
-/// sequences are a `list`, and so are unions: enumerator, then the value of the case that it selects, if it has one.
+/// A value of one of the shapes that data types have. It says nothing of its type: an integer of any kind is an
+/// `integer` (beyond 2^63-1 a `natural`), characters and strings hold code points, structures, arrays (dimension by
+/// dimension) and sequences are a `list`, and so are unions: enumerator, then the value of the case that it selects, if
+/// it has one.
 class Value {
   public:
     enum class Kind { boolean, integer, natural, single, real, character, string, enumerator, list };
