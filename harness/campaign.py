@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import ucm_cts
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.harness import shrink
+from ucm_cts.harness import shrink, smaller_values
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.doubts import Doubts
 from ucm_cts.harness.driver import Answer, Driver
@@ -31,6 +31,12 @@ _QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
 
 SECONDS_FOR_SHORTER_CRASHES = 20
 """How long shorter scenarios of crashes are looked for; each try takes two hosts."""
+
+SECONDS_FOR_SHORTER = 10
+"""How long a shorter scenario of one failure is looked for, before the try that is the last."""
+
+SECONDS_FOR_SMALLER_VALUES = 5
+"""How long a smaller value is looked for that fails like the one found."""
 
 
 @dataclass(frozen=True)
@@ -55,16 +61,16 @@ class Campaign:
         self._driver = driver
         self._profile = profile
         self.known = known_failures
+        self.statement = statement or default_statement()
         self.checked: list[TestPurpose] = []
         self._judge = Judge(load_life_cycle(), self.statement.claims)
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
         self._tally = Tally()
-        self.statement = statement or default_statement()
+        check_statement(self.statement, profile, self._requirements, self._tally)
         self._doubts = Doubts(driver, self._judge)
         self._payloads = Payloads(driver.seed)
         self._spent: dict[str, float] = {}
         self._began = time.monotonic()
-        check_statement(self.statement, profile, self._requirements, self._tally)
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
 
     def check(self, purposes: Iterable[TestPurpose]) -> Iterator[Checked]:
@@ -74,7 +80,7 @@ class Campaign:
         def cases() -> Iterator[tuple[str, Scenario]]:
             for purpose in purposes:
                 queue.append(purpose)
-                for name, scenario in purpose.draw(self._driver.seed) if purpose.draw else purpose.scenarios:
+                for name, scenario in self._scenarios_of(purpose):
                     yield name, self._payloads.deal(scenario)
 
         answers = self._driver.run(cases())
@@ -92,6 +98,10 @@ class Campaign:
                 self.checked.append(purpose)
                 yield Checked(queue.pop(0), done, tuple(failures))
                 failures, done = [], 0
+
+    def _scenarios_of(self, purpose: TestPurpose) -> tuple[tuple[str, Scenario], ...]:
+        """Its scenarios; where values are drawn, within what the vendor says of them."""
+        return purpose.draw(self._driver.seed, self.statement.claims.readings) if purpose.draw else purpose.scenarios
 
     def _take(self, answer: Answer, purpose: TestPurpose) -> Iterator[tuple[Finding | None, Execution]]:
         if answer.incident is not None:
@@ -116,19 +126,24 @@ class Campaign:
         """Look for the shortest scenario of each failure; yields each cause when it is done."""
         until = time.monotonic() + SECONDS_FOR_SHORTER_CRASHES
         for cause, failure in list(self._tally.failures.items()):
+            if failure.execution is None:
+                continue
             incident = failure.execution.incident
+            ends = time.monotonic() + SECONDS_FOR_SHORTER
 
-            def first_failing(candidates: Sequence[Scenario], cause: Cause = cause) -> int | None:
-                shown = self._show(cause, candidates, until)
+            def first_failing(candidates: Sequence[Scenario], cause: Cause = cause, ends: float = ends) -> int | None:
+                shown = self._show(cause, candidates, until) if time.monotonic() < ends else None
                 if shown is None:
                     return None
                 self._tally.replace(cause, *shown[1:])
-            if failure.execution is None:
-                continue
                 return shown[0]
 
-            if incident is None or incident.kind in _QUICK:
-                shrink.shortest(failure.execution.scenario, first_failing)
+            if incident is None:
+                soon = time.monotonic() + SECONDS_FOR_SMALLER_VALUES
+                smaller_values.smallest(failure.finding, failure.execution, first_failing, self._driver.seed, soon)
+            smaller = self._tally.failures[cause].execution
+            if smaller is not None and (incident is None or incident.kind in _QUICK):
+                shrink.shortest(smaller.scenario, first_failing)
             yield cause
 
     def _show(
@@ -187,10 +202,10 @@ class Campaign:
             seconds=round(time.monotonic() - self._began, 3),
             scenarios=self._tally.scenarios,
             events=self._tally.events,
+            statement=self.statement,
+            readings={option: tuple(sorted(values)) for option, values in sorted(self._tally.readings.items())},
             effort=Effort(
                 dict(self._tally.measures.most_common()),
                 {clause: round(seconds, 3) for clause, seconds in self._spent.items()},
             ),
         )
-            statement=self.statement,
-            readings={option: tuple(sorted(values)) for option, values in sorted(self._tally.readings.items())},

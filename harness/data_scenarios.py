@@ -61,12 +61,14 @@ def _purpose(types: TypesUnderTest, readings: Readings) -> TestPurpose:
         CLAUSE,
         f"Both connectors carry {types.sort}, in every direction.",
         (types.requirement,),
-        _scenarios(types, readings, None),
-        functools.partial(_scenarios, types, readings),
+        _scenarios(types, None, readings),
+        functools.partial(_scenarios, types),
     )
 
 
-def _scenarios(types: TypesUnderTest, readings: Readings, seed: int | None) -> tuple[tuple[str, Scenario], ...]:
+def _scenarios(
+    types: TypesUnderTest, seed: int | None, readings: Readings = UNDECLARED
+) -> tuple[tuple[str, Scenario], ...]:
     """The scenarios for these types; drawn values are added where there is a seed to draw them from."""
     loads = []
     for name, of in types.types.items():
@@ -147,22 +149,30 @@ def _client_and_server(load: Load) -> tuple[tuple[Action, ...], tuple[Action, ..
         s.CallMethod(_REQUIRED, "give"),
         s.CallMethod(_REQUIRED, "change", (own[1],)),
     ]
-    for start in range(0, len(load.values), 3):
+    for start in range(0, len(load.values), 3 if len(load.values) > 3 else 1):
         three = tuple(load.values[(start + place) % len(load.values)] for place in range(3))
         calls.append(s.CallMethod(_REQUIRED, "carry", three))
     answers = s.Answer("give", (own[2], own[3])), s.Answer("change", (own[4],)), s.Answer("carry")
     return tuple(calls), answers
 
 
-def messages(loads: Sequence[Load]) -> Scenario:
-    """Emitters that push all values, each with a number so that no two messages are the same, and the last as it is."""
+def messages(loads: Sequence[Load], pause: int = 0) -> Scenario:
+    """Emitters that push all values, each with a number so that no two messages are the same, and the last as it is.
+
+    With ``pause``, milliseconds, the scenario waits so long for the messages of each, and not until they have arrived.
+    """
     planned: list[_Planned] = []
     for load in loads:
         numbered = Structure("numbered", {"number": ULONG, "value": load.of})
         values = [[number, value] for number, value in enumerate(load.values, 1000 * (len(planned) + 1))]
         planned.append(_emitter_and_receiver(load.name, numbered, values))
         planned.append(_emitter_and_receiver(f"{load.name} alone", load.of, load.values[-1:]))
-    return _scenario(s.MESSAGE_CONNECTOR, planned)
+    return _scenario(s.MESSAGE_CONNECTOR, [_hurried(one) for one in planned] if pause else planned, pause)
+
+
+def _hurried(planned: _Planned) -> _Planned:
+    name, interface, pushes, answers, _ = planned
+    return name, interface, pushes, answers[1:], 0
 
 
 def _emitter_and_receiver(name: str, of: AnyType, values: Sequence[Datum]) -> _Planned:
@@ -182,7 +192,7 @@ _Planned = tuple[str, Interface, tuple[Action, ...], tuple[Action, ...], int]
 _ROLES = {s.SERVICE_CONNECTOR: ("client", "server"), s.MESSAGE_CONNECTOR: ("emitter", "receiver")}
 
 
-def _scenario(connector: str, planned: Sequence[_Planned]) -> Scenario:
+def _scenario(connector: str, planned: Sequence[_Planned], pause: int = 0) -> Scenario:
     """A pair of components for each interface; all are linked and started, then each caller is sent off once."""
     sender, taker = _ROLES[connector]
     components: dict[str, Declaration] = {}
@@ -195,7 +205,7 @@ def _scenario(connector: str, planned: Sequence[_Planned]) -> Scenario:
         components[caller] = Declaration((_PROVIDED,), (_REQUIRED,), plan=at_exchange, ports={_REQUIRED: name})
         components[other] = Declaration((_PROVIDED,), plan=at_method, ports={_PROVIDED: name})
         configure += _linked(connector, name, caller, other, link)
-        perform += _performed(name, caller, awaited)
+        perform += [*_performed(name, awaited), *([s.Pause(pause)] if pause else [])]
     steps = (*configure, s.Start(), *perform, s.Stop())
     return Scenario(components, steps, interfaces={name: interface for name, interface, *_ in planned})
 
@@ -209,7 +219,7 @@ def _linked(connector: str, name: str, caller: str, other: str, link: str) -> It
     yield s.GetPortElement(caller, _PROVIDED, f"{name} stimulus")
 
 
-def _performed(name: str, caller: str, awaited: int) -> Iterator[Step]:
+def _performed(name: str, awaited: int) -> Iterator[Step]:
     if awaited:
         yield s.OpenGate(f"{name} arrived")
     yield s.Invoke(f"{name} stimulus", 0)
@@ -223,12 +233,12 @@ def _attributes(readings: Readings) -> TestPurpose:
         CLAUSE,
         "Components have attributes of every type, with configured values.",
         ("R-10.1.1-06",),
-        _attribute_scenarios(readings, None),
-        functools.partial(_attribute_scenarios, readings),
+        _attribute_scenarios(None, readings),
+        _attribute_scenarios,
     )
 
 
-def _attribute_scenarios(readings: Readings, seed: int | None) -> tuple[tuple[str, Scenario], ...]:
+def _attribute_scenarios(seed: int | None, readings: Readings = UNDECLARED) -> tuple[tuple[str, Scenario], ...]:
     """Several components of each type's corner values, and all types side by side."""
     given: dict[str, list[Datum]] = {}
     for sort in CATALOGUE:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +12,7 @@ from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.documents import DocumentError, read, read_lines
 from ucm_cts.harness.probes import ProbeType, load_probe_types
+from ucm_cts.harness.script_values import value_problems
 
 SCENARIOS = Path(__file__).parent.parent / "suite" / "scenarios"
 
@@ -52,8 +53,8 @@ class TestPurpose:
     """What one test node checks: scenarios that provoke the situation ``text`` describes.
 
     ``clause`` groups purposes; ``requirements`` are those the scenarios mean to exercise. Rules of others watch too.
-    ``draw`` gives the same scenarios with values that are drawn from a run's seed. It is only for vendors under whose
-    readings all of ``under`` hold: ``option=value``, or several values with ``|`` between them.
+    ``draw`` gives the same scenarios with values that are drawn from a run's seed, within the vendor's readings. It is only
+    for vendors under whose readings all of ``under`` hold: ``option=value``, or several values with ``|`` between them.
     """
 
     __test__ = False
@@ -63,7 +64,7 @@ class TestPurpose:
     text: str
     requirements: tuple[str, ...]
     scenarios: tuple[tuple[str, Scenario], ...]
-    draw: Callable[[int], tuple[tuple[str, Scenario], ...]] | None = None
+    draw: Callable[[int, Mapping[str, str]], tuple[tuple[str, Scenario], ...]] | None = None
     under: tuple[str, ...] = ()
 
 
@@ -110,15 +111,18 @@ def to_scenario(script: Script, probes: dict[str, ProbeType] | None = None) -> S
             policies=part.policies,
             ports=part.ports,
         )
-    interfaces = script.interfaces | {name: message_interface(of) for name, of in script.messages.items()}
-    return Scenario(components, script.steps, script.patience, interfaces, script.may_stay)
+    return Scenario(components, script.steps, script.patience, _interfaces_of(script), script.may_stay)
+
+
+def _interfaces_of(script: Script) -> dict[str, Interface]:
+    return script.interfaces | {name: message_interface(of) for name, of in script.messages.items()}
 
 
 def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list[tuple[str, str]]:
     """What a schema cannot say: (place in the script, what is wrong and how to mend it)."""
     probes = probes or load_probe_types()
     found: list[tuple[str, str]] = []
-    interfaces = {*script.interfaces, *script.messages}
+    interfaces = _interfaces_of(script)
     for name, part in script.components.items():
         where = f".components.{name}"
         if name in (s.MANAGER, s.UNKNOWN, s.NIL):
@@ -132,6 +136,7 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
         strange = [i for i in part.ports.values() if i not in interfaces]
         if strange:
             found.append((f"{where}.ports", f"no interface '{strange[0]}'; there are {_list(interfaces)}"))
+        found += [(where + place, problem) for place, problem in value_problems(part.ports, part.plan, interfaces)]
     bound = {s.MANAGER: "container"}
     workers: set[str] = set()
     actions = [a for p in script.components.values() for plan in p.plan.values() for a in plan]

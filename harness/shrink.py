@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Scenario, Step
+from ucm_cts.adapters.contract.scenario import Action, Scenario, Step
 from ucm_cts.harness.scripts import bound_by, overlaps, used_by
 
 ROUNDS = 12
@@ -16,13 +16,30 @@ ROUNDS = 12
 
 def shortest(scenario: Scenario, first_failing: Callable[[Sequence[Scenario]], int | None]) -> Scenario:
     """A scenario as short as can be found. ``first_failing`` runs candidates and tells which still shows the failure."""
-    for _ in range(ROUNDS):
-        candidates = list(_shorter(scenario))
-        index = first_failing(candidates) if candidates else None
-        if index is None:
-            return scenario
-        scenario = candidates[index]
+    for fewer in (_halves, _shorter):
+        for _ in range(ROUNDS):
+            candidates = list(fewer(scenario))
+            index = first_failing(candidates) if candidates else None
+            if index is None:
+                break
+            scenario = candidates[index]
     return scenario
+
+
+def _halves(scenario: Scenario) -> Iterator[Scenario]:
+    """Scenarios with far fewer components: one after the other, because most often neighbours have to do with each other."""
+    names = list(scenario.components)
+    size = len(names)
+    for most in (size // 4, size // 2):
+        for first in range(0, size, max(most, 1)) if most > 1 else ():
+            kept = names[first : first + most]
+            steps = scenario.steps
+            for index in range(len(steps) - 1, -1, -1):
+                step = steps[index]
+                if isinstance(step, s.AddComponent) and step.component not in kept:
+                    steps = _without(steps, index)
+            if not any(overlaps(steps)):
+                yield _tidy(scenario, steps)
 
 
 def _shorter(scenario: Scenario) -> Iterator[Scenario]:
@@ -39,12 +56,20 @@ def _with_less(scenario: Scenario) -> Iterator[Scenario]:
         yield _tidy(scenario, _without(steps, index))
     for name, declaration in scenario.components.items():
         for hook in declaration.plan:
-            plan = {h: a for h, a in declaration.plan.items() if h != hook}
-            simpler = msgspec.structs.replace(declaration, plan=plan)
-            yield _tidy(msgspec.structs.replace(scenario, components={**scenario.components, name: simpler}), steps)
+            without = {h: a for h, a in declaration.plan.items() if h != hook}
+            for plan in (without, *(declaration.plan | {hook: fewer} for fewer in _fewer(declaration.plan[hook]))):
+                simpler = msgspec.structs.replace(declaration, plan=plan)
+                yield _tidy(msgspec.structs.replace(scenario, components={**scenario.components, name: simpler}), steps)
         if declaration.connectable:
             simpler = msgspec.structs.replace(declaration, connectable=False)
             yield msgspec.structs.replace(scenario, components={**scenario.components, name: simpler})
+
+
+def _fewer(actions: tuple[Action, ...]) -> Iterator[tuple[Action, ...]]:
+    """The first half and the second half of what a probe does in a hook."""
+    if len(actions) > 1:
+        middle = len(actions) // 2
+        yield from (actions[:middle], actions[middle:])
 
 
 def _without(steps: tuple[Step, ...], index: int) -> tuple[Step, ...]:
