@@ -1,0 +1,12 @@
+"""Return codes (10.1.2). One node a test purpose."""
+
+from __future__ import annotations
+
+from typing import Any
+
+CLAUSES = ("10.1.2",)
+
+
+def test_clause(purpose: Any, check: Any) -> None:
+    """The implementation under test breaks no rule in any scenario of the purpose."""
+    check(purpose)

@@ -1,0 +1,12 @@
+"""The service connector (10.1.5). One node a test purpose."""
+
+from __future__ import annotations
+
+from typing import Any
+
+CLAUSES = ("10.1.5",)
+
+
+def test_clause(purpose: Any, check: Any) -> None:
+    """The implementation under test breaks no rule in any scenario of the purpose."""
+    check(purpose)
