@@ -35,6 +35,9 @@ SECONDS_FOR_SHORTER_CRASHES = 20
 SECONDS_FOR_SHORTER = 10
 """How long a shorter scenario of one failure is looked for, before the try that is the last."""
 
+SECONDS_FOR_ALL_SHORTER = 180
+"""The same for all failures of a run."""
+
 SECONDS_FOR_SMALLER_VALUES = 5
 """How long a smaller value is looked for that fails like the one found."""
 
@@ -125,11 +128,12 @@ class Campaign:
     def shorten(self) -> Iterator[Cause]:
         """Look for the shortest scenario of each failure; yields each cause when it is done."""
         until = time.monotonic() + SECONDS_FOR_SHORTER_CRASHES
+        last = time.monotonic() + SECONDS_FOR_ALL_SHORTER
         for cause, failure in list(self._tally.failures.items()):
             if failure.execution is None:
                 continue
             incident = failure.execution.incident
-            ends = time.monotonic() + SECONDS_FOR_SHORTER
+            ends = min(time.monotonic() + SECONDS_FOR_SHORTER, last)
 
             def first_failing(candidates: Sequence[Scenario], cause: Cause = cause, ends: float = ends) -> int | None:
                 shown = self._show(cause, candidates, until) if time.monotonic() < ends else None
@@ -139,7 +143,7 @@ class Campaign:
                 return shown[0]
 
             if incident is None:
-                soon = time.monotonic() + SECONDS_FOR_SMALLER_VALUES
+                soon = min(time.monotonic() + SECONDS_FOR_SMALLER_VALUES, last)
                 smaller_values.smallest(failure.finding, failure.execution, first_failing, self._driver.seed, soon)
             smaller = self._tally.failures[cause].execution
             if smaller is not None and (incident is None or incident.kind in _QUICK):

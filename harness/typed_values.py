@@ -52,8 +52,10 @@ class _Source:
 
 
 def values(of: AnyType, readings: Readings = UNDECLARED, around: Datum | None = None) -> st.SearchStrategy[Datum]:
-    """All values of ``of`` within the readings; corner values come often, strings and sequences get as long as in the value
-    ``around``.
+    """All values of ``of`` within the readings; corner values come often.
+
+    Where smaller ones than a value ``around`` are looked for, strings and sequences get as long as in it, and corner values,
+    which do not shrink, are left out.
     """
     from hypothesis import strategies as st  # it takes a while, and runs without a failure do without
 
@@ -71,7 +73,7 @@ def values(of: AnyType, readings: Readings = UNDECLARED, around: Datum | None = 
         )
         return _value(of, source)
 
-    return st.one_of(drawn(), st.sampled_from(corners(of, readings)))
+    return drawn() if around is not None else st.one_of(drawn(), st.sampled_from(corners(of, readings)))
 
 
 def draw(of: AnyType, number: int, seed: str, readings: Readings = UNDECLARED) -> list[Datum]:

@@ -22,7 +22,8 @@ EXCEPTION = "field of an exception"
 @dataclass(frozen=True)
 class Carried:
     """A value of a call that arrived, as ``got``, which may be anything. ``way`` tells in which direction, ``events`` are both
-    ends, and ``differences`` where it is another one; none if it was carried well.
+    ends, and ``differences`` where it is another one; none if it was carried well. It may be ``displaced``: whatever went
+    wrong in the call is like others of its values.
     """
 
     call: MethodCall
@@ -32,6 +33,7 @@ class Carried:
     way: str
     events: tuple[int, ...]
     differences: tuple[Difference, ...]
+    displaced: bool = False
 
 
 def values_carried(runtime: Runtime) -> list[Carried]:
@@ -40,8 +42,8 @@ def values_carried(runtime: Runtime) -> list[Carried]:
     if interactions is None or not interactions.links:
         return []
     carried = [one for call in interactions.calls for one in _carried_by(interactions, runtime, call)]
-    lost = _lost_ways(carried)
-    return [one for one in carried if one.way not in lost]
+    lost, altering = _lost_ways(carried), _altering_links(carried)
+    return [one for one in carried if one.way not in lost and (not one.displaced or id(one.call.link) in altering)]
 
 
 def altered_calls(runtime: Runtime) -> frozenset[MethodCall]:
@@ -53,6 +55,11 @@ def method_of(runtime: Runtime, call: MethodCall) -> Method | None:
     """The method that was called through a link; None if there is no link, or no such method."""
     interface = runtime.scenario.interfaces.get(call.link.interface) if call.link is not None else None
     return interface.methods.get(call.request.method or "") if interface is not None else None
+
+
+def _altering_links(carried: Sequence[Carried]) -> set[int]:
+    """Links on which values are altered for certain: there, what is like another value may be so by chance."""
+    return {id(one.call.link) for one in carried if one.differences and not one.displaced}
 
 
 def _lost_ways(carried: Sequence[Carried]) -> set[str]:
@@ -102,13 +109,14 @@ def _paired(
     got: Sequence[Datum] | None,
     events: tuple[int, ...],
 ) -> Iterator[Carried]:
-    """Value by value; that they are another number of values, or in each other's places, is not a matter of their types."""
-    if sent is None or got is None or not len(parameters) == len(sent) == len(got) or _are_displaced(call, sent, got):
+    """Value by value; that they are another number of values is not a matter of their types."""
+    if sent is None or got is None or not len(parameters) == len(sent) == len(got):
         return
+    displaced = _are_displaced(call, sent, got)
     for parameter, way, value, arrived in zip(parameters, ways, sent, got, strict=True):
         if not misfit(parameter.of, value):
             different = tuple(differences(Part(parameter.of, value), arrived))
-            yield Carried(call, parameter.of, value, arrived, way, events, different)
+            yield Carried(call, parameter.of, value, arrived, way, events, different, displaced)
 
 
 def _are_displaced(call: MethodCall, sent: Sequence[Datum], got: Sequence[Datum]) -> bool:

@@ -9,7 +9,7 @@ import threading
 from collections.abc import Sequence
 from pathlib import Path
 
-from derived import SUBJECTS
+from derived import CORE_SUBJECTS, SUBJECTS
 from derived.registry import Base, bind
 
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
@@ -19,7 +19,7 @@ from ucm_cts.adapters.reference_py.framework import ContainerManager, Member
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:
     try:
-        return SUBJECTS[name].adapter
+        return (SUBJECTS | CORE_SUBJECTS)[name].adapter
     except KeyError:
         raise AttributeError(name) from None
 
