@@ -72,7 +72,22 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
     profile = metafunc.config.getoption("--iut-profile")
     chosen = [p for p in purposes_for(_statement(metafunc.config), profile) if _belongs(p, metafunc.module.CLAUSES)]
-    metafunc.parametrize("purpose", chosen, ids=[p.id.replace(" ", "-") for p in chosen])
+    metafunc.parametrize("purpose", chosen or [None], ids=[p.id.replace(" ", "-") for p in chosen] or ["none"])
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """A module whose clauses have no purpose in this profile has nothing to check, nor to skip."""
+    empty = [item for item in items if _has_no_purpose(item)]
+    if empty:
+        config.hook.pytest_deselected(items=empty)
+        items[:] = [item for item in items if item not in empty]
+
+
+def _has_no_purpose(item: pytest.Item) -> bool:
+    if not isinstance(item, pytest.Function) or not item.module.__name__.startswith("ucm_cts.suite."):
+        return False
+    call = getattr(item, "callspec", None)
+    return call is not None and call.params.get("purpose", item) is None
 
 
 def _statement(config: pytest.Config) -> Statement:
