@@ -10,7 +10,9 @@ from contextlib import suppress
 from derived.registry import Base, breaks_core
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import UcmError
+from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
 from ucm_cts.adapters.reference_py.connectors import COMM_ERROR, INTERNAL_ERROR, OK, Link, LinkElement, Taker
+from ucm_cts.adapters.reference_py.framework import Member
 
 _CODES = ("10.1.2",)
 _MESSAGES = ("10.1.6",)
@@ -77,6 +79,17 @@ class refuses_connections_without_receivers(Base):
             for connection in self._connections_from(member):
                 if isinstance(connection.target, LinkElement) and not connection.target.link.takers:
                     raise UcmError("nobody is there")
+
+
+@breaks_core("R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "ok"})
+class refuses_emitters_that_come_first(Base):
+    """Push without receivers was declared to be answered ok; who would do it cannot even be attached."""
+
+    class link_class(Link):
+        def _attach_sender(self, member: Member, port: str) -> None:
+            if self.connector == MESSAGE_CONNECTOR and not self.takers:
+                raise UcmError("nobody is there")
+            super()._attach_sender(member, port)
 
 
 @breaks_core("R-10.1.2-09", clauses=_MESSAGES)
