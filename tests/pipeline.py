@@ -4,38 +4,77 @@ from __future__ import annotations
 
 import functools
 import re
+from collections.abc import Mapping
+from typing import NamedTuple
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.disguise import Disguise
 from ucm_cts.harness.integrity import contradiction
 from ucm_cts.harness.payloads import Payloads
 from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
 
 _TIME = re.compile(rb'"t":\d+')
 
 
-_known: dict[tuple[bytes, bytes], tuple[Finding, ...]] = {}
+class Judged(NamedTuple):
+    """What the judge says of one trace under no statement: findings, and readings seen by option."""
+
+    findings: tuple[Finding, ...]
+    readings: Mapping[str, frozenset[str]]
+
+
+_known: dict[tuple[bytes, bytes], Judged] = {}
 """Same trace, same findings: what many subjects do alike, but for the time it took, is judged once."""
+
+
+class Product:
+    """A framework that has been through the container profile.
+
+    ``failing`` are the failing requirements, each with an example, ``readings`` what it makes of the freedoms of the text.
+    """
+
+    def __init__(self, adapter: type[Adapter]) -> None:
+        self.failing: dict[str, str] = {}
+        self.readings: dict[str, set[str]] = {}
+        self._telling: list[tuple[str, Scenario, bytes, frozenset[str]]] = []
+        engine = Engine(adapter)
+        for line, (name, scenario) in _prepared().items():
+            answer = engine.answer(line)
+            key = line, _TIME.sub(b"", answer)
+            if key not in _known:
+                _known[key] = _judged(name, scenario, answer)
+            _tell(self.failing, name, _known[key].findings)
+            for option, values in _known[key].readings.items():
+                self.readings.setdefault(option, set()).update(values)
+            if _known[key].readings:
+                self._telling.append((name, scenario, answer, frozenset(_known[key].readings)))
+
+    def failing_if(self, declared: Mapping[str, str]) -> dict[str, str]:
+        """Failing requirements, each with an example, if the vendor declares these readings."""
+        judge = Judge(load_life_cycle(), Claims(declared))
+        failing: dict[str, str] = {}
+        for name, scenario, answer, seen in self._telling:
+            if len(declared) > 1 or seen.issuperset(declared):
+                _tell(failing, name, judge.judge(scenario, _trace(name, answer)).findings)
+        return failing
 
 
 def failing_requirements(adapter: type[Adapter]) -> dict[str, str]:
     """Failing requirements, each with an example: scenario, expected, observed."""
-    engine = Engine(adapter)
-    failing: dict[str, str] = {}
-    for line, (name, scenario) in _prepared().items():
-        answer = engine.answer(line)
-        key = line, _TIME.sub(b"", answer)
-        if key not in _known:
-            _known[key] = _findings(name, scenario, answer)
-        for f in _known[key]:
-            failing.setdefault(f.requirement, f"{name}: expected {f.expected}; observed {f.observed}")
-    return failing
+    return Product(adapter).failing
+
+
+def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | list[Finding]) -> None:
+    for f in findings:
+        failing.setdefault(f.requirement, f"{name}: expected {f.expected}; observed {f.observed}")
 
 
 @functools.cache
@@ -50,12 +89,19 @@ def _prepared() -> dict[bytes, tuple[str, Scenario]]:
     return prepared
 
 
-def _findings(name: str, scenario: Scenario, answer: bytes) -> tuple[Finding, ...]:
+def _trace(name: str, answer: bytes) -> Trace:
+    traced = from_host_decoder().decode(answer)
+    assert isinstance(traced, Traced), (name, traced)
+    return traced.events
+
+
+def _judged(name: str, scenario: Scenario, answer: bytes) -> Judged:
     traced = from_host_decoder().decode(answer)
     assert isinstance(traced, Traced), (name, traced)
     problem = contradiction(scenario, traced.events, bool(traced.stuck))
     assert problem is None, (name, problem)
-    return tuple(_judge().judge(scenario, traced.events).findings)
+    ledger = _judge().judge(scenario, traced.events)
+    return Judged(tuple(ledger.findings), {option: frozenset(values) for option, values in ledger.readings.items()})
 
 
 @functools.cache

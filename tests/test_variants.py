@@ -1,14 +1,62 @@
-"""Nobody is failed for using a freedom that the text gives."""
+"""Nobody is failed for using a freedom that the text gives, nor for saying so."""
 
 from __future__ import annotations
 
+import functools
+
 import pytest
 from derived import VARIANTS
-from pipeline import failing_requirements
+from pipeline import Product
 
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.harness.catalogue import load_options
+
+
+@functools.cache
+def reference() -> Product:
+    return Product(ReferenceAdapter)
 
 
 @pytest.mark.parametrize("adapter", VARIANTS.values(), ids=VARIANTS.keys())
 def test_conformant_variant_is_not_failed(adapter: type[ReferenceAdapter]) -> None:
-    assert failing_requirements(adapter) == {}
+    product = Product(adapter)
+    assert product.failing == {}
+    assert [option for option, values in product.readings.items() if len(values) > 1] == []
+    if product.readings != reference().readings:
+        assert product.failing_if({option: value for option, (value,) in product.readings.items()}) == {}
+
+
+BELIED = {
+    "late-add": {"R-11.2.3-13"},
+    "double-start": {"R-11.2.3-15"},
+    "late-disconnect": {"R-11.2.3-13"},
+    "second-connect": {"R-12.10-24"},
+    "start-unconfigured": {"R-11.2.3-07"},
+    "stop-when-stopped": {"R-11.2.3-15"},
+    "remove-while-connected": {"R-11.2.3-11"},
+    "self-connection": {"R-11.2.2.1-08"},
+    "remove-provider-in-use": {"R-11.2.3-11"},
+    "manager-get-components": {"R-11.2.2.1-14"},
+    "manager-start": {"R-11.2.3-06", "R-11.2.3-10"},
+    "remove-while-ready": {"R-11.2.3-11"},
+    "late-container": {"R-11.2.2.2-02"},
+    "callback-failure": {"R-12.10-22", "R-12.10-23"},
+    "stop-drain": {"R-11.2.3-17"},
+}
+"""What a vendor fails who declares another reading than the reference framework's; the framework never has the choice of
+late-connect.
+"""
+
+
+def test_reference_framework_shows_every_reading_that_it_can() -> None:
+    options = {option for option in load_options() if "observed" in load_options()[option]}
+    assert set(BELIED) == set(reference().readings) <= options
+    assert reference().failing == {}
+
+
+@pytest.mark.parametrize(
+    ("option", "value"), [(option, value) for option in BELIED for value in load_options()[option][1:]]
+)
+def test_reading_that_is_declared_and_not_taken_fails(option: str, value: str) -> None:
+    taken = value in reference().readings[option]
+    assert set(reference().failing_if({option: value})) == (set() if taken else BELIED[option])
