@@ -158,17 +158,15 @@ def _of_structure(of: Structure, readings: Readings) -> list[Datum]:
 
 
 def _combined(columns: Sequence[Sequence[Datum]]) -> list[list[Datum]]:
-    """Rows that have every value of each column, if there are not too many; neighbours are seldom alike."""
+    """Rows with the values of each column, from the first to the last if there are too many; neighbours are seldom alike."""
     rows = min(max(map(len, columns)), _MOST_COMBINATIONS)
-    return [
-        [column[(row * _stride(len(column), rows) + place) % len(column)] for place, column in enumerate(columns)]
-        for row in range(rows)
-    ]
+    return [[_spread(column, row, rows, place) for place, column in enumerate(columns)] for row in range(rows)]
 
 
-def _stride(values: int, rows: int) -> int:
-    """How far to go from row to row so that many values are spread over few rows."""
-    return max(1, -(-values // rows))
+def _spread(values: Sequence[Datum], row: int, rows: int, place: int) -> Datum:
+    """The value of a row, when many values are spread over few rows; each place begins at another one."""
+    index = row * (len(values) - 1) // (rows - 1) if len(values) > rows > 1 else row
+    return values[(index + place) % len(values)]
 
 
 def _of_union(of: Union, readings: Readings) -> list[Datum]:
