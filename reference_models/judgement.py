@@ -35,6 +35,7 @@ from ucm_cts.reference_models import (
     rules_dependencies,
     rules_execution,
     rules_interactions,
+    rules_message_phases,
     rules_messages,
     rules_operations,
     rules_policies,
@@ -63,13 +64,14 @@ RULE_MODULES = (
     rules_execution,
     rules_policies,
     rules_stress,
-    rules_values,
     rules_messages,
+    rules_message_phases,
     rules_return_codes,
     rules_services,
     rules_clock,
     rules_trace,
     rules_bursts,
+    rules_values,
 )
 """Importing these registers all rules; rules of one moment look in this order."""
 

@@ -103,6 +103,11 @@ def is_calm(runtime: Runtime, call: MethodCall) -> bool:
     return not any(operation.end is None or operation.end.n > call.request.n for operation in changes)
 
 
+def was_delivered(call: MethodCall, end: End) -> bool:
+    """Has it entered that receiver?"""
+    return bool(call.delivered_to(end.member, end.port))
+
+
 def is_disturbed(runtime: Runtime, call: MethodCall) -> bool:
     """Does one of its receivers fail, or was one held when it was pushed or afterwards?"""
     receivers = [end.member for end, _ in call.targets]
@@ -130,7 +135,7 @@ def overdue(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> Iterator[tupl
         if not waited_for(runtime, timeout, call.reply.t):
             continue
         well = [end for end in lasting(runtime, call) if is_well(end.member) and not counts(end.member)]
-        missing = [end for end in well if not call.delivered_to(end.member, end.port)]
+        missing = [end for end in well if not was_delivered(call, end)]
         if missing:
             yield call, missing
 

@@ -20,10 +20,8 @@ from ucm_cts.reference_models.messages import (
     lasting,
     messages,
     name_of,
-    of_one_phase,
     overdue,
-    pushed_before_start,
-    waited_for,
+    was_delivered,
 )
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
 
@@ -38,7 +36,7 @@ def messages_arrived(ledger: Ledger, runtime: Runtime) -> None:
     interfaces = set()
     for call in messages(runtime):
         ready = [end for end, was_ready in call.targets if was_ready and not counts(end.member)]
-        if call.link is None or not ready or not all(_was_delivered(call, end) for end in ready):
+        if call.link is None or not ready or not all(was_delivered(call, end) for end in ready):
             continue
         ledger.exercised("R-10.1.6.1-10")
         arrived.setdefault(call.link.name, set()).add(call.caller)
@@ -84,7 +82,7 @@ def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
         if timeout.t - call.request.t < runtime.scenario.patience * 900_000:
             continue
         others = [end for end in lasting(runtime, call) if end.member not in holding and is_well(end.member)]
-        missing = [end for end in others if not _was_delivered(call, end)]
+        missing = [end for end in others if not was_delivered(call, end)]
         if missing and not ledger.observed("slow-receiver", "shared"):
             _missing(
                 ledger, "slow_receivers", "R-10.1.6.1-08", call, missing, "they wait for one that is slow", timeout
@@ -181,103 +179,6 @@ def message_order(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
         ledger.observed("message-order", "fifo")
 
 
-@rule("delivered", "R-10.1.6.1-09")
-def message_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
-    """No message enters a receiver before start was called on its container, or after stop returned."""
-    receiver, call = delivery.receiver, delivery.call
-    if receiver is None or receiver.suspended or (call is not None and not call.is_message):
-        return
-    if delivery.link is None or delivery.link.connector != s.MESSAGE_CONNECTOR:
-        return
-    starting = any(o.end is None and isinstance(o.step, s.Start) for o in interactions_of(runtime).operations)
-    if receiver.operational or starting:
-        if call is not None and _was_kept_waiting(runtime, call, receiver):
-            ledger.exercised("R-10.1.6.1-09")
-        return
-    if receiver.container.started is not False:
-        return
-    when = "after it was stopped" if receiver.startups else "before it was started"
-    ledger.violated(
-        "R-10.1.6.1-09",
-        "message_phases",
-        when,
-        f"{receiver.lane} gets messages in its operational phase only",
-        f"{list(delivery.enter.arguments or ())} entered it {when}",
-        (delivery.enter.n,),
-    )
-
-
-@rule("delivered", "R-10.1.6.1-09")
-def later_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
-    """A message of an earlier phase comes in a later one only if the vendor has not declared that it does not."""
-    call, receiver = delivery.call, delivery.receiver
-    if call is None or receiver is None or not call.is_message or not pushed_before_start(runtime, delivery):
-        return
-    ready = [was_ready for end, was_ready in call.targets if end.member is receiver]
-    was_idle = any(end.member is receiver for end in call.idle)
-    if not (was_idle or any(ready)):
-        return
-    option, value = ("receiver-not-ready", "hold") if was_idle else ("pending-at-stop", "keep")
-    if not ledger.observed(option, value):
-        ledger.violated(
-            "R-10.1.6.1-09",
-            "later_phases",
-            option,
-            f"{option} was declared as {ledger.claims.reading(option)}: {name_of(call)} does not come after a start",
-            f"it entered {receiver.lane} after its next start",
-            events_of(call, delivery.enter.n),
-        )
-
-
-@rule("waited", "R-10.1.6.1-09", timed=True)
-def kept_for_later_phases(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
-    """A message that waits for the next start comes then, where the vendor has declared it."""
-    for call in messages(runtime):
-        if call.code != OK or not is_whole(ledger, runtime, call):
-            continue
-        for end, was_ready in call.targets:
-            since, _ = runtime.startups.get((end.member.component, end.member.instance or 0), (0, 0))
-            lost = end.member.serving and end.until is None and since > call.request.n and not _was_delivered(call, end)
-            if not lost or counts(end.member) or not waited_for(runtime, timeout, call.reply.t if call.reply else 0):
-                continue
-            if not was_ready and end not in call.idle:
-                continue
-            option = "pending-at-stop" if was_ready else "receiver-not-ready"
-            if not ledger.observed(option, "drop"):
-                expected = (
-                    f"{option} was declared as {ledger.claims.reading(option)}: {name_of(call)} comes after the start"
-                )
-                ledger.violated(
-                    "R-10.1.6.1-09",
-                    "kept_for_later_phases",
-                    option,
-                    expected,
-                    f"it never came to {end.member.lane}",
-                    events_of(call, timeout.n),
-                )
-
-
-@rule("ended", "R-10.1.6.1-09", at=("stop",))
-def delivered_at_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
-    """All that had got ok has arrived when stop returns, where the vendor has declared it."""
-    if isinstance(end, Raise) or runtime.interactions is None:
-        return
-    for call in messages(runtime):
-        for target in of_one_phase(runtime, call) if call.code == OK and is_whole(ledger, runtime, call) else ():
-            here = target.member.container is window.container and not counts(target.member)
-            if not here or call.request.n > window.call or _was_delivered(call, target):
-                continue
-            if ledger.claims.reading("pending-at-stop") == "deliver":
-                ledger.violated(
-                    "R-10.1.6.1-09",
-                    "delivered_at_stop",
-                    "pending-at-stop",
-                    f"pending-at-stop was declared as deliver: {name_of(call)} is delivered when stop returns",
-                    f"it had not come to {target.member.lane}",
-                    events_of(call, end.n),
-                )
-
-
 @rule("delivered", "R-10.1.6.1-19")
 def values_isolated(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
     """Who overwrites what he pushed or got changes what nobody else sees."""
@@ -353,21 +254,6 @@ def joined_and_started(ledger: Ledger, runtime: Runtime, window: Window, end: Re
             (window.call, end.n),
             window.step_number,
         )
-
-
-def _was_delivered(call: MethodCall, end: End) -> bool:
-    return bool(call.delivered_to(end.member, end.port))
-
-
-def _was_kept_waiting(runtime: Runtime, call: MethodCall, receiver: Member) -> bool:
-    """Has this message, or one before it, been pushed when it could have come while the receiver was not operational?"""
-    since = runtime.startups.get((receiver.component, receiver.instance or 0), (0, 0))[0]
-    starts = [o.begin.n for o in interactions_of(runtime).operations if isinstance(o.step, s.Start)]
-    started = max((n for n in starts if n < since), default=0)
-    last = min(call.request.n, started - 1)
-    earlier = [c for c in messages(runtime) if c.link is call.link and c.request.n <= last]
-    pending = [c for c in earlier if all(d.enter.n > since for d in c.delivered_to(receiver))]
-    return any(end.member is receiver for c in pending for end, _ in c.targets)
 
 
 def _is_taken(member: Member, port: str) -> bool:

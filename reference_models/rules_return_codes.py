@@ -251,21 +251,6 @@ def ok_after_mending(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None
         _violate(ledger, requirement, "ok_after_mending", call, "is answered ok: its connection was mended", "mended")
 
 
-@rule("completed", "R-10.1.6.1-09")
-def unready_receivers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
-    """What is pushed to a receiver that is not operational is answered as the vendor has declared."""
-    if not call.is_message or not call.idle or not is_whole(ledger, runtime, call) or not is_quiet(runtime, call):
-        return
-    others = [end for end, ready in call.targets if ready and end not in call.idle]
-    if len(others) + len(call.idle) < len(call.targets) or not all(is_well(end.member) for end in others):
-        return
-    refused = call.code in CODES and call.code != OK
-    declared = ledger.claims.reading("receiver-not-ready")
-    if (refused and not ledger.observed("receiver-not-ready", "error")) or (declared == "error" and call.code == OK):
-        expected = f"is answered as receiver-not-ready was declared: {declared}"
-        _violate(ledger, "R-10.1.6.1-09", "unready_receivers", call, expected, "receiver-not-ready")
-
-
 def _is_undisturbed(ledger: Ledger, runtime: Runtime, call: MethodCall) -> bool:
     """Is it a message that has been answered, by a connector that was whole and had only receivers that are operational?"""
     return call.is_message and call.reply is not None and is_whole(ledger, runtime, call) and is_healthy(runtime, call)
