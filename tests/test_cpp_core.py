@@ -387,7 +387,7 @@ def test_stress_without_callers(builds: Builds) -> None:
 
 @needs_two_cores
 def test_stress_finds_small_holes_and_never_cries_wolf(builds: Builds) -> None:
-    done = run([builds.program("power"), "4", "50", "1"])
+    done = run([builds.program("power"), "3", "50", "0.3"])
     found = {line["subject"]: line for line in map(json.loads, done.stdout.splitlines())}
     assert not [name for name, line in found.items() if line["right"] and line["found"]]
     for name in ("no lock on 1 of 1,000 calls (mutex)", "checked, then set", "checked, 1 us later set"):

@@ -202,16 +202,17 @@ void stress(const Subject& subject, std::chrono::milliseconds duration, Sums& su
     sums.blind += numbers.control_overlaps == 0;
 }
 
-std::int64_t argument(int argc, char** argv, int number, std::int64_t otherwise) {
-    return argc > number ? std::atoll(argv[number]) : otherwise;
+double argument(int argc, char** argv, int number, double otherwise) {
+    return argc > number ? std::atof(argv[number]) : otherwise;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::int64_t trials = argument(argc, argv, 1, 100);
-    const std::chrono::milliseconds duration(argument(argc, argv, 2, 100));
-    const std::int64_t right_trials = argument(argc, argv, 3, 10) * 1000 / duration.count();
+    const std::int64_t trials = static_cast<std::int64_t>(argument(argc, argv, 1, 100));
+    const std::chrono::milliseconds duration(static_cast<std::int64_t>(argument(argc, argv, 2, 100)));
+    const std::int64_t right_trials =
+        static_cast<std::int64_t>(argument(argc, argv, 3, 10) * 1000 / static_cast<double>(duration.count()));
     const std::vector<Subject> subjects = {
         {"no lock on 1 of 1,000 calls (mutex)", false, make<Forgetful<std::mutex, 1000>>},
         {"no lock on 1 of 1,000 calls (spin lock)", false, make<Forgetful<SpinLock, 1000>>},
