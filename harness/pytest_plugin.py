@@ -62,6 +62,8 @@ def pytest_configure(config: pytest.Config) -> None:
         if profile not in PROFILES:
             problem = in_the_making(profile) or f"there is no profile '{profile}'"
             raise pytest.UsageError(f"{problem}; there is {', '.join(PROFILES)}")
+    if config.getoption("--iut-ics"):
+        _statement(config)
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
@@ -91,7 +93,7 @@ def _has_no_purpose(item: pytest.Item) -> bool:
 
 
 def _statement(config: pytest.Config) -> Statement:
-    """What the vendor states; wrong use is told before anything runs."""
+    """What the vendor states."""
     if _STATEMENT not in config.stash:
         from pathlib import Path
 
@@ -103,7 +105,7 @@ def _statement(config: pytest.Config) -> Statement:
         try:
             config.stash[_STATEMENT] = stated_by(Path(given) if given else None, config.getoption("--iut") or "")
         except (WrongUse, DocumentError) as error:
-            pytest.exit(f"ucm-cts: {error}", returncode=2)
+            raise pytest.UsageError(str(error)) from None
     return config.stash[_STATEMENT]
 
 

@@ -258,6 +258,18 @@ def test_known_failures(here: Path) -> None:
     assert {f["waived"] for r in failing for f in r["findings"]} == {reason}
 
 
+def test_statement(here: Path) -> None:
+    write_files("docs/statement.md")
+    (writes, runs) = (c.replace("ADAPTER", "reference-py") for c in commands("ucm-cts") if "my-ics.toml" in c)
+    outcome = ucm_cts(*shlex.split(runs)[1:], "-k", "R-11.2.3-11", "--out", "out")
+    assert (outcome.err, report_of(here / "out")["statement"]["source"]) == ("", "my-ics.toml")
+    assert "fail" not in {r["verdict"] for r in report_of(here / "out")["requirements"]}
+    assert ucm_cts(*shlex.split(writes)[1:]).status == 2, "it is there already"
+    assert ucm_cts(*shlex.split(writes)[1:], "--force").status == 0
+    keys = {key for row in column("docs/statement.md", r"(`.+?`) \| .+ \| .+") for key in re.findall(r"[\w]+", row)}
+    assert keys == tomllib.loads((here / "my-ics.toml").read_text()).keys()
+
+
 def test_python_guide(here: Path) -> None:
     write_files("docs/adapter-python.md")
     assert "ucm-cts run my_adapter:BeansAdapter" in commands("ucm-cts run")

@@ -152,6 +152,17 @@ def test_selection() -> None:
     assert 2 <= len(expected) < len(PURPOSES)
 
 
+def test_statement_says_what_is_run_and_what_binds(here: Path) -> None:
+    (here / "ics.toml").write_text('[readings]\nremove-while-ready = "cascade"\n')
+    session = suite("--iut", "reference-py", "--iut-ics", "ics.toml", "-k", "ready/remove_component")
+    assert session.status == 1
+    assert {HEAD.findall(message)[0] for message in session.failed.values()} == {"R-11.2.3-11"}
+    (here / "ics.toml").write_text("[readings]\nremove-while-ready = 1\n")
+    session = suite("--iut", "reference-py", "--iut-ics", "ics.toml")
+    assert session.status == 4
+    assert "ERROR: ics.toml:2: remove-while-ready is" in session.out
+
+
 # what becomes of them
 
 

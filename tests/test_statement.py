@@ -1,0 +1,424 @@
+"""The vendor's statement: as a file, what of the suite applies under it, and what becomes of false claims."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+from collections.abc import Iterable
+from pathlib import Path
+
+import msgspec
+import pytest
+from command_line import report_of, ucm_cts, within
+from lxml import etree
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.messages import PROTOCOL, Welcome
+from ucm_cts.harness.applicability import asked_in_vain, needs_of, purposes_for, why_not
+from ucm_cts.harness.campaign import Campaign
+from ucm_cts.harness.catalogue import load_capabilities, load_options, load_requirements
+from ucm_cts.harness.core_models import CHECKS, CORE
+from ucm_cts.harness.documents import DocumentError
+from ucm_cts.harness.driver import Driver
+from ucm_cts.harness.locate import WrongUse, locate
+from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.report.write import save_report
+from ucm_cts.harness.results import Report
+from ucm_cts.harness.statement import HOOKS, IXIT, Statement, default_statement
+from ucm_cts.harness.statement_files import LARGEST, check_subject, read_statement
+from ucm_cts.harness.statement_writing import to_toml, write_statement
+
+ADAPTER = "ucm_cts.adapters.reference_py.adapter:ReferenceAdapter"
+REQUIREMENTS = {r.id: r for r in load_requirements()}
+CORE_REQUIREMENTS = [r for r in load_requirements() if r.profile == "core" and not r.untestable]
+PARTS = [capability.id for capability in load_capabilities().capabilities]
+EVERYTHING = {hook: "hook" for hook in HOOKS}
+
+
+def stating(capabilities: dict[str, bool] | None = None, **changes: object) -> Statement:
+    """What holds without a statement, but for this."""
+    default = default_statement()
+    readings = default.readings | EVERYTHING | changes.pop("readings", {})  # type: ignore[operator]
+    return msgspec.structs.replace(
+        default, readings=readings, capabilities=default.capabilities | (capabilities or {}), **changes
+    )
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    within(tmp_path, monkeypatch)
+    return tmp_path
+
+
+# as a file
+
+
+def written(statement: Statement | None = None) -> Path:
+    Path("ics.toml").write_text(to_toml(statement or default_statement(), "adapter", "ics.toml"))
+    return Path("ics.toml")
+
+
+def test_what_is_written_says_what_holds_without_it() -> None:
+    assert msgspec.structs.replace(read_statement(written()), source="") == default_statement()
+
+
+def test_what_is_written_has_every_value_with_its_permitted_ones_its_meaning_and_its_clauses() -> None:
+    text = written().read_text()
+    for option, values in load_options().items():
+        assert f'\n# {option}: {", ".join(values)}\n{option} = "{values[0]}"\n' in text
+    for name in (*PARTS, *IXIT):
+        assert re.search(rf"(?m)^{name} = \S+", text), name
+    for paragraph in text.partition("[readings]")[2].partition("[ixit]")[0].split("\n\n")[1:-1]:
+        assert re.match(r"# [\w-]+ \([\d., ]+\)\n# \S", paragraph), paragraph
+    assert max(map(len, text.split("\n"))) <= 128
+
+
+def test_whatever_a_product_is_called_comes_through() -> None:
+    stated = stating(product='A "b" \\ #\t\x7f\x01\n\U0001f600é', version="'")
+    assert read_statement(written(stated)).product == stated.product
+
+
+def test_a_short_statement_leaves_the_rest_as_it_is(here: Path) -> None:
+    Path("ics.toml").write_text('[readings]\nrun-trigger = "once"\n[ixit]\nclock-rate = 0.5\n')
+    statement = read_statement(here / "ics.toml")
+    default = default_statement()
+    assert statement.readings == default.readings | {"run-trigger": "once"}
+    assert (statement.ixit, statement.capabilities) == (default.ixit | {"clock-rate": 0.5}, default.capabilities)
+    assert (statement.source, statement.claims.tolerance("clock-rate")) == ("ics.toml", 0.5)
+
+
+GOOD = """\
+product = "x"
+profiles = ["core"]
+[capabilities]
+clock = true
+[readings]
+run-trigger = "once"
+[ixit]
+patience = 2000
+[models]
+core = ["models"]
+"""
+BAD = {
+    "unknown table": (GOOD + "[redings]\n", 11, "did you mean 'readings'?"),
+    "unknown key": (GOOD.replace("product", "prodct"), 1, "did you mean 'product'?"),
+    "no text": (GOOD.replace('"x"', "1"), 1, "product is a text, in quotes"),
+    "unknown profile": (GOOD.replace('"core"]\n[cap', '"cor"]\n[cap'), 2, "did you mean 'core'?"),
+    "no list": (GOOD.replace('["core"]\n[cap', '"core"\n[cap'), 2, "profiles is a list"),
+    "a number in a list": (GOOD.replace('["core"]\n[cap', '["core", 1]\n[cap'), 2, "profiles is a list"),
+    "unknown capability": (GOOD.replace("clock =", "clok ="), 4, "did you mean 'clock'?"),
+    "not yes or no": (GOOD.replace("true", '"yes"'), 4, "write true or false"),
+    "unknown option": (GOOD.replace("run-trigger", "run-triger"), 6, "did you mean 'run-trigger'?"),
+    "unknown value": (GOOD.replace("once", "twice"), 6, "'twice'; it can be observed, repeated, once"),
+    "no value": (GOOD.replace('"once"', "true"), 6, "it can be observed, repeated, once"),
+    "quoted option": (GOOD.replace("run-trigger", '"run-triger"'), 6, "did you mean 'run-trigger'?"),
+    "unknown quantity": (GOOD.replace("patience", "patents"), 8, "did you mean 'patience'?"),
+    "no number": (GOOD.replace("2000", '"2000"'), 8, "a number of ms"),
+    "yes is no number": (GOOD.replace("2000", "true"), 8, "a number of ms"),
+    "not a number": (GOOD.replace("2000", "nan"), 8, "a number of ms from 1"),
+    "no end": (GOOD.replace("2000", "inf"), 8, "a number of ms"),
+    "below nothing": (GOOD.replace("2000", "-1"), 8, "a number of ms"),
+    "too long": (GOOD.replace("2000", "1e30"), 8, "a number of ms"),
+    "a table is none": ("readings = 5\n", 1, "write [readings] on a line of its own"),
+    "a list of tables": ("[[readings]]\n", None, "write [readings]"),
+    "other models": (GOOD.replace("core = [", "probes = ["), 10, "there is no key 'probes'"),
+    "models are a path": (GOOD.replace('["models"]', '"models"'), 10, "core is a list of texts"),
+    "a path that none can be": (GOOD.replace('"models"', '"a\\u0000b"'), 10, "core is a list of texts"),
+    "models that are not there": (
+        GOOD.replace("[readings]", '[readings]\ncore-models = "built-in"'), 11, "leave them out"
+    ),
+    "given twice": (GOOD + 'core = ["more"]\n', 11, "not TOML: "),
+    "not TOML": (GOOD.replace("clock = true", "clock: true"), 4, "not TOML: "),
+    "YAML": ("- product: x\n", 1, "not TOML: "),
+    "unfinished": (GOOD + 'x = "', 11, "not TOML: "),
+    "control characters": ('product = "\x00"', 1, "not TOML: "),
+    "a long number": ("[ixit]\npatience = " + "9" * 5000, None, "a number this long"),
+    "deep lists": ("a = " + "[" * 100_000, None, "nests too deep"),
+    "deep tables": ("a." * 100_000 + "b = 1", 1, "nests too deep"),
+    "a long key": ("x" * 100_000 + " = 1", 1, "there is no table or key"),
+    "huge": ("#" * (LARGEST + 1), None, f"is larger than {LARGEST} bytes"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "line", "problem"), BAD.values(), ids=BAD.keys())
+def test_bad_statement_is_told_with_file_line_and_remedy(text: str, line: int | None, problem: str) -> None:
+    path = Path("bad.toml")
+    path.write_text(text)
+    with pytest.raises(DocumentError) as caught:
+        read_statement(path)
+    message = str(caught.value)
+    assert message.startswith(f"bad.toml:{line}: " if line else "bad.toml: "), message
+    assert problem in message
+    assert len(message) < 400
+    assert "\n" not in message
+
+
+def test_not_utf8_not_there_and_a_good_one() -> None:
+    path = Path("ics.toml")
+    path.write_bytes(b'product = "x"\nversion = "\xff"\n')
+    with pytest.raises(DocumentError, match=r":2: is not UTF-8"):
+        read_statement(path)
+    for missing in (Path("nowhere.toml"), Path()):
+        with pytest.raises(DocumentError, match="cannot be read"):
+            read_statement(missing)
+    path.write_bytes(b"\xef\xbb\xbf" + GOOD.replace("\n", "\r\n").encode())
+    assert read_statement(path).readings["run-trigger"] == "once"
+
+
+@pytest.mark.parametrize(
+    ("product", "version", "profile", "problem"),
+    [
+        ("Y", "1", "core", "is about product 'X'"),
+        ("X", "2", "core", "is about version '1'"),
+        ("X", "1", "container", "core"),
+    ],
+)
+def test_statement_about_something_else_is_refused(product: str, version: str, profile: str, problem: str) -> None:
+    statement = stating(product="X", version="1", profiles=("core",), source="ics.toml")
+    check_subject(statement, Welcome(PROTOCOL, "X", "1", ""), "core")
+    with pytest.raises(WrongUse, match=problem):
+        check_subject(statement, Welcome(PROTOCOL, product, version, ""), profile)
+
+
+# what applies
+
+
+def test_needs_name_what_there_is() -> None:
+    known = {f"{option}={value}" for option, values in load_options().items() for value in values} | set(PARTS)
+    for need in load_capabilities().needs:
+        assert {*need.needs, *need.one_of} <= known
+        for pattern in need.requirements:
+            assert any(need in load_capabilities().of(r.id) for r in CORE_REQUIREMENTS), pattern
+    always = {r.id for r in CORE_REQUIREMENTS if not load_capabilities().of(r.id)}
+    assert always == {
+        *("R-10-02", "R-10.1-01", "R-10.1-02", "R-10.1-03", "R-10.1.1-02", "R-10.1.1-05", "R-10.1.1-06"),
+        *(f"R-10.1.2-0{n}" for n in range(3, 9)),
+    }
+
+
+def test_everything_applies_and_is_run_where_everything_is_claimed() -> None:
+    everything = stating()
+    assert [r.id for r in load_requirements() if why_not(r, everything)] == []
+    assert asked_in_vain(everything, "core") == {}
+    readings = tuple(f"{hook}=hook" for hook in HOOKS)
+    assert len(purposes_for(everything, "core")) == len(load_purposes("core", *readings))
+    assert purposes_for(default_statement(), "container") == load_purposes("container")
+
+
+def test_without_means_of_tests_only_what_needs_them_is_left() -> None:
+    default = default_statement()
+    unmet = {r.id: why_not(r, default) for r in CORE_REQUIREMENTS if why_not(r, default)}
+    assert {verdict for verdict, _ in filter(None, unmet.values())} == {"inconclusive"}
+    assert asked_in_vain(default, "core").keys() <= unmet.keys()
+    steps = [step for p in purposes_for(default, "core") for _, scenario in p.scenarios for step in scenario.steps]
+    assert not [step for step in steps if isinstance(step, s.Break | s.ReadLog)]
+    exercised = {r for p in purposes_for(default, "core") for r in p.requirements}
+    behavioural = {r.id for r in CORE_REQUIREMENTS if not set(r.rules) <= CHECKS.keys()}
+    assert behavioural - exercised - unmet.keys() <= behavioural - {
+        r for p in load_purposes("core") for r in p.requirements
+    }
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_scenarios_of_a_part_that_is_left_out_are_not_run(part: str) -> None:
+    without = stating({part: False})
+    for purpose in purposes_for(without, "core"):
+        assert part not in {need for _, scenario in purpose.scenarios for need in needs_of(scenario)}, purpose.id
+        if purpose.draw is not None:
+            drawn = purpose.draw(1, without.readings)
+            assert [name for name, _ in drawn] == [name for name, _ in purpose.scenarios]
+    gone = {r.id for r in CORE_REQUIREMENTS if why_not(r, without)}
+    assert gone
+    assert {why_not(REQUIREMENTS[r], without)[0] for r in gone} == {"not applicable"}  # type: ignore[index]
+
+
+def test_readings_may_make_requirements_not_apply() -> None:
+    narrow = stating(readings={"log-message": "narrow-255", "port-trace-parameters": "none"})
+    gone = {r.id for r in CORE_REQUIREMENTS if why_not(r, narrow)}
+    assert gone == {"R-10.1.4.2-47", *(f"R-10.1.4.2-{n}" for n in range(31, 36))}
+    built_in = stating(readings={"core-models": "built-in"})
+    of_models = {r.id for r in CORE_REQUIREMENTS if set(r.rules) <= CHECKS.keys()}
+    assert {r.id for r in CORE_REQUIREMENTS if why_not(r, built_in)} == of_models
+
+
+def test_patience_is_the_vendors() -> None:
+    hasty = stating(ixit=default_statement().ixit | {"patience": 500.0})
+    usual = {name: scenario for p in purposes_for(stating(), "core") for name, scenario in p.scenarios}
+    for purpose in purposes_for(hasty, "core"):
+        for name, scenario in purpose.scenarios:
+            assert scenario.patience == round(usual[name].patience / 4)
+
+
+# what comes of it
+
+
+def run(statement: Statement, *requirements: str, adapter: str = ADAPTER) -> Report:
+    """A report for profile core, of those purposes that are to exercise ``requirements``."""
+    chosen = [p for p in purposes_for(statement, "core") if {*p.requirements} & {*requirements}]
+    with Driver(locate(adapter, in_process=True), 1) as driver:
+        campaign = Campaign(driver, "core", (), statement)
+        list(campaign.check(chosen))
+        list(campaign.shorten())
+        return campaign.report()
+
+
+def verdicts(report: Report, of: Iterable[str] = ()) -> dict[str, str]:
+    return {r.id: r.verdict for r in report.requirements if r.id in of or not of}
+
+
+def test_a_part_left_out_is_a_failure_of_the_core_and_the_rest_of_it_does_not_apply(here: Path) -> None:
+    report = run(stating({"clock": False}, source="ics.toml"), "R-10.1.3.2-15", "R-10.1.4.1-08")
+    wanted = ("R-10.1-01", "R-10.1.4.1-08", "R-10.1.3.2-15")
+    assert verdicts(report, wanted) == dict(zip(wanted, ("fail", "not applicable", "pass"), strict=True))
+    assert report.verdict == "not conformant"
+    results = {r.id: r for r in report.requirements}
+    assert results["R-10.1.4.1-08"].reason == "ics.toml says clock = false"
+    (failed,) = results["R-10.1-01"].findings
+    assert failed.execution is None
+    assert failed.finding.observed == "the vendor's statement (ics.toml) leaves out clock"
+    save_report(report, here / "out")
+    document = report_of(here / "out")
+    assert document["statement"]["capabilities"]["clock"] is False
+    (entry,) = [r for r in document["requirements"] if r["id"] == "R-10.1-01"]
+    assert (entry["findings"][0]["replay"], entry["findings"][0]["scenario"]) == ("", "")
+    assert {path.name for path in (here / "out" / "failures").iterdir()} == {"ics.toml"}
+    page = etree.HTML((here / "out" / "report.html").read_text())
+    cells = {row[0][0].text: row[1].text for row in page.xpath("//section[@id='statement']//tr") if len(row[0])}
+    assert (cells["clock"], cells["port_trace"], cells["trace-sink"]) == ("no", "yes", "hook")
+    (told,) = page.xpath("//tbody[@id='R-10.1-01']//section")
+    assert not told.xpath(".//svg")
+    assert "Replay" not in "".join(told.itertext())
+    junit = etree.parse(here / "out" / "junit.xml")
+    assert junit.xpath("//testcase[starts-with(@name, 'R-10.1-01')]/failure/@message") == [failed.finding.observed]
+    assert junit.xpath("//testcase[starts-with(@name, 'R-10.1.4.1-08')]/skipped/@message") == [
+        "not applicable: ics.toml says clock = false"
+    ]
+    again = read_statement(here / "out" / "failures" / "ics.toml")
+    assert again.capabilities == report.statement.capabilities
+
+
+def test_core_is_claimed_and_there() -> None:
+    assert verdicts(run(stating(), "R-10.1.5.1-09"), ["R-10.1-01"]) == {"R-10.1-01": "pass"}
+
+
+def test_what_is_claimed_and_not_offered_is_a_false_claim() -> None:
+    report = run(stating(), "R-10.1.5.1-09", adapter="subjects:has_no_services")
+    assert verdicts(report, ["R-10.1-01"]) == {"R-10.1-01": "fail"}
+    honest = run(stating({s.SERVICE_CONNECTOR: False}), "R-10.1.5.1-09", adapter="subjects:has_no_services")
+    assert verdicts(honest, ["R-10.1-01", "R-10.1.5.1-09"]) == {"R-10.1-01": "fail", "R-10.1.5.1-09": "not applicable"}
+
+
+def test_models_give_verdicts(here: Path) -> None:
+    models = here / "models"
+    models.mkdir()
+    for path in CORE.glob("*.xml"):
+        (models / path.name).write_text(path.read_text().replace('name="ok" value="0"', 'name="ok" value="7"'))
+    (models / "container_services.xml").unlink()
+    report = run(stating(models=("models",), folder=str(here), source="ics.toml"))
+    results = {r.id: r for r in report.requirements}
+    (failed,) = results["R-10.1.2-05"].findings
+    assert (results["R-10.1.2-05"].verdict, failed.finding.rule) == ("fail", "core_declarations")
+    assert failed.finding.observed == "value 7 (return_codes.xml:10)"
+    assert results["R-10.1.2-06"].verdict == "pass"
+    assert results["R-10.1.2-06"].exercised == 1
+    assert results["R-10.1.4.2-20"].verdict == "inconclusive"
+    assert results["R-10.1.4.2-20"].reason == "models: what should contain it is missing"
+    assert report.readings["comm-ecode-index"] == ("declared-type",)
+    save_report(report, here / "out")
+    assert "return_codes.xml:10" in (here / "out" / "report.html").read_text()
+
+
+def test_models_that_cannot_be_used_are_told_before_anything_runs(here: Path) -> None:
+    for models, problem in ((("none.xml",), "none.xml: cannot be read"), (("bad.xml",), "bad.xml:1: is not XML")):
+        (here / "bad.xml").write_text("<a>")
+        with pytest.raises(DocumentError, match=problem):
+            run(stating(models=models, folder=str(here)))
+
+
+def test_what_may_be_missing_from_models_does_not_apply(here: Path) -> None:
+    for path in CORE.glob("*.xml"):
+        text = re.sub(r'<PrimitiveInteger name="log_severity_enumerator_t"[^>]*>', "", path.read_text())
+        (here / path.name).write_text(text)
+    (result,) = [r for r in run(stating(models=(".",), folder=str(here))).requirements if r.id == "R-10.1.4.2-45"]
+    assert (result.verdict, result.exercised) == ("not applicable", 0)
+    assert "it may be missing, and it is" in result.reason
+
+
+def test_without_models_what_only_they_show_is_open(here: Path) -> None:
+    (result,) = [r for r in run(stating()).requirements if r.id == "R-10.1.2-05"]
+    assert (result.verdict, result.reason) == ("inconclusive", "models: there is no model to look at")
+
+
+# commands
+
+
+def test_ics_writes_a_statement_that_run_takes(here: Path) -> None:
+    outcome = ucm_cts("ics", "reference-py")
+    assert (outcome.status, outcome.err) == (0, "")
+    statement = read_statement(here / "ucm-cts-ics.toml")
+    assert statement.product == "UCM-CTS reference framework (Python)"
+    assert msgspec.structs.replace(statement, product="", version="", source="", folder=".") == default_statement()
+    (command,) = re.findall(r"(ucm-cts run .*)", outcome.out)
+    outcome = ucm_cts(*shlex.split(command)[1:], "-k", "R-11.2.2.1-13")
+    assert (outcome.status, outcome.err) == (1, ""), "of a selection most is inconclusive"
+    assert report_of(here / "ucm-cts-report")["statement"]["source"] == "ucm-cts-ics.toml"
+
+
+def test_ics_writes_over_nothing_unless_told_to(here: Path) -> None:
+    identity = Welcome(PROTOCOL, "Fancy\n\x00" + "x" * 1000, "1", "")
+    (here / "mine.toml").write_text("mine")
+    with pytest.raises(WrongUse, match="--force"):
+        write_statement(here / "mine.toml", identity, "adapter")
+    assert (here / "mine.toml").read_text() == "mine"
+    write_statement(here / "mine.toml", identity, "adapter\nrm", force=True)
+    check_subject(read_statement(here / "mine.toml"), identity, "core")
+    for out in (here / "none" / "ics.toml", here):
+        with pytest.raises(WrongUse, match=r"cannot be written|is there already"):
+            write_statement(out, identity, "adapter")
+    assert ucm_cts("ics", "nobody").status == 2
+
+
+def test_a_declared_reading_that_is_not_taken_fails_and_replays(here: Path) -> None:
+    (here / "mine.toml").write_text('[readings]\nremove-while-ready = "cascade"\n')
+    selection = ("-k", "R-11.2.3-11", "--out", "out")
+    outcome = ucm_cts("run", "reference-py", "--ics", "mine.toml", *selection)
+    assert outcome.status == 1
+    assert "✗ R-11.2.3-11" in outcome.out
+    document = report_of(here / "out")
+    assert document["readings"]["remove-while-ready"] == ["refuse"]
+    (failing,) = [r for r in document["requirements"] if r["verdict"] == "fail"]
+    assert failing["findings"][0]["rule"] == "declared_choices"
+    page = etree.HTML((here / "out" / "report.html").read_text())
+    replay, repeat = page.xpath("//p[@class='command']/code/text()")[0], page.xpath("//dt[.='Repeat']/../dd//text()")[0]
+    assert repeat.endswith(" --ics mine.toml")
+    scenario = here / "out" / "failures" / "R-11.2.3-11.json"
+    assert json.loads(scenario.read_text())["exercises"] == ["R-11.2.3-11"]
+    (here / "mine.toml").unlink()
+    words = [word if "/" not in word else f"out/{word}" for word in shlex.split(replay)[1:]]
+    assert "remove-while-ready = cascade" in ucm_cts(*words).out
+    assert "no rule was broken" in ucm_cts("replay", scenario, "reference-py").out
+    ucm_cts("run", "reference-py", "-k", "R-11.2.3-11", "--out", "out")
+    assert "R-11.2.3-11.json" not in {path.name for path in (here / "out" / "failures").iterdir()}
+
+
+def test_wrong_statements_are_wrong_use(here: Path) -> None:
+    (here / "bad.toml").write_text("[readings]\nx = 1\n")
+    (here / "other.toml").write_text('product = "Other"\n')
+    for file, problem in (
+        ("bad.toml", "bad.toml:2: there is no option 'x'"),
+        ("other.toml", "is about product 'Other'"),
+    ):
+        outcome = ucm_cts("run", "reference-py", "--ics", file)
+        assert outcome.status == 2
+        assert problem in outcome.err
+        assert len(outcome.err.splitlines()) == 1
+    outcome = ucm_cts("run", "reference-py", "--ics", "nowhere.toml")
+    assert (outcome.status, outcome.err) == (2, "ucm-cts: nowhere.toml: cannot be read: No such file or directory\n")
+
+
+def test_reference_frameworks_state_what_they_are(here: Path) -> None:
+    for name in ("reference-py", "reference-cpp"):
+        assert ucm_cts("run", name, "-k", "R-11.2.2.1-13", "--out", name).err == ""
+        stated = report_of(here / name)["statement"]
+        assert (stated["source"], stated["readings"]["trace-sink"]) == ("ics.toml", "hook")
