@@ -42,8 +42,12 @@ def values_carried(runtime: Runtime) -> list[Carried]:
     if interactions is None or not interactions.links:
         return []
     carried = [one for call in interactions.calls for one in _carried_by(interactions, runtime, call)]
-    lost, altering = _lost_ways(carried), _altering_links(carried)
-    return [one for one in carried if one.way not in lost and (not one.displaced or id(one.call.link) in altering)]
+    lost, altered = _lost_ways(carried), _altered_types(carried)
+    return [
+        one
+        for one in carried
+        if one.way not in lost and (not one.displaced or any(d.part.of in altered for d in one.differences))
+    ]
 
 
 def altered_calls(runtime: Runtime) -> frozenset[MethodCall]:
@@ -57,9 +61,13 @@ def method_of(runtime: Runtime, call: MethodCall) -> Method | None:
     return interface.methods.get(call.request.method or "") if interface is not None else None
 
 
-def _altering_links(carried: Sequence[Carried]) -> set[int]:
-    """Links on which values are altered for certain: there, what is like another value may be so by chance."""
-    return {id(one.call.link) for one in carried if one.differences and not one.displaced}
+def _altered_types(carried: Sequence[Carried]) -> list[AnyType]:
+    """Types whose values are altered for certain: one of them that is like another value may be so by chance."""
+    found: list[AnyType] = []
+    for difference in (d for one in carried if not one.displaced for d in one.differences):
+        if difference.part.of not in found:
+            found.append(difference.part.of)
+    return found
 
 
 def _lost_ways(carried: Sequence[Carried]) -> set[str]:

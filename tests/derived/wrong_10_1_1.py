@@ -8,7 +8,7 @@ import struct
 from collections.abc import Callable, Mapping
 
 from derived.altering import Change, changing
-from derived.registry import Base, breaks_core, core_variant
+from derived.registry import Base, breaks_core, core_variant_of
 from ucm_cts.adapters.contract.data_types import (
     Alias,
     AnyType,
@@ -142,7 +142,7 @@ class knows_one_nan(Base):
     """Every NaN arrives as the same one, although the vendor declares that NaNs arrive as they are."""
 
 
-@core_variant
+@core_variant_of("10.1.1")
 class may_know_one_nan(Base):
     """Every NaN arrives as the same one, and the vendor declares no other reading."""
 
@@ -418,21 +418,21 @@ class forgets_attributes_with_lists(Base):
 # other ways of doing it right
 
 
-@core_variant
+@core_variant_of("10.1.1")
 class copies_values_deeply(Base):
     """Everything is copied on its way, part by part."""
 
     link_class = changing(lambda of, value: list(value) if isinstance(value, list) else value)
 
 
-@core_variant
+@core_variant_of("10.1.1")
 class marshals_values(Base):
     """Values travel as text, and each is given a second time to those who read it twice."""
 
     link_class = changing(lambda of, value: read_spelled(spell(value)))  # type: ignore[arg-type,return-value]
 
 
-@core_variant
+@core_variant_of("10.1.1")
 class spells_attributes_anew(Base):
     """Values of attributes are read, and spelled in another way."""
 
