@@ -314,8 +314,6 @@ def test_unknown_profile_is_one_clear_line_too() -> None:
     session = suite("--iut", "reference-py", "--iut-profile", "pim")
     assert session.status in (2, 4)
     assert session.out.count("there is no profile 'pim'") == 1
-    session = suite("--iut", "reference-py", "--iut-profile", "core")
-    assert session.out.count("profile 'core' is in the making") == 1
 
 
 def test_seed_and_process(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
