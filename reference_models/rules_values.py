@@ -111,6 +111,9 @@ def told(of: AnyType, value: object) -> str:
 @rule("closed", *REQUIREMENTS)
 def values_accepted(ledger: Ledger, runtime: Runtime) -> None:
     """A service call is not refused for its values, while others are served."""
+    interactions = runtime.interactions
+    if interactions is None or not any(call.reply is not None and call.reply.raised for call in interactions.calls):
+        return
     judged = [one for one in service_calls(runtime) if one.call.reply is not None and not is_disturbed(runtime, one)]
     troubles = [(one, trouble_with(runtime, one)) for one in judged]
     served = [one for one, trouble in troubles if not trouble]
