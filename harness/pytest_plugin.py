@@ -181,6 +181,12 @@ def _undecided(campaign: Campaign, report: Report) -> list[str]:
         for r in report.requirements
         if r.verdict in ("inconclusive", "error") and (whole or r.id in meant)
     ]
+    lines += [
+        f"fail {r.id}: expected {f.finding.expected}; observed {f.finding.observed}"
+        for r in report.requirements
+        for f in r.findings
+        if f.execution is None and not f.waived and (whole or r.id in meant)
+    ]
     if whole:
         lines += [
             f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it"

@@ -157,6 +157,11 @@ def test_statement_says_what_is_run_and_what_binds(here: Path) -> None:
     session = suite("--iut", "reference-py", "--iut-ics", "ics.toml", "-k", "ready/remove_component")
     assert session.status == 1
     assert {HEAD.findall(message)[0] for message in session.failed.values()} == {"R-11.2.3-11"}
+    (here / "ics.toml").write_text("[capabilities]\nsimple_message_connector = false\n")
+    session = suite("--iut", "reference-py", "--iut-profile", "core", "--iut-ics", "ics.toml", "-k", "10_1_6 or services/")
+    assert (session.status, session.failed) == (0, {})
+    assert session.nodes
+    assert not [node for node in session.nodes if "message" in node]
     (here / "ics.toml").write_text("[readings]\nremove-while-ready = 1\n")
     session = suite("--iut", "reference-py", "--iut-ics", "ics.toml")
     assert session.status == 4

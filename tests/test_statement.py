@@ -7,6 +7,7 @@ import re
 import shlex
 from collections.abc import Iterable
 from pathlib import Path
+from types import SimpleNamespace
 
 import msgspec
 import pytest
@@ -23,6 +24,7 @@ from ucm_cts.harness.documents import DocumentError
 from ucm_cts.harness.driver import Driver
 from ucm_cts.harness.locate import WrongUse, locate
 from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.pytest_plugin import _undecided
 from ucm_cts.harness.report.write import save_report
 from ucm_cts.harness.results import Report
 from ucm_cts.harness.statement import HOOKS, IXIT, Statement, default_statement
@@ -296,6 +298,15 @@ def test_a_part_left_out_is_a_failure_of_the_core_and_the_rest_of_it_does_not_ap
     ]
     again = read_statement(here / "out" / "failures" / "ics.toml")
     assert again.capabilities == report.statement.capabilities
+
+
+def test_what_no_scenario_shows_is_not_green_for_pytest() -> None:
+    without = stating({"clock": False})
+    everything = SimpleNamespace(checked=purposes_for(without, "core"), statement=without, known=())
+    (line,) = [line for line in _undecided(everything, run(without)) if line.startswith("fail ")]  # type: ignore[arg-type]
+    assert line.startswith("fail R-10.1-01: expected ")
+    everything.checked = ()
+    assert _undecided(everything, run(without)) == []  # type: ignore[arg-type]
 
 
 def test_core_is_claimed_and_there() -> None:
