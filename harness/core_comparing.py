@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
 
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.core_spellings import INTEGERS, KNOWN_ATTRIBUTES, KNOWN_TAGS, Element, is_printed, words
@@ -205,7 +205,7 @@ class Comparing:
                 continue
             fact, there = _KEPT, theirs.attributes.get(attribute, "")
             if not self._equal(attribute, value, ours, theirs):
-                strange = not is_printed(attribute, there) if there else set(theirs.attributes) - KNOWN_ATTRIBUTES
+                strange = _is_strange(attribute, value, there) if there else set(theirs.attributes) - KNOWN_ATTRIBUTES
                 told = f"{attribute} {there}" if there else f"no {attribute}" if value else ""
                 status: Status = "unclear" if strange or theirs.tag not in KNOWN_TAGS else "broken"
                 fact = Fact(status, f"{attribute} {value}" if value else f"no {attribute}", f"{told} ({theirs.where})")
@@ -285,12 +285,19 @@ def _may_be(ours: Element, child: Element) -> bool:
     return child.tag not in KNOWN_TAGS or (nameless and bool(set(child.attributes) - KNOWN_ATTRIBUTES))
 
 
+def _is_strange(attribute: str, value: str, there: str) -> bool:
+    """Is ``there`` written as the text never writes it: another word, or a role or an item without its pattern?"""
+    bare = attribute in ("portRole", "interactionItem") and (there,) == _segments(value)[-1:]
+    return bare or not is_printed(attribute, there)
+
+
 def _same(one: Element, other: Element) -> bool:
-    return (
-        (one.tag, one.attributes) == (other.tag, other.attributes)
-        and len(one.children) == len(other.children)
-        and all(any(_same(a, b) for b in other.children) for a in one.children)
-    )
+    return _form(one) == _form(other)
+
+
+def _form(element: Element) -> tuple[Any, ...]:
+    """What is declared, in whatever order."""
+    return element.tag, tuple(sorted(element.attributes.items())), tuple(sorted(map(_form, element.children)))
 
 
 def _segments(reference: str) -> tuple[str, ...]:

@@ -23,6 +23,8 @@ _SAME_TAG = {
     "InterfaceTemplateParameter": "InterfaceTypeTemplateParameter",
     "AbstractDataType": "DataTypeTemplateParameter",
     "PrimitiveType": "PrimitiveInteger",
+    "InteractionDefinitionModule": "InteractionModule",
+    "TechnicalPolicyModule": "NonfunctionalAspectModule",
     "String8": "StringType",
     "String32": "StringType",
 }
@@ -47,12 +49,13 @@ def words(text: str) -> tuple[str, ...]:
 
 KNOWN_TAGS = frozenset(
     words("""
-    AnnotationDefinition ArrayType Attribute ComponentModule ConfigurationParameter ConnectorDefinition
-    ConnectorPortDefinition Constant ContractModule DataTypeTemplateParameter Enumeration Enumerator Exception
-    ExceptionField InteractionItem InteractionModule InteractionPattern InteractionRole Interface
-    InterfaceTypeTemplateParameter InvolvedItem ItemBinding Language Method NativeType NonfunctionalAspectModule
-    Parameter PortElement PrimitiveBoolean PrimitiveChar PrimitiveFloat PrimitiveInteger ProgrammingLanguages
-    PropertyDefinition RaisedException SequenceType StringType Structure StructureField TechnicalAspect
+    Alias Annotation AnnotationDefinition ApplicationModule Array ArrayDimension ArrayType Attribute ComponentModule
+    ConfigurationParameter ConfigurationParameterValue ConnectorDefinition ConnectorPortDefinition Constant
+    ContractModule DataTypeTemplateParameter Enumeration Enumerator Exception ExceptionField InteractionItem
+    InteractionModule InteractionPattern InteractionRole Interface InterfaceTypeTemplateParameter InvolvedItem
+    ItemBinding Language Method NativeType NonfunctionalAspectModule Parameter PlatformModule PortElement
+    PrimitiveBoolean PrimitiveChar PrimitiveFloat PrimitiveInteger ProgrammingLanguages PropertyDefinition
+    RaisedException Sequence SequenceType SimpleComment StringType Structure StructureField TechnicalAspect
     TechnicalPolicyDefinition TemplatedPort Union UnionCase
     """)
 )
@@ -75,6 +78,8 @@ _WORDS = {
     "applicability": words("onComponent onPort onBoth"),
     "multiplicity": words("anyNumber atMostOne exactlyOne atLeastOne"),
 }
+_NUMBERS = words("value lowerMultiplicity upperMultiplicity maxSize")
+_NUMBER = re.compile("[-+]?[0-9]{1,18}")
 _SAME_WORD = {"anynumer": "anyNumber"} | {word.lower(): word for printed in _WORDS.values() for word in printed}
 
 
@@ -106,8 +111,10 @@ class Element:
 
 
 def is_printed(attribute: str, value: str) -> bool:
-    """Is ``value`` one that the text prints for this attribute, as far as it prints them one by one?"""
-    return value in _WORDS[attribute] if attribute in _WORDS else True
+    """Is ``value`` written as the text writes values of this attribute: one of its words, or a number in digits?"""
+    if attribute in _NUMBERS:
+        return bool(_NUMBER.fullmatch(value))
+    return value in _WORDS.get(attribute, (value,))
 
 
 def read_models(paths: list[Path]) -> tuple[Element, Element]:
@@ -118,7 +125,7 @@ def read_models(paths: list[Path]) -> tuple[Element, Element]:
     root, core = Element("", {}), Element("", {})
     for path in paths:
         for element in _modules(_parse(path)):
-            below_core = element.get("name") == "core"
+            below_core = _name(element) == "core"
             for one in element if below_core else (element,):
                 if isinstance(one.tag, str):
                     _add(core if below_core else root, one, path)
@@ -127,8 +134,8 @@ def read_models(paths: list[Path]) -> tuple[Element, Element]:
 
 def _modules(element: etree._Element) -> Iterator[etree._Element]:
     """The outermost modules, whatever a tool wraps around them; what is no wrapper either is taken as it is."""
-    inside = [e for e in element.iterdescendants() if isinstance(e.tag, str) and _local(e) in MODULES]
-    if _local(element) in (*MODULES, "ComponentModule") or not inside or element.get("name"):
+    inside = [e for e in element.iterdescendants() if isinstance(e.tag, str) and _tag(e) in MODULES]
+    if _tag(element) in (*MODULES, "ComponentModule") or not inside or _name(element):
         yield element
     else:
         for child in element:
@@ -137,13 +144,14 @@ def _modules(element: etree._Element) -> Iterator[etree._Element]:
 
 
 def _add(parent: Element, source: etree._Element, path: Path) -> None:
-    printed = _local(source)
-    tag = _SAME_TAG.get(printed, printed)
-    attributes = dict(_IMPLIED.get(printed, {}))
+    tag = _tag(source)
+    attributes = dict(_IMPLIED.get(_local(source), {}))
     for key, value in source.attrib.items():
         if not str(key).startswith("{"):
             name = _SAME_ATTRIBUTE.get(str(key), str(key))
             attributes[name] = _value(name, str(value).strip())
+    if _name(source):
+        attributes["name"] = _name(source)
     element = None
     if tag in MODULES:
         element = next((c for c in parent.children if (c.tag, c.name) == (tag, attributes.get("name"))), None)
@@ -158,7 +166,16 @@ def _add(parent: Element, source: etree._Element, path: Path) -> None:
 def _value(attribute: str, value: str) -> str:
     if attribute in _WORDS:
         return _SAME_WORD.get(value.lower(), value)
-    return str(int(value)) if re.fullmatch(r"[-+]?[0-9]{1,18}", value) and attribute != "name" else value
+    return str(int(value)) if _NUMBER.fullmatch(value) and attribute != "name" else value
+
+
+def _name(element: etree._Element) -> str:
+    """The name, called identifier in 9.1.4.1; what has a name may have any further identifier."""
+    return str(element.get("name", element.get("identifier", ""))).strip()
+
+
+def _tag(element: etree._Element) -> str:
+    return _SAME_TAG.get(_local(element), _local(element))
 
 
 def _local(element: etree._Element) -> str:
