@@ -12,9 +12,11 @@ import pytest
 from core_mutations import Mutation, mutations, spoilt
 from lxml import etree
 
+from ucm_cts.adapters.reference_cpp import STATEMENT
 from ucm_cts.harness import core_models
 from ucm_cts.harness.core_models import CORE, Declaration, ModelResult, compare
 from ucm_cts.harness.documents import DocumentError
+from ucm_cts.harness.statement_files import read_statement
 
 DECLARATIONS = {d.requirement: d for d in core_models._catalogue().declarations}
 STATEMENTS = core_models._catalogue().statements
@@ -123,6 +125,16 @@ SPELLINGS = {
     "small letters": [('"(IN|OUT|RETURN|PROVIDED|REQUIRED|DATA)"', lambda m: m.group(0).lower())],
     "full paths": [('"execution_policies_api::', '"::component_execution_policies::execution_policies_api::')],
     "paths from core": [('"::return_codes', '"::core::return_codes')],
+    "classes of modules": [
+        ("InteractionModule", "InteractionDefinitionModule"),
+        (
+            r'NonfunctionalAspectModule (name="clock_service".*?</)Non.*?Module',
+            r"TechnicalPolicyModule \1TechnicalPolicyModule",
+        ),
+    ],
+    "identifiers": [(' name="', ' identifier="')],
+    "identifiers beside names": [(' name="', ' identifier="17" name="')],
+    "comments of the meta-model": [("(<(Method|Structure|InteractionRole)[^>/]*>)", r'\1<SimpleComment text="said"/>')],
     "a namespace": [("(<[A-Za-z]*Module name=[^>]*)(>)", r'\1 xmlns="urn:some"\2')],
     "comments": [("(<(Method|Parameter|InvolvedItem)[^>]*>)", r"<!-- said -->\1<?said?>")],
     "further attributes": [("<Method ", '<Method comment="said" ')],
@@ -169,6 +181,43 @@ def test_a_spelling_that_is_never_printed_is_unclear(tmp_path: Path) -> None:
     path = rewritten(tmp_path, (' direction="OUT"', ' way="OUT"'))
     assert having("unclear", path) == {"R-10.1.4.2-21", "R-10.1.4.2-23"}
     assert not having("broken", path)
+    path = rewritten(tmp_path, ('(upperMultiplicity)="-1"', r'\1="*"'), of="messages")
+    assert having("unclear", path) == {"R-10.1.6.2-09", "R-10.1.6.2-11"}
+    path = rewritten(tmp_path, (r'"service_interaction_pattern\.', '"'), of="services")
+    assert having("unclear", path) == {"R-10.1.5.2-15", "R-10.1.5.2-16", "R-10.1.5.2-17"}
+    assert not having("broken", path)
+
+
+def test_what_stands_beside_excuses_nothing_that_is_missing(tmp_path: Path) -> None:
+    path = rewritten(tmp_path, ('<Method name="run"/>', '<SimpleComment text="run"/>'))
+    (path / "more.xml").write_text('<PlatformModule name="more"/>')
+    (path / "return_codes.xml").unlink()
+    assert having("broken", path) == {"R-10.1.2-03", "R-10.1.3.1-10"}
+    assert not having("unclear", path)
+
+
+# a framework's own models
+
+BESIDE = """
+<NonfunctionalAspectModule name="periods">
+  <TechnicalPolicyDefinition name="periodic" applicability="onComponent"
+                             extends="::core::component_execution_policies::protected_self-executing_component"
+                             technicalAspect="::core::component_execution_policies::component_execution_policy">
+    <ConfigurationParameter name="period" type="::core::container_services::clock_service::clock_api::ucm_timeval_t"/>
+  </TechnicalPolicyDefinition>
+</NonfunctionalAspectModule>
+"""
+
+
+def test_lwucm_ships_models_that_keep_everything(tmp_path: Path) -> None:
+    statement = read_statement(STATEMENT)
+    (tmp_path / "beside.xml").write_text(BESIDE)
+    for paths in (statement.model_paths, (*statement.model_paths, tmp_path)):
+        comparison = compare(paths, statement.readings)
+        assert [r for r in comparison.results if r.status != "kept"] == []
+        declared = {o: v for o, v in statement.readings.items() if v != "observed" and o in comparison.readings}
+        assert all(comparison.readings[option] == {value} for option, value in declared.items())
+        assert declared["core-root"] == "core"
 
 
 # readings
