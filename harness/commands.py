@@ -13,23 +13,23 @@ import click
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 import ucm_cts
-from ucm_cts.harness.applicability import purposes_for
-from ucm_cts.harness.campaign import Campaign
 from ucm_cts.harness.catalogue import in_the_making, load_life_cycle
 from ucm_cts.harness.documents import DocumentError
-from ucm_cts.harness.driver import Driver, Limits
 from ucm_cts.harness.explanation import explanation, overview
-from ucm_cts.harness.hosts import HostUnavailable
+from ucm_cts.harness.hosting.hosts import HostUnavailable
+from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.known_failures import known_today, stale, succeeded
-from ucm_cts.harness.locate import WrongUse, locate
-from ucm_cts.harness.purposes import PROFILES, select
 from ucm_cts.harness.report.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import prepare_folder, save_report
-from ucm_cts.harness.scripts import TestPurpose, read_scripts, to_scenario
-from ucm_cts.harness.statement_files import check_subject, stated_by
-from ucm_cts.harness.statement_writing import write_statement
+from ucm_cts.harness.running.campaign import Campaign
+from ucm_cts.harness.running.driver import Driver, Limits
+from ucm_cts.harness.scenarios.purposes import PROFILES, select
+from ucm_cts.harness.scenarios.scripts import TestPurpose, read_scripts, to_scenario
+from ucm_cts.harness.stating.applicability import purposes_for
+from ucm_cts.harness.stating.files import check_subject, stated_by
+from ucm_cts.harness.stating.writing import write_statement
 from ucm_cts.harness.terminal import Output, ends_like_interrupts
 from ucm_cts.reference_models.judgement import Judge
 

@@ -27,14 +27,14 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
 )
 from ucm_cts.adapters.reference_py.framework import ContainerManager
-from ucm_cts.harness.campaign import Campaign
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.driver import Driver
-from ucm_cts.harness.host_watch import Limits
-from ucm_cts.harness.hosts import Hosts
-from ucm_cts.harness.locate import locate
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.hosting.host_watch import Limits
+from ucm_cts.harness.hosting.hosts import Hosts
+from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.results import Incident
+from ucm_cts.harness.running.campaign import Campaign
+from ucm_cts.harness.running.driver import Driver
+from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.reference_models.judgement import Judge
 
 ROUNDS = 7

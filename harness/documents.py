@@ -25,11 +25,22 @@ MOST_DOTS = 100
 """Dots a line of a TOML document may have."""
 
 
+LONGEST_PROBLEM = 600
+"""Characters that are told of what is wrong."""
+
+
 class DocumentError(Exception):
     """A document cannot be used; the text names file, line and what to do."""
 
     def __init__(self, path: Path, line: int | None, problem: str) -> None:
-        super().__init__(f"{path}:{line}: {problem}" if line else f"{path}: {problem}")
+        super().__init__(f"{path}:{line}: {_shown(problem)}" if line else f"{path}: {_shown(problem)}")
+
+
+def _shown(problem: str) -> str:
+    """One line for a terminal, whatever the document holds."""
+    line = " ".join(problem.split())
+    line = line if len(line) <= LONGEST_PROBLEM else f"{line[:LONGEST_PROBLEM]}..."
+    return "".join(character if character.isprintable() else "\ufffd" for character in line)
 
 
 _Loader: type[Any] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)

@@ -9,9 +9,9 @@ from rich.table import Table
 from rich.text import Text
 
 from ucm_cts.harness.catalogue import Need, Requirement, load_capabilities, load_interpretations, load_requirements
-from ucm_cts.harness.core_models import CHECKS
-from ucm_cts.harness.locate import WrongUse
-from ucm_cts.harness.purposes import PROFILES, load_purposes
+from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.models.core_models import CHECKS
+from ucm_cts.harness.scenarios.purposes import PROFILES, load_purposes
 from ucm_cts.reference_models.ledger import RULES
 
 

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING
 import pytest
 
 if TYPE_CHECKING:
-    from ucm_cts.harness.campaign import Campaign
     from ucm_cts.harness.results import Execution, Report
-    from ucm_cts.harness.scripts import TestPurpose
-    from ucm_cts.harness.statement import Statement
+    from ucm_cts.harness.running.campaign import Campaign
+    from ucm_cts.harness.scenarios.scripts import TestPurpose
+    from ucm_cts.harness.stating.statement import Statement
     from ucm_cts.reference_models.findings import Finding
 
 
@@ -57,7 +57,7 @@ def pytest_configure(config: pytest.Config) -> None:
     profile = config.getoption("--iut-profile")
     if profile != _PROFILE:
         from ucm_cts.harness.catalogue import in_the_making
-        from ucm_cts.harness.purposes import PROFILES
+        from ucm_cts.harness.scenarios.purposes import PROFILES
 
         if profile not in PROFILES:
             problem = in_the_making(profile) or f"there is no profile '{profile}'"
@@ -70,7 +70,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Each suite module asks for the purposes of its clauses: ``CLAUSES`` is a tuple of prefixes."""
     if not metafunc.module.__name__.startswith("ucm_cts.suite."):
         return
-    from ucm_cts.harness.applicability import purposes_for
+    from ucm_cts.harness.stating.applicability import purposes_for
 
     profile = metafunc.config.getoption("--iut-profile")
     chosen = [p for p in purposes_for(_statement(metafunc.config), profile) if _belongs(p, metafunc.module.CLAUSES)]
@@ -98,8 +98,8 @@ def _statement(config: pytest.Config) -> Statement:
         from pathlib import Path
 
         from ucm_cts.harness.documents import DocumentError
-        from ucm_cts.harness.locate import WrongUse
-        from ucm_cts.harness.statement_files import stated_by
+        from ucm_cts.harness.hosting.locate import WrongUse
+        from ucm_cts.harness.stating.files import stated_by
 
         given = config.getoption("--iut-ics")
         try:
@@ -119,14 +119,14 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
     from contextlib import ExitStack
     from pathlib import Path
 
-    from ucm_cts.harness.campaign import Campaign
     from ucm_cts.harness.documents import DocumentError
-    from ucm_cts.harness.driver import Driver, Limits
-    from ucm_cts.harness.hosts import HostUnavailable
+    from ucm_cts.harness.hosting.hosts import HostUnavailable
+    from ucm_cts.harness.hosting.locate import WrongUse, locate
     from ucm_cts.harness.known_failures import known_today
-    from ucm_cts.harness.locate import WrongUse, locate
     from ucm_cts.harness.report.write import prepare_folder, save_report
-    from ucm_cts.harness.statement_files import check_subject
+    from ucm_cts.harness.running.campaign import Campaign
+    from ucm_cts.harness.running.driver import Driver, Limits
+    from ucm_cts.harness.stating.files import check_subject
 
     config = request.config
     adapter, out, seed, list_of_known = (
@@ -171,8 +171,8 @@ _STATEMENT: pytest.StashKey[Statement] = pytest.StashKey()
 
 def _undecided(campaign: Campaign, report: Report) -> list[str]:
     """What no node shows and yet is not green: a line each. Of a selection only what it meant to find out counts."""
-    from ucm_cts.harness.applicability import purposes_for
     from ucm_cts.harness.known_failures import stale
+    from ucm_cts.harness.stating.applicability import purposes_for
 
     meant = {requirement for purpose in campaign.checked for requirement in purpose.requirements}
     whole = len(campaign.checked) == len(purposes_for(campaign.statement, report.profile))

@@ -7,7 +7,7 @@ from typing import Literal
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.statement import Statement
+from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.reference_models.findings import Finding
 
 Verdict = Literal["pass", "fail", "inconclusive", "not applicable", "error"]

@@ -8,9 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 import msgspec
 
 from ucm_cts.harness.catalogue import Requirement
-from ucm_cts.harness.core_models import Comparison
-from ucm_cts.harness.incidents import finding_of_incident
 from ucm_cts.harness.known_failures import KnownFailure, waiver_for
+from ucm_cts.harness.models.core_models import Comparison
 from ucm_cts.harness.report.failures import length
 from ucm_cts.harness.results import (
     FRAMEWORK_INCIDENTS,
@@ -23,6 +22,7 @@ from ucm_cts.harness.results import (
     TransitionResult,
     Verdict,
 )
+from ucm_cts.harness.running.incidents import finding_of_incident
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.ledger import Ledger, RowTally
 from ucm_cts.reference_models.life_cycle import LifeCycleTable

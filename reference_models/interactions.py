@@ -365,7 +365,7 @@ class Interactions:
         is_message = link is not None and link.connector == s.MESSAGE_CONNECTOR
         candidates = [c for c in self.calls if c.request.method == event.method and self._leads_to(c, receiver, link)]
         if not is_message:
-            candidates = [c for c in candidates if c.reply is None] or candidates
+            candidates = _waiting(candidates, event)
         same = [c for c in candidates if c.request.arguments == event.arguments]
         undelivered = [c for c in same if not c.delivered_to(receiver, event.port)]
         if undelivered:
@@ -406,6 +406,15 @@ class Interactions:
         if call.caller is None or receiver is None:
             return False
         return any(c.provider is receiver for c in connections_behind(call.caller, call.request.port))
+
+
+def _waiting(calls: list[MethodCall], enter: Enter) -> list[MethodCall]:
+    """Those that wait for a server, and, unless one of them fits, those that gave up before they had one."""
+    waiting = [call for call in calls if call.reply is None]
+    if any(call.request.arguments == enter.arguments for call in waiting):
+        return waiting
+    late = [call for call in calls if not call.deliveries and call.request.arguments == enter.arguments]
+    return late or waiting or calls
 
 
 def _nearest(calls: list[MethodCall], enter: Enter) -> MethodCall | None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from ucm_cts.harness.core_models import CORE
+from ucm_cts.harness.models.core_models import CORE
 
 PRINTED = {
     "kind": "BYTE SHORT LONG ULONG PROVIDED REQUIRED",

@@ -42,7 +42,7 @@ from ucm_cts.harness.results import (
     RequirementResult,
     TransitionResult,
 )
-from ucm_cts.harness.statement import default_statement
+from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, Outcome, Row
 

@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.integrity import contradiction
+from ucm_cts.harness.running.integrity import contradiction
 
 SINK = {"provides": ["in"]}
 SOURCE = {"requires": ["out"], "connectable": True}

@@ -13,10 +13,10 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.disguise import Disguise
-from ucm_cts.harness.integrity import contradiction
-from ucm_cts.harness.payloads import Payloads
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.running.disguise import Disguise
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.payloads import Payloads
+from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge

@@ -55,4 +55,6 @@ def test_the_reference_framework_does_not_know_the_sdk() -> None:
     for name in ("framework", "policies", "container_services", "connectors"):
         path = PACKAGE / "adapters" / "reference_py" / f"{name}.py"
         inner = {m for m in imported(path) if m.startswith("ucm_cts") and not m.startswith(own)}
-        assert inner <= {f"ucm_cts.adapters.contract.{model}" for model in ("programming_model", "scenario", "data_types")}
+        assert inner <= {
+            f"ucm_cts.adapters.contract.{model}" for model in ("programming_model", "scenario", "data_types")
+        }

@@ -19,9 +19,9 @@ from ucm_cts.adapters.contract.trace import Event, LogRecord, Paused, Reply, Req
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference_py.framework import Member
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.disguise import Disguise
-from ucm_cts.harness.integrity import contradiction
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.running.disguise import Disguise
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.clock_readings import SECOND, passed
 from ucm_cts.reference_models.judgement import Judge

@@ -13,10 +13,10 @@ from core_mutations import Mutation, mutations, spoilt
 from lxml import etree
 
 from ucm_cts.adapters.reference_cpp import STATEMENT
-from ucm_cts.harness import core_models
-from ucm_cts.harness.core_models import CORE, Declaration, ModelResult, compare
 from ucm_cts.harness.documents import DocumentError
-from ucm_cts.harness.statement_files import read_statement
+from ucm_cts.harness.models import core_models
+from ucm_cts.harness.models.core_models import CORE, Declaration, ModelResult, compare
+from ucm_cts.harness.stating.files import read_statement
 
 DECLARATIONS = {d.requirement: d for d in core_models._catalogue().declarations}
 STATEMENTS = core_models._catalogue().statements

@@ -13,8 +13,8 @@ from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.integrity import contradiction
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge

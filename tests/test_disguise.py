@@ -14,9 +14,9 @@ from ucm_cts.adapters.contract.trace import Raise, Trace
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.disguise import Disguise
-from ucm_cts.harness.locate import WrongUse
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.running.disguise import Disguise
+from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
 

@@ -29,10 +29,10 @@ from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.commands import cli
-from ucm_cts.harness.integrity import contradiction
-from ucm_cts.harness.probes import load_probe_types
 from ucm_cts.harness.results import Verdict
-from ucm_cts.harness.scripts import read_scripts, to_scenario
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.probes import load_probe_types
+from ucm_cts.harness.scenarios.scripts import read_scripts, to_scenario
 from ucm_cts.reference_models.judgement import Judge
 
 ROOT = Path(__file__).parent.parent

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from ucm_cts.harness.documents import LARGEST, DocumentError
-from ucm_cts.harness.scripts import read_scripts
+from ucm_cts.harness.scenarios.scripts import read_scripts
 
 GOOD = """\
 scenario: one

@@ -21,10 +21,10 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Return, Siblings, Trace
 from ucm_cts.adapters.reference_cpp import COMMAND
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.driver import Driver
-from ucm_cts.harness.locate import locate
-from ucm_cts.harness.purposes import load_purposes
-from ucm_cts.harness.scripts import load_scripts
+from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.running.driver import Driver
+from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.scenarios.scripts import load_scripts
 from ucm_cts.reference_models.judgement import Judge
 
 GENERATED = 60

@@ -12,9 +12,9 @@ from command_line import within
 
 from ucm_cts.adapters.contract.trace import Settled
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.driver import Driver
-from ucm_cts.harness.locate import locate
-from ucm_cts.harness.schedules import overlap_purposes
+from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.running.driver import Driver
+from ucm_cts.harness.scenarios.schedules import overlap_purposes
 from ucm_cts.reference_models.judgement import Judge
 
 EXCLUSION = {f"R-10.1.3.2-{number}" for number in ("06", "09", "10", "13", "16")}

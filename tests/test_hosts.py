@@ -17,8 +17,8 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.adapters.contract.trace import Call, Create
-from ucm_cts.harness.hosts import Answer, Hosts, HostUnavailable, Limits
-from ucm_cts.harness.locate import WrongUse, locate
+from ucm_cts.harness.hosting.hosts import Answer, Hosts, HostUnavailable, Limits
+from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.results import Incident
 
 HERE = Path(__file__).parent
@@ -252,8 +252,8 @@ def test_nothing_survives_a_killed_harness() -> None:
 import os
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Run
-from ucm_cts.harness.hosts import Hosts, Limits
-from ucm_cts.harness.locate import locate
+from ucm_cts.harness.hosting.hosts import Hosts, Limits
+from ucm_cts.harness.hosting.locate import locate
 hosts = Hosts(locate("misbehaving:Hangs"), Limits(seconds=600))
 hosts.welcome
 print("ready", flush=True)

@@ -11,11 +11,11 @@ from command_line import report_of, ucm_cts, within
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call
-from ucm_cts.harness.driver import Driver, Limits
-from ucm_cts.harness.incidents import Patience
-from ucm_cts.harness.locate import locate
-from ucm_cts.harness.purposes import load_purposes, select
+from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.results import Incident
+from ucm_cts.harness.running.driver import Driver, Limits
+from ucm_cts.harness.running.incidents import Patience
+from ucm_cts.harness.scenarios.purposes import load_purposes, select
 
 STARTS = Scenario({}, (s.Start(),))
 STOPS = Scenario({}, (s.Start(), s.Stop()))

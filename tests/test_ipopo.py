@@ -14,8 +14,8 @@ from ucm_cts.adapters.contract import programming_model as ucm
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.python.probe import PlannedFailure
-from ucm_cts.harness.disguise import Disguise
-from ucm_cts.harness.scripts import load_scripts, to_scenario
+from ucm_cts.harness.running.disguise import Disguise
+from ucm_cts.harness.scenarios.scripts import load_scripts, to_scenario
 
 pytest.importorskip("pelix")
 

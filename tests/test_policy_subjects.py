@@ -13,8 +13,8 @@ from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Scenario
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.integrity import contradiction
-from ucm_cts.harness.schedules import overlap_purposes
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.schedules import overlap_purposes
 from ucm_cts.reference_models.judgement import Judge
 
 PASSIVE = {"provides": ["in.api"], "policies": [{"definition": PROTECTED_PASSIVE}]}

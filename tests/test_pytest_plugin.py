@@ -20,8 +20,8 @@ from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.disguise import Disguise
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.running.disguise import Disguise
+from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.reference_models.judgement import Judge
 
 ROOT = Path(__file__).parent.parent
@@ -158,7 +158,9 @@ def test_statement_says_what_is_run_and_what_binds(here: Path) -> None:
     assert session.status == 1
     assert {HEAD.findall(message)[0] for message in session.failed.values()} == {"R-11.2.3-11"}
     (here / "ics.toml").write_text("[capabilities]\nsimple_message_connector = false\n")
-    session = suite("--iut", "reference-py", "--iut-profile", "core", "--iut-ics", "ics.toml", "-k", "10_1_6 or services/")
+    session = suite(
+        "--iut", "reference-py", "--iut-profile", "core", "--iut-ics", "ics.toml", "-k", "10_1_6 or services/"
+    )
     assert (session.status, session.failed) == (0, {})
     assert session.nodes
     assert not [node for node in session.nodes if "message" in node]

@@ -28,8 +28,8 @@ from ucm_cts.adapters.contract.scenario import SELF_EXECUTING, SELF_EXECUTION_AP
 from ucm_cts.adapters.python import workers
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.hosts import Hosts
-from ucm_cts.harness.locate import locate
+from ucm_cts.harness.hosting.hosts import Hosts
+from ucm_cts.harness.hosting.locate import locate
 
 GUIDE = Path(__file__).parent.parent / "docs" / "adapter-python.md"
 

@@ -20,9 +20,9 @@ from ucm_cts.adapters.python.engine import ContractBroken, Performance
 from ucm_cts.adapters.python.recorder import Recorder
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
-from ucm_cts.harness.disguise import Disguise
-from ucm_cts.harness.integrity import contradiction
-from ucm_cts.harness.scripts import read_scripts, to_scenario
+from ucm_cts.harness.running.disguise import Disguise
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.scripts import read_scripts, to_scenario
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
 

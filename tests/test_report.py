@@ -43,7 +43,7 @@ from ucm_cts.harness.report.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import write_report
 from ucm_cts.harness.results import Execution, Incident, RequirementResult
-from ucm_cts.harness.scripts import read_scripts, to_scenario
+from ucm_cts.harness.scenarios.scripts import read_scripts, to_scenario
 from ucm_cts.reference_models.findings import Arrow, Finding
 
 

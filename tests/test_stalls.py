@@ -16,16 +16,16 @@ from derived.registry import Base, bind
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Trace
 from ucm_cts.adapters.reference_py.framework import Member
-from ucm_cts.harness import doubts as module
-from ucm_cts.harness.campaign import Campaign
-from ucm_cts.harness.doubts import Doubts
-from ucm_cts.harness.driver import Answer, Driver
-from ucm_cts.harness.locate import locate
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.results import Report
-from ucm_cts.harness.scripts import TestPurpose
-from ucm_cts.harness.stalls import StallWatch
-from ucm_cts.harness.statement import default_statement
+from ucm_cts.harness.running import doubts as module
+from ucm_cts.harness.running.campaign import Campaign
+from ucm_cts.harness.running.doubts import Doubts
+from ucm_cts.harness.running.driver import Answer, Driver
+from ucm_cts.harness.running.stalls import StallWatch
+from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.scenarios.scripts import TestPurpose
+from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.reference_models.findings import Finding
 
 MILLISECOND = 1_000_000

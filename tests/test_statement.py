@@ -16,20 +16,20 @@ from lxml import etree
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import PROTOCOL, Welcome
-from ucm_cts.harness.applicability import asked_in_vain, needs_of, purposes_for, why_not
-from ucm_cts.harness.campaign import Campaign
 from ucm_cts.harness.catalogue import load_capabilities, load_options, load_requirements
-from ucm_cts.harness.core_models import CHECKS, CORE
 from ucm_cts.harness.documents import DocumentError
-from ucm_cts.harness.driver import Driver
-from ucm_cts.harness.locate import WrongUse, locate
-from ucm_cts.harness.purposes import load_purposes
+from ucm_cts.harness.hosting.locate import WrongUse, locate
+from ucm_cts.harness.models.core_models import CHECKS, CORE
 from ucm_cts.harness.pytest_plugin import _undecided
 from ucm_cts.harness.report.write import save_report
 from ucm_cts.harness.results import Report
-from ucm_cts.harness.statement import HOOKS, IXIT, Statement, default_statement
-from ucm_cts.harness.statement_files import LARGEST, check_subject, read_statement
-from ucm_cts.harness.statement_writing import to_toml, write_statement
+from ucm_cts.harness.running.campaign import Campaign
+from ucm_cts.harness.running.driver import Driver
+from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.stating.applicability import asked_in_vain, needs_of, purposes_for, why_not
+from ucm_cts.harness.stating.files import LARGEST, check_subject, read_statement
+from ucm_cts.harness.stating.statement import HOOKS, IXIT, Statement, default_statement
+from ucm_cts.harness.stating.writing import to_toml, write_statement
 
 ADAPTER = "ucm_cts.adapters.reference_py.adapter:ReferenceAdapter"
 REQUIREMENTS = {r.id: r for r in load_requirements()}

@@ -19,10 +19,10 @@ from ucm_cts.adapters.contract.trace import Stressed, Trace
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference_py.framework import Member
 from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.circles import circle_purposes
-from ucm_cts.harness.integrity import contradiction
-from ucm_cts.harness.scripts import TestPurpose, load_scripts, to_scenario
-from ucm_cts.harness.stress import stress_purposes
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.circles import circle_purposes
+from ucm_cts.harness.scenarios.scripts import TestPurpose, load_scripts, to_scenario
+from ucm_cts.harness.scenarios.stress import stress_purposes
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.judgement import Judge
 from ucm_cts.reference_models.ledger import Ledger

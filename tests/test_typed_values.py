@@ -30,9 +30,9 @@ from ucm_cts.adapters.contract.data_types import (
     integer_range,
 )
 from ucm_cts.adapters.contract.data_values import SCALARS, misfit, parts, read_spelled, spell
-from ucm_cts.harness.corner_values import LONG_SEQUENCE, LONG_STRING, UNDECLARED, corners
-from ucm_cts.harness.data_catalogue import CATALOGUE, COLOUR, KINDS, LONG, NAME, POINT
-from ucm_cts.harness.typed_values import draw, values
+from ucm_cts.harness.scenarios.corner_values import LONG_SEQUENCE, LONG_STRING, UNDECLARED, corners
+from ucm_cts.harness.scenarios.data_catalogue import CATALOGUE, COLOUR, KINDS, LONG, NAME, POINT
+from ucm_cts.harness.scenarios.typed_values import draw, values
 from ucm_cts.reference_models.carriage import Evidence, Part, differences, distance, requirement_of, requirements_of
 
 TYPES = {f"{sort.sort}: {name}": of for sort in CATALOGUE for name, of in sort.types.items()}

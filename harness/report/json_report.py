@@ -20,7 +20,7 @@ from ucm_cts.harness.results import (
     TransitionResult,
     Verdict,
 )
-from ucm_cts.harness.statement import Statement
+from ucm_cts.harness.stating.statement import Statement
 
 SCHEMA_FILE = "report.schema.json"
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ucm_cts.harness.catalogue import load_capabilities, load_interpretations
-from ucm_cts.harness.statement import IXIT, Statement
+from ucm_cts.harness.stating.statement import IXIT, Statement
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,1 @@
+"""On what: from ADAPTER to a host that answers, whatever happens."""

@@ -1,0 +1,277 @@
+"""One host under watch: lines out, lines in, and an incident instead of anything that must not happen."""
+
+from __future__ import annotations
+
+import os
+import select
+import signal
+import time
+from collections import deque
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import NoReturn, Protocol
+
+import msgspec
+
+from ucm_cts.adapters.python.loading import Answer
+from ucm_cts.harness.hosting.host_channels import Channel
+from ucm_cts.harness.results import Incident, IncidentKind
+
+_CHUNK = 1 << 16
+_STDERR_TAIL = 1 << 16
+_LOOK_SECONDS = 0.05
+_LOOK_MILLISECONDS = 50
+_STACK_SECONDS = 0.3
+_QUIET_SECONDS = 0.05
+_END_SECONDS = 0.5
+_MIB = 1 << 20
+_PAGE = os.sysconf("SC_PAGE_SIZE")
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a host may take: ``seconds`` an answer, waits of the scenario not counted; ``memory`` resident MiB;
+    ``line`` bytes in one message; ``welcome_seconds`` until it has said who it is. ``incident_seconds`` is what a run
+    may take for all that goes wrong with its hosts.
+    """
+
+    seconds: float = 5.0
+    memory: int = 1024
+    line: int = 16 * _MIB
+    welcome_seconds: float = 20.0
+    incident_seconds: float = 60.0
+
+
+class Deadline(msgspec.Struct, frozen=True):
+    """A point of time by ``time.monotonic``, and how many seconds it was away when it was set."""
+
+    end: float
+    seconds: float
+
+    @classmethod
+    def after(cls, seconds: float) -> Deadline:
+        """The deadline ``seconds`` from now."""
+        return cls(time.monotonic() + seconds, seconds)
+
+
+class HostIncident(Exception):
+    """The host did what it must not, and is gone."""
+
+    def __init__(self, incident: Incident) -> None:
+        super().__init__(f"{incident.kind}: {incident.detail}")
+        self.incident = incident
+
+
+class Host(Protocol):
+    """A host as the pipeline sees it; lines are without newline."""
+
+    def submit(self, line: bytes) -> None:
+        """Send a message, now or while waiting for answers. Never blocks and never raises."""
+
+    def receive(self, deadline: Deadline) -> bytes:
+        """The next message of the host. Raises ``HostIncident``, also when the deadline passes."""
+
+    def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
+        """End the host because of what it said: raises ``HostIncident``."""
+
+    def close(self) -> None:
+        """Let the host go."""
+
+
+class WatchedHost:
+    """A host behind a channel. Reads and writes at the same time, so that pipelined messages cannot lock up."""
+
+    def __init__(self, channel: Channel, limits: Limits) -> None:
+        self._channel = channel
+        self._source = channel.source
+        self._limits = limits
+        self._outgoing = bytearray()
+        self._partial = bytearray()
+        self._lines: deque[bytes] = deque()
+        self._stderr = bytearray()
+        self._looked = 0.0
+        self._writing = False
+        self._ended = False
+        self._poll = select.poll()
+        os.set_blocking(channel.source, False)
+        os.set_blocking(channel.target, False)
+        self._poll.register(channel.source, select.POLLIN)
+        if channel.error is not None:
+            os.set_blocking(channel.error, False)
+            self._poll.register(channel.error, select.POLLIN)
+        if channel.notices is not None:
+            self._poll.register(channel.notices, select.POLLIN)
+
+    def submit(self, line: bytes) -> None:
+        whole = line + b"\n"
+        if not self._outgoing and len(whole) <= _CHUNK:  # the common case: it goes out at once
+            with suppress(OSError):
+                whole = whole[os.write(self._channel.target, whole) :]
+            if not whole:
+                return
+        self._outgoing += whole
+        if not self._writing:
+            self._flush()
+
+    def receive(self, deadline: Deadline) -> bytes:
+        now = time.monotonic()
+        if self._lines and now < deadline.end:
+            return self._lines.popleft()
+        while True:
+            if self._ended and not self._read():  # even if the pipe is held open by a process that got away
+                self._fail_ended()
+            if now >= deadline.end:
+                self._fail_hanging(deadline)
+            if now >= self._looked + _LOOK_SECONDS:
+                self._looked = now
+                self._check_memory()
+            for ready, _ in self._poll.poll(_LOOK_MILLISECONDS):
+                if ready == self._source:
+                    self._read()
+                else:
+                    self._attend(ready)
+            if self._lines:
+                return self._lines.popleft()
+            now = time.monotonic()
+
+    def _attend(self, ready: int) -> None:
+        if ready == self._channel.error:
+            self._drain()
+        elif ready == self._channel.target:
+            self._flush()
+        elif self._channel.status(0) is not None:
+            self._ended = True
+
+    def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
+        self._drain()
+        text = self._stderr.decode(errors="replace")
+        self._close(orderly=False)
+        raise HostIncident(Incident(kind, detail, text))
+
+    def close(self) -> None:
+        self._close(orderly=True)
+
+    def _close(self, orderly: bool) -> None:
+        self._channel.close(orderly)
+
+    def _flush(self) -> None:
+        try:
+            while self._outgoing:
+                with memoryview(self._outgoing) as pending:
+                    written = os.write(self._channel.target, pending[:_CHUNK])
+                del self._outgoing[:written]
+        except BlockingIOError:
+            pass
+        except OSError:  # the host is ending, which reading will tell
+            self._outgoing.clear()
+        if bool(self._outgoing) != self._writing:
+            self._writing = not self._writing
+            if self._writing:
+                self._poll.register(self._channel.target, select.POLLOUT)
+            else:
+                self._poll.unregister(self._channel.target)
+
+    def _read(self) -> bool:
+        """Take in what there is; False when there was nothing."""
+        try:
+            data = os.read(self._source, _CHUNK)
+        except BlockingIOError:
+            return False
+        except OSError:  # a connection that was reset
+            data = b""
+        if not data:
+            self._fail_ended()
+        if not self._partial and data.find(b"\n") == len(data) - 1:  # the common case: just one answer
+            self._lines.append(data[:-1])
+            return True
+        start = len(self._partial)
+        self._partial += data
+        end = self._partial.rfind(b"\n", start)
+        if end >= 0:
+            self._lines.extend(bytes(self._partial[:end]).split(b"\n"))
+            del self._partial[: end + 1]
+        if len(self._partial) > self._limits.line:
+            self.fail("flood", f"a line of more than {self._limits.line / _MIB:g} MiB")
+        return True
+
+    def _drain(self) -> int:
+        """Keep the end of what there is on standard error; returns how much was new."""
+        new = 0
+        with suppress(OSError):
+            while self._channel.error is not None and new < 4 * _STDERR_TAIL:
+                data = os.read(self._channel.error, _CHUNK)
+                if not data:
+                    self._poll.unregister(self._channel.error)
+                    os.close(self._channel.error)
+                    self._channel.error = None
+                new += len(data)
+                self._stderr += data
+                del self._stderr[:-_STDERR_TAIL]
+        return new
+
+    def _check_memory(self) -> None:
+        if self._channel.pid is None:
+            return
+        try:
+            with open(f"/proc/{self._channel.pid}/statm") as statm:
+                resident = int(statm.read().split()[1]) * _PAGE // _MIB
+        except (OSError, IndexError):
+            return
+        if resident > self._limits.memory:
+            self.fail("memory", f"{resident} MiB resident, {self._limits.memory} MiB allowed")
+
+    def _fail_hanging(self, deadline: Deadline) -> NoReturn:
+        self._drain()
+        self._stderr.clear()
+        self._channel.signal(signal.SIGUSR1)
+        stop = time.monotonic() + _STACK_SECONDS
+        while self._channel.error is not None and time.monotonic() < stop:
+            patient = select.poll()
+            patient.register(self._channel.error, select.POLLIN)
+            wait = _QUIET_SECONDS if self._stderr else stop - time.monotonic()
+            if not patient.poll(1000 * max(wait, 0)):
+                break
+            self._drain()
+        self.fail("hang", f"no answer within {deadline.seconds:g} s")
+
+    def _fail_ended(self) -> NoReturn:
+        half = f" after {len(self._partial)} bytes of an answer" if self._partial else ""
+        if self._channel.pid is None:
+            self.fail("exit", f"the connection was closed{half}")
+        status = self._channel.status(_END_SECONDS)
+        if status is None:
+            self.fail("exit", f"closed its output{half}")
+        if status < 0:
+            self.fail("crash", f"{_signal_name(-status)}{half}")
+        self.fail("exit", f"exit status {status}{half}")
+
+
+class InProcessHost:
+    """The adapter inside the harness itself, without any watch: for debuggers and sanitizers."""
+
+    def __init__(self, answer: Answer) -> None:
+        self._answer = answer
+        self._questions: deque[bytes] = deque()
+        self._lines: deque[bytes] = deque()
+
+    def submit(self, line: bytes) -> None:
+        self._questions.append(line)
+
+    def receive(self, deadline: Deadline) -> bytes:
+        if not self._lines:
+            answer = self._answer(self._questions.popleft(), lambda line: self._lines.append(line.rstrip(b"\n")))
+            self._lines.append(answer)
+        return self._lines.popleft()
+
+    def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
+        raise HostIncident(Incident(kind, detail))
+
+    def close(self) -> None:
+        self._questions.clear()
+
+
+def _signal_name(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"

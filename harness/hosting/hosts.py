@@ -1,0 +1,257 @@
+"""Hosts: give scenarios to the host behind a door and get an answer to each, whatever happens to the host.
+
+    with Hosts(locate("reference-py")) as hosts:
+        print(hosts.welcome.product)
+        for answer in hosts.run(Run(number, scenario) for number, scenario in enumerate(scenarios)):
+            match answer.reply:
+                case Traced(): ...
+                case Refused() | Incident(): ...
+
+One host is active at a time. It is replaced after an incident, and after an answer that tells of stuck threads; the
+messages that were on their way to it are sent again to its successor.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import deque
+from collections.abc import Generator, Iterable
+from types import TracebackType
+from typing import Self
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.messages import (
+    PROTOCOL,
+    FromHost,
+    Happened,
+    Hello,
+    Refused,
+    Run,
+    Traced,
+    Welcome,
+    encode,
+    from_host_decoder,
+)
+from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.adapters.python.loading import CannotLoad, load
+from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, opener
+from ucm_cts.harness.hosting.host_watch import Deadline, Host, HostIncident, InProcessHost, Limits, WatchedHost
+from ucm_cts.harness.hosting.locate import Door, WrongUse
+from ucm_cts.harness.results import Incident
+
+__all__ = ["Answer", "HostUnavailable", "Hosts", "Limits"]
+
+_SHOWN = 80
+
+
+class Answer(msgspec.Struct, frozen=True):
+    """What came of the ``Run`` message with ``id``.
+
+    ``happened`` are the events that a streamed run sent ahead: after an incident, the trace as far as it is known.
+    """
+
+    id: int
+    reply: Traced | Refused | Incident
+    happened: tuple[Event, ...] = ()
+
+
+class Hosts:
+    """The hosts behind ``door``, one at a time. Close it, or use it in a ``with`` statement: nothing stays behind.
+
+    Raises ``WrongUse`` from ``welcome`` and ``run`` if the door leads to no adapter, ``HostUnavailable`` if no first
+    host can be had.
+    """
+
+    def __init__(self, door: Door, limits: Limits | None = None) -> None:
+        self._door = door
+        self.limits = limits or Limits()
+        self._opener: Opener | None = None
+        self._host: Host | None = None
+        self._welcome: Welcome | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    @property
+    def welcome(self) -> Welcome:
+        """Who is behind the door; starts a host if there has not been one."""
+        if self._welcome is None:
+            self._open()
+            assert self._welcome
+        return self._welcome
+
+    def run(self, runs: Iterable[Run], window: int = 32) -> Generator[Answer, None, None]:
+        """The answers to ``runs``, in order; up to ``window`` messages are on their way at a time.
+
+        Between two answers the caller may ``look_again``: what was on its way is then sent again.
+
+        If there is no host any more, what remains is answered by incidents of kind ``unreachable``.
+        """
+        assert window > 0
+        waiting: deque[Run] = deque()
+        source = iter(runs)
+        current: Host | None = None
+        sent = 0  # how many of those waiting have been sent to the current host
+        try:
+            while True:
+                waiting.extend(itertools.islice(source, window - len(waiting)))
+                if not waiting:
+                    return
+                if self._host is None:
+                    try:
+                        self._open()
+                    except HostUnavailable as error:
+                        if self._welcome is None:
+                            raise
+                        lost = Incident("unreachable", error.incident.detail, error.incident.stacks)
+                        for run in itertools.chain(tuple(waiting), source):
+                            yield Answer(run.id, lost)
+                        waiting.clear()
+                        return
+                    assert self._host
+                if self._host is not current:
+                    current, sent = self._host, 0
+                for run in itertools.islice(waiting, sent, None):
+                    current.submit(encode(run))
+                sent = len(waiting)
+                answer = self._receive(waiting[0])
+                waiting.popleft()
+                sent -= 1
+                yield answer
+        finally:
+            if waiting:  # nobody waits for these answers any more
+                self.discard()
+
+    def look_again(self, run: Run) -> Answer:
+        """Run one scenario alone on a host of its own that sends each event as it happens.
+
+        May be called between two answers of a ``run`` in progress, which goes on with a fresh host.
+        """
+        self.discard()
+        try:
+            (answer,) = self.run([msgspec.structs.replace(run, stream=True)])
+        finally:
+            self.discard()
+        return answer
+
+    def close(self) -> None:
+        """End the host and everything that was started for it."""
+        self.discard()
+        if self._opener:
+            self._opener.close()
+            self._opener = None
+
+    def _open(self) -> None:
+        self.discard()
+        host = self._new_host()
+        try:
+            self._welcome = self._greet(host)
+        except HostIncident as error:
+            raise HostUnavailable(_explained(error.incident, self._door)) from error
+        except BaseException:
+            host.close()
+            raise
+        self._host = host
+
+    def _new_host(self) -> Host:
+        if self._door.in_process:
+            try:
+                return InProcessHost(load(self._door.target))
+            except CannotLoad as error:
+                raise WrongUse(f"'{self._door.text}': {error}") from error
+        if self._opener is None:
+            self._opener = opener(self._door)
+        return WatchedHost(self._opener.open(), self.limits)
+
+    def _greet(self, host: Host) -> Welcome:
+        host.submit(encode(Hello(PROTOCOL)))
+        message = _decode(host, host.receive(Deadline.after(self.limits.welcome_seconds)))
+        if isinstance(message, Refused):
+            host.fail("refused", message.reason)
+        if not isinstance(message, Welcome):
+            host.fail("protocol", f"{_tag(message)} where welcome is due")
+        if message.protocol != PROTOCOL:
+            host.fail("protocol", f"the host speaks protocol {message.protocol}, the harness {PROTOCOL}")
+        return message
+
+    def _receive(self, run: Run) -> Answer:
+        assert self._host
+        happened: list[Event] = []
+        try:
+            reply = self._receive_reply(self._host, run, happened)
+        except HostIncident as error:
+            self._host = None
+            return Answer(run.id, error.incident, tuple(happened))
+        except BaseException:
+            self.discard()
+            raise
+        if isinstance(reply, Traced) and reply.stuck:
+            self.discard()
+        return Answer(run.id, reply, tuple(happened))
+
+    def _receive_reply(self, host: Host, run: Run, happened: list[Event]) -> Traced | Refused:
+        deadline = Deadline.after(self.limits.seconds + waits(run.scenario))
+        while True:
+            message = _decode(host, host.receive(deadline))
+            if isinstance(message, Welcome) or (isinstance(message, Happened) and not run.stream):
+                host.fail("protocol", f"{_tag(message)} where trace is due")
+            if message.id != run.id and not (isinstance(message, Refused) and message.id is None):
+                host.fail("protocol", f"{_tag(message)} has id {message.id} where {run.id} is due")
+            if not isinstance(message, Happened):
+                return message
+            happened.append(message.event)
+
+    def discard(self) -> None:
+        """End the host, if there is one; the next run gets a fresh one."""
+        host, self._host = self._host, None
+        if host:
+            host.close()
+
+
+def waits(scenario: s.Scenario) -> float:
+    """How many seconds ``scenario`` itself may have a host wait, at most, if each probe is held at a gate once."""
+    waiting = 0
+    milliseconds = 0
+    threads = False
+    for step in scenario.steps:
+        threads = threads or step.thread is not None
+        waiting += type(step) in _WAITING_STEPS
+        if isinstance(step, s.Pause):
+            milliseconds += step.milliseconds
+        elif isinstance(step, s.Stress):
+            milliseconds += 2 * step.milliseconds
+            waiting += 2
+    for declaration in scenario.components.values():
+        for actions in declaration.plan.values():
+            waiting += sum(isinstance(action, s.HoldAtGate) for action in actions)
+    return ((waiting + threads) * scenario.patience + milliseconds) / 1000
+
+
+_WAITING_STEPS = (s.ReachGate, s.Settle, s.Join, s.AwaitMessages, s.ReadLog)
+
+
+def _decode(host: Host, line: bytes) -> FromHost:
+    try:
+        return from_host_decoder().decode(line)
+    except msgspec.ValidationError as error:
+        host.fail("protocol", str(error))
+    except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
+        shown = line[:_SHOWN].decode(errors="replace") + ("…" if len(line) > _SHOWN else "")
+        host.fail("garbage", f"not a JSON message: {shown!r}")
+
+
+def _tag(message: FromHost) -> str:
+    return str(type(message).__struct_config__.tag)
+
+
+def _explained(incident: Incident, door: Door) -> Incident:
+    return msgspec.structs.replace(
+        incident, detail=f"'{door.text}' does not answer hello: {incident.kind}, {incident.detail}"
+    )

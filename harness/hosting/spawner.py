@@ -1,0 +1,41 @@
+"""A template for executable adapters: ``python -m ucm_cts.harness.hosting.spawner PATH --control DESCRIPTOR``.
+
+The harness itself starts nothing: this small process forks quickly, reports how hosts end, and takes them along when
+it or the harness ends, whatever happens.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import socket
+import sys
+from typing import NoReturn
+
+from ucm_cts.adapters.python.template import Template
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("path")
+    parser.add_argument("--control", type=int, required=True)
+    options = parser.parse_args()
+    path: str = options.path
+
+    def become_host(source: int, target: int) -> NoReturn:
+        os.dup2(source, 0)
+        os.dup2(target, 1)
+        os.closerange(3, max(source, target) + 1)
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+        try:
+            os.execv(path, [path])
+        except OSError as error:
+            print(f"{path} cannot be run: {error.strerror}", file=sys.stderr, flush=True)
+            os._exit(127)
+
+    Template(socket.socket(fileno=options.control), become_host).serve()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,145 @@
+"""Compares the models of clause 10.1 that a framework ships with the suite's own (``suite/models/core``).
+
+``compare(paths, claims)`` takes the framework's files and what its vendor declares of ``interpretations_10_1.yaml``. It
+says of each requirement that a model can show whether it is kept, broken, absent, left out or unclear, and which readings it
+met.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.catalogue import SUITE, load_interpretations
+from ucm_cts.harness.documents import DocumentError, read
+from ucm_cts.harness.models.comparing import Comparing, Declaration, Fact, Status
+from ucm_cts.harness.models.spellings import Element, read_models
+
+CHECKS = {
+    "core_declarations": "Each declaration stands where it belongs, with the kind and the attributes it has in 10.1.",
+    "core_parameters": "Core connectors and core policies have no configuration parameters beyond those of port_trace.",
+    "core_additions": "Core declarations have nothing inside that 10.1 does not put there.",
+    "core_restrictions": "Core modules have neither native types nor attributes of interfaces.",
+    "policy_aspects": "The core's policies are there and name their aspects.",
+    "no_policy_api": "Passive policies have no port elements.",
+    "port_sides": "Who requires an interface and who provides it is as 10.1 tells it.",
+}
+"""The checks that the catalogue names among its rules, and what each looks at."""
+
+
+@dataclass(frozen=True)
+class ModelResult:
+    """What the models show about one requirement. ``expected`` and ``observed`` say what is wrong, if anything is."""
+
+    requirement: str
+    check: str
+    status: Status
+    expected: str = ""
+    observed: str = ""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A result for each requirement that models can show, and the readings met: values by option."""
+
+    results: tuple[ModelResult, ...]
+    readings: Mapping[str, frozenset[str]]
+
+
+class Statement(Value, frozen=True):
+    """A requirement that repeats what declarations say of themselves, or speaks of what is not to be there."""
+
+    requirement: str
+    check: str
+    of: dict[str, tuple[str, ...]] = {}
+
+
+class _Catalogue(Value, frozen=True):
+    declarations: tuple[Declaration, ...]
+    statements: tuple[Statement, ...]
+
+
+CORE = SUITE / "models" / "core"
+
+
+def compare(paths: Sequence[Path], claims: Mapping[str, str] = {}) -> Comparison:
+    """Compare the models at ``paths`` (files, or folders with ``*.xml``) with 10.1 under the vendor's ``claims``.
+
+    ``claims`` maps options of ``interpretations_10_1.yaml`` to the values declared; an option's first value holds for
+    those not named. Without any path everything is absent. Raises ``DocumentError`` for files that cannot be used.
+    """
+    files = [file for path in paths for file in (sorted(path.rglob("*.xml")) if path.is_dir() else (path,))]
+    root, core = read_models(files)
+    ours, declarations = _ours()
+    comparing = Comparing(declarations, _first_values() | dict(claims))
+    if files:
+        comparing.compare(ours, root, core)
+    readings = {option: frozenset(values) for option, values in comparing.readings.items()}
+    return Comparison(tuple(_results(comparing.facts)), readings)
+
+
+def checked() -> dict[str, frozenset[str]]:
+    """The requirements that each check stands for."""
+    catalogue = _catalogue()
+    stands_for: dict[str, set[str]] = {name: set() for name in CHECKS}
+    stands_for["core_declarations"] |= {d.requirement for d in catalogue.declarations}
+    for statement in catalogue.statements:
+        stands_for[statement.check].add(statement.requirement)
+    return {name: frozenset(requirements) for name, requirements in stands_for.items()}
+
+
+@functools.cache
+def _catalogue() -> _Catalogue:
+    return read(CORE / "declarations.yaml", _Catalogue)
+
+
+@functools.cache
+def _first_values() -> dict[str, str]:
+    return {option: values[0] for i in load_interpretations() for option, values in i.options.items()}
+
+
+@functools.cache
+def _ours() -> tuple[Element, dict[Element, Declaration]]:
+    """Our own models, and what ``declarations.yaml`` says of each element in them."""
+    root, _ = read_models(sorted(CORE.glob("*.xml")))
+    by_source = {e.source: e for e in root.walk()}
+    trees = {element.where.partition(":")[0]: element.source for element in root.children}
+    declarations = {}
+    for declaration in _catalogue().declarations:
+        source = trees[declaration.file]
+        found: Any = source.getroottree().xpath(declaration.place) if source is not None else []
+        if len(found) != 1:
+            raise DocumentError(CORE / "declarations.yaml", None, f"{declaration.place} is there {len(found)} times")
+        declarations[by_source[found[0]]] = declaration
+    return root, declarations
+
+
+def _results(facts: Mapping[str, Mapping[str, Fact]]) -> Iterator[ModelResult]:
+    catalogue = _catalogue()
+    for declaration in catalogue.declarations:
+        own = facts.get(declaration.requirement, {})
+        yield _result(declaration.requirement, "core_declarations", list(own.values()))
+    for statement in catalogue.statements:
+        all_of_it = list(facts.get(statement.requirement, {}).values())
+        for requirement, abouts in statement.of.items():
+            known = facts.get(requirement, {})
+            all_of_it += [known[about] for about in abouts if about in known]
+        yield _result(statement.requirement, statement.check, all_of_it)
+
+
+def _result(requirement: str, check: str, facts: list[Fact]) -> ModelResult:
+    """The worst of ``facts`` decides; what is there and what is absent together is kept."""
+    for status in _WORST_FIRST:
+        telling = [fact for fact in facts if fact.status == status]
+        if telling:
+            expected = "; ".join(dict.fromkeys(fact.expected for fact in telling if fact.expected))
+            observed = "; ".join(dict.fromkeys(fact.observed for fact in telling if fact.observed))
+            return ModelResult(requirement, check, status, *(("", "") if status == "kept" else (expected, observed)))
+    return ModelResult(requirement, check, "absent", observed="there is no model to look at")
+
+
+_WORST_FIRST: tuple[Status, ...] = ("broken", "unclear", "kept", "absent", "left out")

@@ -1,0 +1,1 @@
+"""Running it: drive, judge, look again, shorten."""

@@ -1,0 +1,215 @@
+"""One run against one implementation under test: drive, judge, take a second look, shorten, and add up."""
+
+from __future__ import annotations
+
+import datetime
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import ucm_cts
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.known_failures import KnownFailure
+from ucm_cts.harness.results import Effort, Execution, IncidentKind, Report
+from ucm_cts.harness.running import shrink, smaller_values
+from ucm_cts.harness.running.doubts import Doubts
+from ucm_cts.harness.running.driver import Answer, Driver
+from ucm_cts.harness.running.incidents import finding_of_incident
+from ucm_cts.harness.scenarios.payloads import Payloads
+from ucm_cts.harness.scenarios.purposes import PARTS
+from ucm_cts.harness.scenarios.scripts import TestPurpose
+from ucm_cts.harness.stating.checks import check_statement
+from ucm_cts.harness.stating.statement import Statement, default_statement
+from ucm_cts.harness.tally import Cause, Tally, cause_of, overall
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.judgement import Judge
+
+_QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
+"""Incidents whose scenarios are shortened; each try of another one would cost its whole deadline."""
+
+
+SECONDS_FOR_SHORTER_CRASHES = 20
+"""How long shorter scenarios of crashes are looked for; each try takes two hosts."""
+
+SECONDS_FOR_SHORTER = 10
+"""How long a shorter scenario of one failure is looked for, before the try that is the last."""
+
+SECONDS_FOR_ALL_SHORTER = 180
+"""The same for all failures of a run."""
+
+SECONDS_FOR_SMALLER_VALUES = 5
+"""How long a smaller value is looked for that fails like the one found."""
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What came out for one test purpose: the failures its scenarios showed, of whatever requirement."""
+
+    purpose: TestPurpose
+    executions: int
+    failures: tuple[tuple[Finding | None, Execution], ...]
+
+
+class Campaign:
+    """Runs test purposes on the driver's implementation and collects verdicts. Use ``check`` often, ``report`` once."""
+
+    def __init__(
+        self,
+        driver: Driver,
+        profile: str,
+        known_failures: Sequence[KnownFailure] = (),
+        statement: Statement | None = None,
+    ) -> None:
+        self._driver = driver
+        self._profile = profile
+        self.known = known_failures
+        self.statement = statement or default_statement()
+        self.checked: list[TestPurpose] = []
+        self._judge = Judge(load_life_cycle(), self.statement.claims)
+        self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
+        self._tally = Tally()
+        check_statement(self.statement, profile, self._requirements, self._tally)
+        self._doubts = Doubts(driver, self._judge)
+        self._payloads = Payloads(driver.seed)
+        self._spent: dict[str, float] = {}
+        self._began = time.monotonic()
+        self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
+
+    def check(self, purposes: Iterable[TestPurpose]) -> Iterator[Checked]:
+        """Run all scenarios of ``purposes`` in one pipelined stream; yields each purpose as soon as it is judged."""
+        queue: list[TestPurpose] = []
+
+        def cases() -> Iterator[tuple[str, Scenario]]:
+            for purpose in purposes:
+                queue.append(purpose)
+                for name, scenario in self._scenarios_of(purpose):
+                    yield name, self._payloads.deal(scenario)
+
+        answers = self._driver.run(cases())
+        failures: list[tuple[Finding | None, Execution]] = []
+        done = 0
+        since = time.monotonic()
+        for answer in answers:
+            purpose = queue[0]
+            failures.extend(self._take(answer, purpose))
+            done += 1
+            if done == len(purpose.scenarios):
+                now = time.monotonic()
+                self._spent[purpose.clause] = self._spent.get(purpose.clause, 0.0) + now - since
+                since = now
+                self.checked.append(purpose)
+                yield Checked(queue.pop(0), done, tuple(failures))
+                failures, done = [], 0
+
+    def _scenarios_of(self, purpose: TestPurpose) -> tuple[tuple[str, Scenario], ...]:
+        """Its scenarios; where values are drawn, within what the vendor says of them."""
+        return purpose.draw(self._driver.seed, self.statement.claims.readings) if purpose.draw else purpose.scenarios
+
+    def _take(self, answer: Answer, purpose: TestPurpose) -> Iterator[tuple[Finding | None, Execution]]:
+        if answer.incident is not None:
+            execution = self._driver.revealed(answer)
+            self._tally.add_incident(execution, purpose.requirements)
+            yield finding_of_incident(execution), execution
+            return
+        ledger = self._judge.judge(answer.disguised, answer.trace)
+        if not ledger.findings:
+            self._tally.add(Execution(answer.name, answer.scenario, answer.trace), ledger, ())
+            return
+        execution = self._driver.revealed(answer)
+        stand, doubted = self._doubts.sort(answer, ledger.findings)
+        for finding, reason in doubted:
+            self._tally.settle(finding.requirement, "inconclusive", reason)
+        findings = [self._driver.reveal(finding) for finding in stand]
+        self._tally.add(execution, ledger, findings)
+        for finding in findings:
+            yield finding, execution
+
+    def shorten(self) -> Iterator[Cause]:
+        """Look for the shortest scenario of each failure; yields each cause when it is done."""
+        until = time.monotonic() + SECONDS_FOR_SHORTER_CRASHES
+        last = time.monotonic() + SECONDS_FOR_ALL_SHORTER
+        for cause, failure in list(self._tally.failures.items()):
+            if failure.execution is None:
+                continue
+            incident = failure.execution.incident
+            ends = min(time.monotonic() + SECONDS_FOR_SHORTER, last)
+
+            def first_failing(candidates: Sequence[Scenario], cause: Cause = cause, ends: float = ends) -> int | None:
+                shown = self._show(cause, candidates, until) if time.monotonic() < ends else None
+                if shown is None:
+                    return None
+                self._tally.replace(cause, *shown[1:])
+                return shown[0]
+
+            if incident is None:
+                soon = min(time.monotonic() + SECONDS_FOR_SMALLER_VALUES, last)
+                smaller_values.smallest(failure.finding, failure.execution, first_failing, self._driver.seed, soon)
+            smaller = self._tally.failures[cause].execution
+            if smaller is not None and (incident is None or incident.kind in _QUICK):
+                shrink.shortest(smaller.scenario, first_failing)
+            yield cause
+
+    def _show(
+        self, cause: Cause, candidates: Sequence[Scenario], until: float
+    ) -> tuple[int, Finding, Execution] | None:
+        """The first of ``candidates`` that shows ``cause``; all are run, so that the host stays in step.
+
+        Those that may end the host are run one by one, no more than needed, and none after ``until``.
+        """
+        first: tuple[int, Finding, Execution] | None = None
+        cases = [(f"{cause[0]}-shortest", c) for c in candidates]
+        known = self._tally.failures[cause].execution
+        alone = known is not None and known.incident is not None
+        answers = self._one_by_one(cases, until) if alone else self._driver.run(cases)
+        for index, answer in enumerate(answers):
+            if first is None:
+                execution = self._driver.revealed(answer)
+                shown = [finding for finding in self._findings(answer, execution) if cause_of(finding) == cause]
+                if shown:
+                    first = index, shown[0], execution
+            if first is not None and alone:
+                break
+        return first
+
+    def _one_by_one(self, cases: Sequence[tuple[str, Scenario]], until: float) -> Iterator[Answer]:
+        for case in cases:
+            if time.monotonic() > until:
+                return
+            yield from self._driver.run([case], insist=True)
+
+    def _findings(self, answer: Answer, execution: Execution) -> list[Finding]:
+        """What is wrong with one answer, as people read it."""
+        if answer.incident is not None:
+            finding = finding_of_incident(execution)
+            return [finding] if finding is not None else []
+        findings = self._judge.judge(answer.disguised, answer.trace).findings
+        return [self._driver.reveal(finding) for finding in self._doubts.stalled(answer, findings)]
+
+    def report(self) -> Report:
+        """All verdicts of the run so far."""
+        results = self._tally.results(self._requirements, self.known)
+        incidents = self._tally.incidents
+        identity = self._driver.identity
+        return Report(
+            product=identity.product,
+            version=identity.version,
+            profile=self._profile,
+            verdict=overall(results, incidents),
+            requirements=results,
+            transitions=self._tally.transitions(load_life_cycle()),
+            incidents=incidents,
+            adapter=self._driver.adapter,
+            suite_version=ucm_cts.__version__,
+            seed=self._driver.seed,
+            started=self._started,
+            seconds=round(time.monotonic() - self._began, 3),
+            scenarios=self._tally.scenarios,
+            events=self._tally.events,
+            statement=self.statement,
+            readings={option: tuple(sorted(values)) for option, values in sorted(self._tally.readings.items())},
+            effort=Effort(
+                dict(self._tally.measures.most_common()),
+                {clause: round(seconds, 3) for clause, seconds in self._spent.items()},
+            ),
+        )

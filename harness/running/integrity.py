@@ -1,0 +1,407 @@
+"""Can this trace be true? What no host that tells the truth can answer is the adapter's fault, never a verdict."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.scenario import Action, Scenario
+from ucm_cts.adapters.contract.trace import (
+    BodyEvent,
+    Call,
+    Counted,
+    Create,
+    Enter,
+    Event,
+    Exit,
+    Held,
+    Opened,
+    Paused,
+    Pushed,
+    Raise,
+    Reference,
+    Reply,
+    Request,
+    Return,
+    Settled,
+    Siblings,
+    Skip,
+    Stressed,
+    Timeout,
+)
+from ucm_cts.harness.running.turns import Turns
+from ucm_cts.harness.scenarios.scripts import bound_by, used_by
+
+_WAITS = (s.ReachGate, s.Join)
+_TOLD = {Counted: s.AwaitMessages, Paused: s.Pause, Stressed: s.Stress}
+"""What tells that such a step is done."""
+_OF_SCENARIO = (*_WAITS, s.OpenGate, s.Settle, s.AwaitMessages, s.Pause)
+_OPTIONAL = (s.Link, s.Attach, s.Detach, s.Break, s.Mend, s.ReadLog)
+"""What an adapter need not offer."""
+_ID_GIVING = (s.AddComponent, s.Connect, s.Invoke)
+
+_PUNCTUALITY, _GRAIN = 0.9, 5_000_000
+"""A wait for patience that ends after this part of it, less so many nanoseconds, is believed: clocks differ."""
+
+_LONGEST_PATIENCE = 24 * 60 * 60 * 1000
+_NANOSECONDS = 1_000_000
+
+
+def contradiction(scenario: Scenario, trace: Sequence[Event], stuck: bool = False) -> str | None:
+    """Why ``trace`` cannot be what happened when ``scenario`` ran; None if it can.
+
+    ``stuck`` traces may leave steps open. Checks order, nesting, threads, gates, completeness, and that bodies kept to
+    their plans.
+    """
+    check = _Check(scenario)
+    for event in trace:
+        problem = check.take(event)
+        if problem:
+            return problem
+    return None if stuck else check.end()
+
+
+def believable(scenario: Scenario, events: Sequence[Event]) -> tuple[Event, ...]:
+    """``events`` as far as they can be true."""
+    check = _Check(scenario)
+    for index, event in enumerate(events):
+        if check.take(event):
+            return tuple(events[:index])
+    return tuple(events)
+
+
+class _Check:
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self.taken = 0
+        self.done: dict[int, bool] = {}
+        self.open: dict[int, list[Event]] = {}
+        self.bodies: dict[str, int] = {}
+        self.clock: dict[int, int] = {}
+        self.bound = {s.MANAGER, s.UNKNOWN, s.NIL}
+        self.null = {s.NIL}
+        self.holds: dict[tuple[str, int], dict[str, int]] = {}
+        self.acts: dict[int, list[list[Action]]] = {}
+        self.held_before: dict[int, list[dict[str, int]]] = {}
+        self.turns = Turns(scenario)
+        self.waiting: dict[int, Held] = {}
+        self.arrivals: Counter[str] = Counter()
+        self.opened: set[str] = set()
+        patience = min(max(scenario.patience, 0), _LONGEST_PATIENCE) * _NANOSECONDS
+        self.shortest_wait = patience * _PUNCTUALITY - _GRAIN
+
+    def take(self, event: Event) -> str | None:
+        """What is wrong with the next event."""
+        self.taken += 1
+        if event.n != self.taken:
+            return f"event number {event.n} where {self.taken} is due"
+        before = self.clock.get(event.thread)
+        if before is not None and event.t < before:
+            return f"event {event.n} is earlier than the one before it on thread {event.thread}"
+        self.clock[event.thread] = event.t
+        problem = self.check_gate(event) or self.check(event, before)
+        return f"event {event.n}: {problem}" if problem else None
+
+    def end(self) -> str | None:
+        """What is wrong if nothing follows."""
+        for number, step in enumerate(self.scenario.steps):
+            if isinstance(step, s.ReachGate):
+                if number not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
+                    return f"step {number} (reach) has met nobody at {step.gate!r} and not run out of patience"
+            elif not isinstance(step, s.Join) and not self.done.get(number):
+                return f"step {number} ({s.operation(step)}) is missing or not ended"
+        return None
+
+    def check(self, event: Event, before: int | None) -> str | None:
+        if isinstance(event, Call | Skip):
+            return self.check_begin(event)
+        if isinstance(event, Return | Raise):
+            return self.check_end(event)
+        if isinstance(event, Timeout):
+            return self.check_timeout(event, before)
+        if isinstance(event, Opened):
+            return self.check_opened(event)
+        if isinstance(event, Settled):
+            return self.check_settled(event)
+        if isinstance(event, Counted | Paused | Stressed):
+            return self.check_told(event, before)
+        return self.check_body(event)
+
+    def check_gate(self, event: Event) -> str | None:
+        """A body that is held lets its thread go on when the gate is open, patience has run out or all is over."""
+        held = self.waiting.pop(event.thread, None)
+        if held is None or held.gate in self.opened or event.t - held.t >= self.shortest_wait:
+            return None
+        if all(self.done.get(number) for number in self.turns.steps[None] if not self.is_wait(number)):
+            return None
+        return f"{held.component} goes on although gate {held.gate!r} is closed"
+
+    def is_wait(self, number: int) -> bool:
+        return isinstance(self.scenario.steps[number], _WAITS)
+
+    def check_turn(self, number: int, thread: int) -> str | None:
+        """A thread takes its steps one by one, in order; what it leaves behind without a trace must be over."""
+        if self.open.get(thread):
+            return f"step {number} begins while another one is open on thread {thread}"
+        problem = self.turns.begin(number, thread)
+        if problem:
+            return problem
+        for passed in self.turns.passed:
+            step = self.scenario.steps[passed]
+            if isinstance(step, s.ReachGate):
+                if passed not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
+                    return f"step {number} comes after step {passed} (reach), which has met nobody at {step.gate!r}"
+            elif isinstance(step, s.Join):
+                before = [n for n in self.turns.steps.get(step.worker, ()) if n < passed and not self.is_wait(n)]
+                if passed not in self.done and not all(self.done.get(n) for n in before):
+                    return f"step {number} comes after step {passed} (join), and '{step.worker}' is not done"
+            elif passed not in self.done:
+                return f"step {number} comes after step {passed} ({s.operation(step)}), which is missing"
+        return None
+
+    def check_begin(self, event: Call | Skip) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if isinstance(step, _OF_SCENARIO):
+            return f"step {event.step} is no operation"
+        frames = self.open.get(event.thread)
+        if isinstance(event, Skip) and isinstance(step, _OPTIONAL) and event.variable == s.operation(step) and frames:
+            top = frames.pop()
+            self.done[event.step] = True
+            is_own = isinstance(top, Call) and top.step == event.step
+            return None if is_own else f"step {event.step} is skipped and was not begun"
+        if event.step in self.done:
+            return f"step {event.step} is carried out twice"
+        missing = [v for v in used_by(step) if v not in self.bound or (isinstance(step, s.Invoke) and v in self.null)]
+        if isinstance(event, Skip) and event.variable not in missing:
+            return f"step {event.step} is skipped although {event.variable} is bound"
+        if isinstance(event, Call) and missing:
+            return f"step {event.step} is carried out although {missing[0]} is not bound"
+        problem = self.check_turn(event.step, event.thread)
+        self.done[event.step] = isinstance(event, Skip)
+        if isinstance(event, Call):
+            self.open.setdefault(event.thread, []).append(event)
+        return problem
+
+    def check_timeout(self, event: Timeout, before: int | None) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if not isinstance(step, _WAITS) or event.step in self.done:
+            return f"step {event.step} is not a wait"
+        if before is not None and event.t - before < self.shortest_wait:
+            return f"step {event.step} runs out of patience too early"
+        problem = self.check_turn(event.step, event.thread)
+        self.done[event.step] = True
+        return problem
+
+    def check_told(self, event: Counted | Paused | Stressed, before: int | None) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if not isinstance(step, _TOLD[type(event)]) or event.step in self.done:
+            return f"step {event.step} is not what was done"
+        if isinstance(step, s.Pause) and before is not None:
+            due = step.milliseconds * _NANOSECONDS * _PUNCTUALITY - _GRAIN
+            if event.t - before < due:
+                return f"step {event.step} ends too early"
+        if isinstance(event, Counted) and not 0 <= event.distinct <= event.received:
+            return f"step {event.step} has counted {event.distinct} of {event.received}"
+        problem = self.check_turn(event.step, event.thread)
+        self.done[event.step] = True
+        return problem
+
+    def check_opened(self, event: Opened) -> str | None:
+        number = self.turns.next_open(event.gate, event.thread)
+        if number is None:
+            return f"gate {event.gate!r} is opened where no step does so"
+        problem = self.check_turn(number, event.thread)
+        self.done[number] = True
+        self.opened.add(event.gate)
+        return problem
+
+    def check_settled(self, event: Settled) -> str | None:
+        number = self.turns.next_settle(event.worker, event.thread)
+        if number is None:
+            return f"'{event.worker}' is looked for where no step does so"
+        problem = self.check_turn(number, event.thread)
+        self.done[number] = True
+        before = [n for n in self.turns.steps.get(event.worker, ()) if n < number and not self.is_wait(n)]
+        if event.where == "done" and not all(self.done.get(n) for n in before):
+            return f"'{event.worker}' is said to be done and is not"
+        return problem
+
+    def check_end(self, event: Return | Raise) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if isinstance(step, _OF_SCENARIO):
+            return f"step {event.step} is no operation"
+        frames = self.open.setdefault(event.thread, [])
+        top = frames[-1] if frames else None
+        if not isinstance(top, Call) or top.step != event.step:
+            return f"step {event.step} ends without being open on thread {event.thread}"
+        frames.pop()
+        self.done[event.step] = True
+        if isinstance(event, Raise):
+            return None
+        too_early = event.t - top.t < self.shortest_wait
+        if isinstance(step, s.ReadLog) and len(event.records or ()) < step.records and too_early:
+            return f"step {event.step} gives up waiting for {step.records} records too early"
+        self.bound.update(bound_by(step))
+        if isinstance(step, s.GetPortElement):
+            (self.null.add if event.value is None else self.null.discard)(step.bind)
+        return self.check_value(step, event)
+
+    def step(self, event: Call | Skip | Return | Raise | Timeout | Counted | Paused | Stressed) -> s.Step | str:
+        """The event's step, or that there is none."""
+        if not 0 <= event.step < len(self.scenario.steps):
+            return f"there is no step {event.step}"
+        return self.scenario.steps[event.step]
+
+    def check_value(self, step: s.Step, event: Return) -> str | None:
+        value = event.value
+        if isinstance(step, s.ReadLog) != (event.records is not None):
+            return f"{s.operation(step)} returned {'no ' if event.records is None else ''}records"
+        if isinstance(step, _ID_GIVING):
+            fits = isinstance(value, int)
+        elif isinstance(step, s.GetComponents):
+            fits = isinstance(value, tuple)
+        elif isinstance(step, s.GetPortElement):
+            fits = value is None or value == "opaque" or isinstance(value, Reference)
+        else:
+            fits = value is None
+        if not fits:
+            return f"{s.operation(step)} cannot return {value!r}"
+        if isinstance(value, Reference) and value.instance > self.bodies.get(value.component, 0):
+            return f"a reference to {value.component}#{value.instance}, which was never made"
+        return None
+
+    def check_body(self, event: BodyEvent | Event) -> str | None:
+        assert isinstance(event, BodyEvent)
+        declaration = self.scenario.components.get(event.component)
+        if declaration is None:
+            return f"there is no component {event.component}"
+        made = self.bodies.get(event.component, 0)
+        if isinstance(event, Create):
+            self.bodies[event.component] = event.instance
+            return None if event.instance == made + 1 else f"instance {event.instance} is made after {made}"
+        if not 1 <= event.instance <= made:
+            return f"instance {event.instance} of {event.component} was never made"
+        frames = self.open.setdefault(event.thread, [])
+        acts = self.acts.setdefault(event.thread, [])
+        if isinstance(event, Enter):
+            frames.append(event)
+            acts.append([])
+            problem = self.check_enter(declaration, event)
+            held = self.holds.get((event.component, event.instance), {})
+            self.held_before.setdefault(event.thread, []).append(held)
+            return problem
+        if isinstance(event, Request):
+            if acts:
+                acts[-1].append(
+                    s.CallPort(event.port, event.value)
+                    if event.method is None
+                    else s.CallMethod(event.port, event.method, event.arguments or ())
+                )
+            frames.append(event)
+            elements = {policy.element for policy in declaration.policies}
+            known = event.port in declaration.requires or event.port in elements
+            return None if known else f"a request through {event.port!r}"
+        top = frames[-1] if frames else None
+        same = isinstance(top, BodyEvent) and (top.component, top.instance) == (event.component, event.instance)
+        if isinstance(event, Reply):
+            if not (same and isinstance(top, Request) and top.port == event.port):
+                return "a reply without its request"
+            frames.pop()
+            return None
+        if not (same and isinstance(top, Enter)):
+            return f"{event.component} acts without having been entered"
+        if isinstance(event, Exit):
+            frames.pop()
+            return self.check_exit(declaration, top, event, acts.pop())
+        if isinstance(event, Pushed):
+            acts[-1].append(s.Burst(event.port, event.first, event.count))
+            told = sum(event.answers.values())
+            return None if told == event.count else f"{told} answers to {event.count} messages"
+        if isinstance(event, Siblings):
+            acts[-1].append(s.QuerySiblings())
+        if isinstance(event, Held):
+            acts[-1].append(s.HoldAtGate(event.gate))
+            self.arrivals[event.gate] += 1
+            self.waiting[event.thread] = event
+            gates = {a.gate for a in declaration.plan.get(top.hook, ()) if isinstance(a, s.HoldAtGate)}
+            return None if event.gate in gates else f"held at {event.gate!r}, which the plan does not name"
+        return None
+
+    def check_enter(self, declaration: s.Declaration, event: Enter) -> str | None:
+        if event.hook == "exchange" and (event.value is None or event.port not in declaration.provides):
+            return f"exchange on {event.port!r} with {event.value!r}"
+        if event.hook == "method" and (
+            event.method is None or event.arguments is None or event.port not in declaration.ports
+        ):
+            return f"method {event.method!r} on {event.port!r}"
+        if event.hook == "run" and all(policy.definition != s.SELF_EXECUTING for policy in declaration.policies):
+            return "run of a component that does not execute by itself"
+        if event.hook in ("on_connect", "on_disconnect") and not declaration.connectable:
+            return f"{event.hook} on a body that is not Connectable"
+        if event.hook == "set_container_interface" and not declaration.fragment:
+            return "set_container_interface on a body that is no fragment"
+        if (event.hook == "on_startup") != (event.dependencies is not None):
+            return f"{event.hook} {'with' if event.dependencies is not None else 'without'} dependencies"
+        if event.dependencies is not None:
+            held = self.holds[event.component, event.instance] = {}
+            for dependency in event.dependencies:
+                given = sum(reference is not None for reference in dependency.references)
+                held[dependency.port] = held.get(dependency.port, 0) + given
+        return None
+
+    def check_exit(self, declaration: s.Declaration, enter: Enter, event: Exit, acts: list[Action]) -> str | None:
+        before = self.held_before[event.thread].pop()
+        if enter.hook != event.hook:
+            return f"{event.hook} is left where {enter.hook} was entered"
+        plan = declaration.plan.get(enter.hook, ())
+        if event.raised != any(isinstance(a, s.RaiseError) for a in plan):
+            return f"{event.hook} {'raised' if event.raised else 'did not raise'} against its plan"
+        if event.hook == "method":
+            answers = [a for a in plan if isinstance(a, s.Answer) and a.method == enter.method]
+            due_results: tuple[Datum, ...] | None = ()
+            due_exception = None
+            if answers:
+                own = answers[-1].results
+                due_results, due_exception = enter.arguments if own is None else own, answers[-1].exception
+            if not event.raised and (event.results, event.exception) != (due_results, due_exception):
+                return f"{enter.method} gave {event.results!r}, its plan says {due_results!r}"
+        now = self.holds.get((event.component, event.instance), {})
+        if not _as_planned(plan, acts, (now,) if now is before else (now, before)):
+            return f"{event.component} did not act in {event.hook} as its plan says"
+        if event.hook == "on_shutdown":
+            self.holds.pop((event.component, event.instance), None)
+        if event.hook != "exchange" or event.raised or enter.value is None:
+            return None
+        planned = [a.value for a in plan if isinstance(a, s.ReturnValue)]
+        due = planned[-1] if planned else ~enter.value
+        return None if event.value == due else f"exchange returned {event.value}, its plan says {due}"
+
+
+def _as_planned(plan: Sequence[Action], acts: list[Action], held: tuple[dict[str, int], ...]) -> bool:
+    """Are ``acts`` what the plan has a body do that held these references, by number, at one moment or another?"""
+    for index, action in enumerate(plan):
+        if isinstance(action, s.RaiseError):
+            break
+        if isinstance(action, s.ReturnValue | s.Answer | s.CountMessages):
+            continue
+        times = {1}
+        if isinstance(action, s.CallPort | s.CallMethod | s.Burst):
+            times = {one.get(action.port, 0) for one in held}
+        if len(times) > 1:
+            rest = plan[index + 1 :]
+            return any(acts[:n] == [action] * n and _as_planned(rest, acts[n:], held) for n in times)
+        (n,) = times
+        if acts[:n] != [action] * n:
+            return False
+        acts = acts[n:]
+    return not acts

@@ -1,0 +1,80 @@
+"""The test purposes of a profile: those of the scripts and those derived from the life-cycle table."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+
+from ucm_cts.harness.catalogue import load_life_cycle, load_options, load_requirements
+from ucm_cts.harness.scenarios.circles import circle_purposes
+from ucm_cts.harness.scenarios.container_services import container_service_purposes
+from ucm_cts.harness.scenarios.data import data_purposes
+from ucm_cts.harness.scenarios.life_cycle import generated_purposes
+from ucm_cts.harness.scenarios.messages import message_purposes
+from ucm_cts.harness.scenarios.probes import load_probe_types
+from ucm_cts.harness.scenarios.schedules import overlap_purposes
+from ucm_cts.harness.scenarios.scripts import TestPurpose, load_scripts, to_scenario
+from ucm_cts.harness.scenarios.services import service_purposes
+from ucm_cts.harness.scenarios.stress import stress_purposes
+
+PROFILES = ("container", "core")
+"""What a run can choose: profiles that are complete."""
+
+PARTS = {"container": ("container",), "core": ("container", "core")}
+"""The requirements that belong to a profile, by what the catalogue files them under."""
+
+_CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
+    overlap_purposes,
+    circle_purposes,
+    stress_purposes,
+    message_purposes,
+    service_purposes,
+    container_service_purposes,
+)
+"""Where the purposes of profile core come from, beside scripts and those of data_scenarios.py."""
+
+
+@functools.cache
+def load_purposes(profile: str, *readings: str) -> tuple[TestPurpose, ...]:
+    """All test purposes of ``profile``: scripts first, because they read best when they fail.
+
+    Those for other ``readings`` (``option=value``) are left out; of an option that is not declared the first value holds.
+    """
+    known = _readings(readings)
+    data = data_purposes(known) if "core" in PARTS[profile] else []
+    return tuple(purpose for purpose in (*_all_purposes(profile), *data) if _is_for(purpose, known))
+
+
+def _is_for(purpose: TestPurpose, readings: dict[str, str]) -> bool:
+    wanted = (condition.partition("=") for condition in purpose.under)
+    return all(readings[option] in values.split("|") for option, _, values in wanted)
+
+
+def _readings(declared: tuple[str, ...]) -> dict[str, str]:
+    first = {option: values[0] for option, values in load_options().items()}
+    return first | {option: value for option, _, value in (reading.partition("=") for reading in declared)}
+
+
+@functools.cache
+def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
+    clauses = {r.id: r.clause for r in load_requirements() if r.profile in PARTS[profile]}
+    probes = load_probe_types()
+    scripted = [
+        TestPurpose(
+            script.scenario,
+            clauses[script.exercises[0]],
+            script.purpose,
+            script.exercises,
+            ((script.scenario, to_scenario(script, probes)),),
+        )
+        for script in load_scripts()
+        if script.exercises[0] in clauses
+    ]
+    combined = [purpose for source in _CORE for purpose in source()] if "core" in PARTS[profile] else []
+    return (*scripted, *generated_purposes(load_life_cycle()), *combined)
+
+
+def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:
+    """The purposes whose id, clause or requirements contain one of the words of ``expression`` (separated by ``or``)."""
+    words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
+    return tuple(p for p in purposes if any(w in " ".join((p.id, p.clause, *p.requirements)).lower() for w in words))

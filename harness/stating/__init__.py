@@ -1,0 +1,1 @@
+"""For whom: what a vendor states, and what follows from it."""

@@ -1,0 +1,80 @@
+"""Writes a statement as the commented TOML file that a vendor edits."""
+
+from __future__ import annotations
+
+import json
+import textwrap
+from pathlib import Path
+
+import jinja2
+import msgspec
+
+import ucm_cts
+from ucm_cts.adapters.contract.messages import Welcome
+from ucm_cts.harness.catalogue import Interpretation, load_capabilities, load_interpretations
+from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.scenarios.purposes import PARTS
+from ucm_cts.harness.stating.statement import IXIT, Statement, default_statement
+
+WIDTH = 120
+
+
+def write_statement(out: Path, identity: Welcome, adapter: str, force: bool = False) -> None:
+    """Write what holds without a statement, for the vendor of ``identity`` to edit. Raises ``WrongUse``."""
+    product, version = one_line(identity.product), one_line(identity.version)
+    statement = msgspec.structs.replace(default_statement(), product=product, version=version)
+    text = to_toml(statement, one_line(adapter), one_line(str(out)))
+    try:
+        with out.open("w" if force else "x", encoding="utf-8") as file:
+            file.write(text)
+    except FileExistsError:
+        raise WrongUse(
+            f"'{out}' is there already; choose another file with --out, or --force to write over it"
+        ) from None
+    except (OSError, ValueError) as error:
+        told = getattr(error, "strerror", None) or error
+        raise WrongUse(f"'{out}' cannot be written: {told}; choose another file with --out") from None
+
+
+def to_toml(statement: Statement, adapter: str, file: str) -> str:
+    """The whole file: each value with what it means, what it can be, and where in the specification that is unclear.
+
+    ``adapter`` and ``file`` are for the command that it shows.
+    """
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(Path(__file__).parent / "templates"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    environment.filters["toml"] = _toml
+    environment.filters["comment"] = _comment
+    return environment.get_template("ics.toml.jinja").render(
+        statement=statement,
+        adapter=adapter,
+        file=file,
+        suite=f"UCM-CTS {ucm_cts.__version__}",
+        profiles=list(PARTS),
+        capabilities=load_capabilities().capabilities,
+        entries=[entry for entry in load_interpretations() if entry.options],
+        ixit=IXIT,
+    )
+
+
+def _toml(value: str | bool | float) -> str:
+    """One value; JSON writes it as TOML does, but for DEL, and characters beyond the BMP if they are escaped."""
+    if isinstance(value, float):
+        return f"{value:g}" if value.is_integer() else repr(value)
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _comment(entry: Interpretation) -> str:
+    """What is unclear, how it is decided, and what each value is held to, each on lines of its own."""
+    text = entry.text.replace(" Decision: ", "\nDecision: ").replace(" Checked: ", "\nChecked: ")
+    lines = [f"{entry.id} ({', '.join(entry.clauses)})", *text.split("\n")]
+    return "\n".join(
+        line for each in lines for line in textwrap.wrap(each, WIDTH, initial_indent="# ", subsequent_indent="#   ")
+    )
