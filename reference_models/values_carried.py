@@ -17,13 +17,14 @@ from ucm_cts.reference_models.runtime import Runtime
 
 MESSAGE = "message"
 EXCEPTION = "field of an exception"
+_NEVER = 2**63
 
 
 @dataclass(frozen=True)
 class Carried:
     """A value of a call that arrived, as ``got``, which may be anything. ``way`` tells in which direction, ``events`` are both
-    ends, and ``differences`` where it is another one; none if it was carried well. It may be ``displaced``: whatever went
-    wrong in the call is like others of its values.
+    ends, and ``differences`` where it is another one; none if it was carried well. That may be ``doubtful``: whatever went
+    wrong in the call is like others of its values, or others were on their way as well.
     """
 
     call: MethodCall
@@ -33,7 +34,7 @@ class Carried:
     way: str
     events: tuple[int, ...]
     differences: tuple[Difference, ...]
-    displaced: bool = False
+    doubtful: bool = False
 
 
 def values_carried(runtime: Runtime) -> list[Carried]:
@@ -46,7 +47,7 @@ def values_carried(runtime: Runtime) -> list[Carried]:
     return [
         one
         for one in carried
-        if one.way not in lost and (not one.displaced or any(d.part.of in altered for d in one.differences))
+        if one.way not in lost and (not one.doubtful or any(d.part.of in altered for d in one.differences))
     ]
 
 
@@ -64,7 +65,7 @@ def method_of(runtime: Runtime, call: MethodCall) -> Method | None:
 def _altered_types(carried: Sequence[Carried]) -> list[AnyType]:
     """Types whose values are altered for certain: one of them that is like another value may be so by chance."""
     found: list[AnyType] = []
-    for difference in (d for one in carried if not one.displaced for d in one.differences):
+    for difference in (d for one in carried if not one.doubtful for d in one.differences):
         if difference.part.of not in found:
             found.append(difference.part.of)
     return found
@@ -85,7 +86,9 @@ def _carried_by(interactions: Interactions, runtime: Runtime, call: MethodCall) 
         if delivery.fit in ("same", "altered") and not _is_of_another(interactions, call, delivery):
             ways = [MESSAGE if call.is_message else f"{p.direction} argument" for p in method.arguments]
             events = (call.request.n, delivery.enter.n)
-            yield from _paired(call, method.arguments, ways, call.request.arguments, delivery.enter.arguments, events)
+            yield from _paired(
+                interactions, call, method.arguments, ways, call.request.arguments, delivery.enter.arguments, events
+            )
     if not call.is_message and len(call.deliveries) == 1:
         yield from _brought_back(interactions, method, call, call.deliveries[0])
 
@@ -102,14 +105,15 @@ def _brought_back(
     events = (gave.n, got.n)
     if gave.exception is None:
         ways = [f"{p.direction} result" for p in method.results]
-        yield from _paired(call, method.results, ways, gave.results, got.results, events)
+        yield from _paired(interactions, call, method.results, ways, gave.results, got.results, events)
     for exception in method.raises:
         if exception.name == gave.exception:
             fields = [Parameter(name, "OUT", of) for name, of in exception.fields.items()]
-            yield from _paired(call, fields, [EXCEPTION] * len(fields), gave.results, got.results, events)
+            yield from _paired(interactions, call, fields, [EXCEPTION] * len(fields), gave.results, got.results, events)
 
 
 def _paired(
+    interactions: Interactions,
     call: MethodCall,
     parameters: Sequence[Parameter],
     ways: Sequence[str],
@@ -120,11 +124,25 @@ def _paired(
     """Value by value; that they are another number of values is not a matter of their types."""
     if sent is None or got is None or not len(parameters) == len(sent) == len(got):
         return
-    displaced = _are_displaced(call, sent, got)
+    doubtful = list(sent) != list(got) and (_are_displaced(call, sent, got) or _meets_others(interactions, call))
     for parameter, way, value, arrived in zip(parameters, ways, sent, got, strict=True):
         if not misfit(parameter.of, value):
             different = tuple(differences(Part(parameter.of, value), arrived))
-            yield Carried(call, parameter.of, value, arrived, way, events, different, displaced)
+            yield Carried(call, parameter.of, value, arrived, way, events, different, doubtful)
+
+
+def _meets_others(interactions: Interactions, call: MethodCall) -> bool:
+    """Was a service called again before this call came back, or held?"""
+    if call.is_message:
+        return False
+    end = call.reply.n if call.reply is not None else _NEVER
+    return any(delivery.was_held for delivery in call.deliveries) or any(
+        other is not call
+        and other.link is call.link
+        and other.request.n < end
+        and (other.reply is None or other.reply.n > call.request.n)
+        for other in interactions.calls
+    )
 
 
 def _are_displaced(call: MethodCall, sent: Sequence[Datum], got: Sequence[Datum]) -> bool:
