@@ -295,6 +295,16 @@ def test_declared_parameters_that_should_not_be_there_are_found(tmp_path: Path) 
     assert having("broken", CORE, {"port-trace-parameters": "none"}) == {"R-10.1-02"}
 
 
+def test_twins_are_compared_in_no_time(tmp_path: Path) -> None:
+    def tree(depth: int, leaf: str) -> str:
+        inside = tree(depth - 1, "a") + tree(depth - 1, leaf) if depth else ""
+        return f'<Interface name="{leaf if not depth else "x"}">{inside}</Interface>'
+
+    twins = "".join(f'<Enumeration name="comm_ecode">{tree(10, leaf)}</Enumeration>' for leaf in "bc")
+    (tmp_path / "twins.xml").write_text(f'<ContractModule name="return_codes">{twins}</ContractModule>')
+    assert "R-10.1.2-04" in having("broken", tmp_path)
+
+
 def test_root(tmp_path: Path) -> None:
     core = tmp_path / "core"
     core.mkdir()

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import datetime
 from pathlib import Path
 
 import pytest
 
 from ucm_cts.harness.documents import LARGEST, DocumentError
+from ucm_cts.harness.known_failures import KnownFailure, load_known_failures, waiver_for
 from ucm_cts.harness.scenarios.scripts import read_scripts
+from ucm_cts.reference_models.findings import Finding
 
 GOOD = """\
 scenario: one
@@ -48,6 +51,58 @@ def test_error_names_file_line_and_problem(tmp_path: Path, text: str, line: int,
     message = str(caught.value)
     assert message.startswith(f"{path}:{line}: "), message
     assert word in message
+
+
+def test_what_is_told_is_one_line_that_harms_no_terminal(tmp_path: Path) -> None:
+    path = tmp_path / "script.yaml"
+    for odd in ("\\e[31m\\u202e\\n\\r", "x" * 1_000_000):
+        path.write_text(GOOD.replace("sink", f'"{odd}"'))
+        with pytest.raises(DocumentError) as caught:
+            read_scripts(path)
+        message = str(caught.value)
+        assert message.isprintable()
+        assert len(message) < 1000
+
+
+def test_known_failures_match_without_end_of_stars() -> None:
+    finding = Finding("R", "rule", "cause", "expected", "stop shut down " + "ab" * 500)
+    for pattern, fits in {
+        "*" + "a*" * 300 + "c": False,
+        "stop*" + "a*" * 300: True,
+        "stop shut down *": True,
+        "*shut*down*b": True,
+        "stop": False,
+        "*ba*ab": True,
+        "stop*stop shut down *": False,
+        "": False,
+        "*": True,
+        finding.observed: True,
+        f"{finding.observed}*": True,
+        f"{finding.observed}*b": False,
+    }.items():
+        entry = KnownFailure("R", pattern, "why", "2099-12-31")
+        assert waiver_for(finding, [entry]) == ("why" if fits else ""), pattern
+
+
+HOSTILE_LISTS = {
+    "no list": ("requirement: R-11.2.3-15\n", 1, "array"),
+    "no entry": ("- 5\n", 1, "object"),
+    "not a date": ("- {requirement: R-11.2.3-15, observed: x, reason: y, expires: " + "9" * 40 + "}\n", 1, "number"),
+    "tag": ("- !!python/object:os.system x\n", 1, "tag"),
+    "aliases": ("- &a [*a, *a]\n", 1, "anchors"),
+    "deep": ("[" * 10_000, 1, "nests"),
+    "huge": ("#" * (LARGEST + 1), None, "larger"),
+}
+
+
+@pytest.mark.parametrize(("text", "line", "word"), HOSTILE_LISTS.values(), ids=HOSTILE_LISTS.keys())
+def test_bad_known_failures(tmp_path: Path, text: str, line: int | None, word: str) -> None:
+    path = tmp_path / "known.yaml"
+    path.write_text(text)
+    with pytest.raises(DocumentError) as caught:
+        load_known_failures(path, ["R-11.2.3-15"], datetime.date(2030, 1, 1))
+    assert str(caught.value).startswith(f"{path}:{line}: " if line else f"{path}: ")
+    assert word in str(caught.value)
 
 
 def test_good_script_is_read(tmp_path: Path) -> None:
