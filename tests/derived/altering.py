@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
+from derived.registry import breaks_core
 from ucm_cts.adapters.contract.data_types import Alias, AnyType, Array, Datum, Structure, Union
 from ucm_cts.adapters.contract.data_types import Sequence as SequenceType
 from ucm_cts.adapters.contract.data_values import case_of
@@ -56,3 +57,24 @@ def changing(change: Change, only_results: bool = False) -> type[Link]:
             return [rebuilt(of, value, change) for of, value in zip(types, self._copied(values), strict=False)]
 
     return ChangingLink
+
+
+def carries(
+    change: Change, *requirements: str, also: tuple[str, ...] = (), readings: Mapping[str, str] = {}
+) -> Callable[[type], type]:
+    """Register a framework whose connectors make ``change`` to every value."""
+
+    def register(mixin: type) -> type:
+        mixin.link_class = changing(change)  # type: ignore[attr-defined]
+        return breaks_core(*requirements, clauses=("10.1.1",), also=also, readings=readings)(mixin)
+
+    return register
+
+
+def made_to(kind: type, change: Change, *kinds: str) -> Change:
+    """``change``, made to values of one sort of types only."""
+
+    def only(of: AnyType, value: Datum) -> Datum:
+        return change(of, value) if isinstance(of, kind) and (not kinds or of.kind in kinds) else value  # type: ignore[attr-defined]
+
+    return only
