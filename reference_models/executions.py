@@ -13,6 +13,7 @@ from typing import Literal
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Enter, Exit, Held, Opened, Request, Settled
+from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.runtime import Connection, Member, Runtime
 
 Protection = Literal["", "self-executing", "active", "passive", "unprotected"]
@@ -216,17 +217,22 @@ def protection_of(declaration: Declaration | None) -> Protection:
 
 
 def managed_ports(declaration: Declaration) -> set[str]:
-    """The port elements that an active policy applies to."""
-    return {p.port for p in declaration.policies if p.definition == s.ACTIVE and p.port is not None}
+    """The port elements that an active policy applies to: all of a component that has it as a whole."""
+    ports = {p.port for p in declaration.policies if p.definition == s.ACTIVE}
+    return set(declaration.provides) if None in ports else {port for port in ports if port is not None}
 
 
-def exclusion(declaration: Declaration, one: str, other: str) -> str:
-    """The requirement that keeps two ways into a component apart; empty if none does."""
+def exclusion(declaration: Declaration, claims: Claims, one: str, other: str) -> str:
+    """The requirement that keeps two ways into a component apart; empty if none does, or if the vendor reads it so."""
     protection = protection_of(declaration)
     if protection == "self-executing":
-        return "R-10.1.3.2-05" if one == other == "run" else "R-10.1.3.2-06"
+        if one == other == "run":
+            return "R-10.1.3.2-05"
+        return "" if claims.reading("self-exec-mutex") == "run-only" else "R-10.1.3.2-06"
     if protection == "active":
-        return "R-10.1.3.2-09" if {one, other} <= managed_ports(declaration) else "R-10.1.3.2-10"
+        if {one, other} <= managed_ports(declaration):
+            return "R-10.1.3.2-09"
+        return "" if claims.reading("active-unmanaged") == "unprotected" else "R-10.1.3.2-10"
     if protection == "passive":
         return "R-10.1.3.2-13" if one == other else "R-10.1.3.2-16"
     return ""

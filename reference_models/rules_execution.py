@@ -43,7 +43,7 @@ def no_reentry(ledger: Ledger, runtime: Runtime, execution: Execution, met: list
     enter = execution.enter
     declaration = runtime.scenario.components[enter.component]
     for other in met:
-        requirement = exclusion(declaration, execution.way, other.way)
+        requirement = exclusion(declaration, ledger.claims, execution.way, other.way)
         if requirement:
             ledger.violated(
                 requirement,
@@ -71,7 +71,7 @@ def kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, end: int) -
     for call in execution.waited:
         for member, port in goals_of(runtime, call):
             own = (member.component, member.instance) == (enter.component, enter.instance)
-            requirement = exclusion(member.declaration, execution.way, port) if own else ""
+            requirement = exclusion(member.declaration, ledger.claims, execution.way, port) if own else ""
             inside = any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries)
             if requirement and not inside:
                 ledger.exercised(requirement)

@@ -90,7 +90,7 @@ def _look_round(ledger: Ledger, runtime: Runtime, call: BusinessCall, reading: s
 def _came_round(
     ledger: Ledger, member: Member, waiting: Execution, port: str, reading: str, events: tuple[int, ...]
 ) -> None:
-    requirement = exclusion(member.declaration, waiting.way, port)
+    requirement = exclusion(member.declaration, ledger.claims, waiting.way, port)
     if requirement and not ledger.observed("protected-recursion", reading):
         ledger.violated(
             requirement,

@@ -26,7 +26,7 @@ def no_overlap_under_stress(
     if member is None or not member.serving:
         return
     ports = [runtime.ports[ref] for ref in step.refs]
-    requirement = exclusion(member.declaration, ports[0], ports[-1])
+    requirement = exclusion(member.declaration, ledger.claims, ports[0], ports[-1])
     if not requirement:
         if event.overlaps and protection_of(member.declaration) == "unprotected":
             ledger.exercised("R-10.1.3.2-20")

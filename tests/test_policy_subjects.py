@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Mapping
 
 import msgspec
 import pytest
-from derived import POLICY_SUBJECTS, POLICY_VARIANTS, WrongSubject
+from derived import POLICY_READINGS, POLICY_SUBJECTS, POLICY_VARIANTS, WrongSubject
 from performing import answer, scenario
 
 from ucm_cts.adapters.contract.messages import Traced
@@ -15,6 +16,9 @@ from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.running.integrity import contradiction
 from ucm_cts.harness.scenarios.schedules import overlap_purposes
+from ucm_cts.harness.stating.applicability import purposes_for
+from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.judgement import Judge
 
 PASSIVE = {"provides": ["in.api"], "policies": [{"definition": PROTECTED_PASSIVE}]}
@@ -50,19 +54,28 @@ OWN = {
 }  # fmt: skip
 
 
+NONE: Mapping[str, str] = {}
+
+
 @functools.cache
-def scenarios() -> dict[str, Scenario]:
+def scenarios(*declared: tuple[str, str]) -> dict[str, Scenario]:
     """Callers of the test and of a component, and run, met by another one; with a patience that wrong subjects try."""
-    met = {name: plain for purpose in overlap_purposes() for name, plain in purpose.scenarios}
+    default = default_statement()
+    statement = msgspec.structs.replace(default, readings={**default.readings, **dict(declared)})
+    own = {purpose.id for purpose in overlap_purposes()}
+    purposes = [purpose for purpose in purposes_for(statement, "core") if purpose.id in own]
+    met = {name: plain for purpose in purposes for name, plain in purpose.scenarios}
     short = {name: plain for name, plain in met.items() if "elsewhere" not in name and name.count(",") < 2}
     return {name: msgspec.structs.replace(plain, patience=300) for name, plain in (short | OWN).items()}
 
 
-def failing(adapter: type[ReferenceAdapter], enough: frozenset[str] = frozenset()) -> dict[str, str]:
+def failing(
+    adapter: type[ReferenceAdapter], readings: Mapping[str, str] = NONE, enough: frozenset[str] = frozenset()
+) -> dict[str, str]:
     """Failing requirements, each with an example. Waiting for more ends when all of ``enough`` have failed."""
-    judge = Judge(load_life_cycle())
+    judge = Judge(load_life_cycle(), Claims(readings))
     found: dict[str, str] = {}
-    for name, asked in scenarios().items():
+    for name, asked in scenarios(*readings.items()).items():
         reply = answer(asked, adapter)
         assert isinstance(reply, Traced), (name, reply)
         problem = contradiction(asked, reply.events, bool(reply.stuck))
@@ -76,12 +89,12 @@ def failing(adapter: type[ReferenceAdapter], enough: frozenset[str] = frozenset(
 
 @pytest.mark.parametrize("adapter", [ReferenceAdapter, *POLICY_VARIANTS.values()], ids=["reference", *POLICY_VARIANTS])
 def test_conformant_framework_is_not_failed(adapter: type[ReferenceAdapter]) -> None:
-    assert failing(adapter) == {}
+    assert failing(adapter, POLICY_READINGS.get(adapter.product, NONE)) == {}
 
 
 @pytest.mark.parametrize("subject", POLICY_SUBJECTS.values(), ids=POLICY_SUBJECTS.keys())
 def test_wrong_framework_fails_for_the_right_reason(subject: WrongSubject) -> None:
-    found = failing(subject.adapter, frozenset(subject.requirements))
+    found = failing(subject.adapter, subject.readings, frozenset(subject.requirements))
     missed = set(subject.requirements) - set(found)
     spilled = {k: v for k, v in found.items() if k not in subject.requirements and k not in subject.also}
     assert not missed, f"{subject.name} survives {missed}; it fails {found}"

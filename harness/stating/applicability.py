@@ -9,7 +9,7 @@ from dataclasses import replace
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.harness.catalogue import Need, Requirement, load_capabilities
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.results import Verdict
@@ -67,6 +67,7 @@ def asked_in_vain(statement: Statement, profile: str) -> Mapping[str, str]:
     return {requirement: ", ".join(sorted(parts)) for requirement, parts in lacking.items() if requirement not in found}
 
 
+_ON_COMPONENTS = "protected-active-applicability=onComponent"
 _WITH_MODELS = "core-models=shipped"
 
 
@@ -109,9 +110,24 @@ def _fitting(cases: Cases, statement: Statement) -> Cases:
 
 
 def _fitted(scenario: Scenario, statement: Statement) -> Scenario:
-    """The scenario with the declared patience, and without what reads the log back where nobody can."""
+    """The scenario with the declared patience, policies where they can be attached, and no reading of a log that nobody
+    can read back.
+    """
     patience = round(scenario.patience * statement.ixit["patience"] / default_statement().ixit["patience"])
     steps = scenario.steps
     if not statement.meets("trace-sink=hook"):
         steps = tuple(step for step in steps if not isinstance(step, s.ReadLog))
-    return msgspec.structs.replace(scenario, patience=max(1, patience), steps=steps)
+    components = scenario.components
+    if statement.meets(_ON_COMPONENTS):
+        components = {name: _active_as_a_whole(declaration) for name, declaration in components.items()}
+    return msgspec.structs.replace(scenario, components=components, patience=max(1, patience), steps=steps)
+
+
+def _active_as_a_whole(declaration: Declaration) -> Declaration:
+    """The active policy is attached to the component, once, instead of its ports (active-applicability)."""
+    policies = (s.Policy(s.ACTIVE) if p.definition == s.ACTIVE else p for p in declaration.policies)
+    seen: list[s.Policy] = []
+    for policy in policies:
+        if policy != s.Policy(s.ACTIVE) or policy not in seen:
+            seen.append(policy)
+    return msgspec.structs.replace(declaration, policies=tuple(seen))

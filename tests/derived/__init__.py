@@ -10,6 +10,7 @@ import pkgutil
 from derived.registry import (
     CORE_SUBJECTS,
     CORE_VARIANTS,
+    POLICY_READINGS,
     POLICY_SUBJECTS,
     POLICY_VARIANTS,
     SUBJECTS,
@@ -22,6 +23,7 @@ from derived.registry import (
 __all__ = [
     "CORE_SUBJECTS",
     "CORE_VARIANTS",
+    "POLICY_READINGS",
     "POLICY_SUBJECTS",
     "POLICY_VARIANTS",
     "SUBJECTS",

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TypeVar
 
-from derived.registry import Base, policy_variant
-from ucm_cts.adapters.contract.programming_model import UcmError
-from ucm_cts.adapters.contract.scenario import UNPROTECTED_PASSIVE
+from derived.registry import Base, policy_variant, policy_variant_under
+from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
+from ucm_cts.adapters.contract.scenario import ACTIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
 from ucm_cts.adapters.reference_py.framework import Failures, Member
 from ucm_cts.adapters.reference_py.policies import Executor, Trigger
 
@@ -135,6 +136,47 @@ class lets_the_last_in_first(lets_the_first_in_first):
     """Who came last is let in first."""
 
     last_first = True
+
+
+# what is open under a reading that is declared
+
+
+@policy_variant_under({"self-exec-mutex": "run-only"})
+class keeps_runs_apart_only(Base):
+    """Ports of a self-executing component are open, whatever it executes."""
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.execution.definition == SELF_EXECUTING and port is not None:
+            return work()
+        return super()._execute_alone(member, port, work)
+
+
+@policy_variant_under({"active-unmanaged": "unprotected"})
+class leaves_unmanaged_ports_open(Base):
+    """The ports of an active component that its policy does not manage are open."""
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.execution.definition == ACTIVE and port not in member.execution.managed:
+            return work()
+        return super()._execute_alone(member, port, work)
+
+
+@policy_variant_under({"protected-active-applicability": "onComponent"})
+class manages_whole_components(Base):
+    """The active policy cannot be applied to ports; all ports of a component that has it are managed."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if any(policy.definition == ACTIVE and policy.port is not None for policy in implementation.policies):
+            raise UcmError(f"{ACTIVE!r} applies to components")
+        others = tuple(policy for policy in implementation.policies if policy.definition != ACTIVE)
+        if len(implementation.policies) > 1:
+            raise UcmError(f"{implementation.name!r} has more than one execution policy")
+        super()._check_policies(dataclasses.replace(implementation, policies=others))
+
+    def _initialise(self, member: Member) -> None:
+        if member.execution.definition == ACTIVE:
+            member.execution.managed = set(member.implementation.provides)
+        super()._initialise(member)
 
 
 # run

@@ -36,6 +36,8 @@ POLICY_SUBJECTS: dict[str, WrongSubject] = {}
 
 POLICY_VARIANTS: dict[str, type[ReferenceAdapter]] = {}
 
+POLICY_READINGS: dict[str, Mapping[str, str]] = {}
+"""What the vendors of some of these variants declare."""
 
 CORE_SUBJECTS: dict[str, WrongSubject] = {}
 """What only the test purposes of some ``clauses`` of the core show."""
@@ -71,12 +73,18 @@ def variant(mixin: type) -> type:
     return mixin
 
 
-def breaks_policy(*requirements: str, also: tuple[str, ...] = ()) -> Callable[[type], type]:
-    """Register the decorated mixin as a framework that applies execution policies wrongly."""
+def breaks_policy(
+    *requirements: str, also: tuple[str, ...] = (), readings: Mapping[str, str] = {}
+) -> Callable[[type], type]:
+    """Register the decorated mixin as a framework that applies execution policies wrongly.
+
+    ``readings`` are what its vendor declares of options.
+    """
 
     def register(mixin: type) -> type:
         adapter = bind(mixin.__name__, mixin, mixin.__doc__)
-        POLICY_SUBJECTS[mixin.__name__] = WrongSubject(mixin.__name__, adapter, requirements, also)
+        subject = WrongSubject(mixin.__name__, adapter, requirements, also, readings=readings)
+        POLICY_SUBJECTS[mixin.__name__] = subject
         return mixin
 
     return register
@@ -86,6 +94,16 @@ def policy_variant(mixin: type) -> type:
     """Register the decorated mixin as a conformant framework that applies execution policies in its own way."""
     POLICY_VARIANTS[mixin.__name__] = bind(mixin.__name__, mixin, mixin.__doc__)
     return mixin
+
+
+def policy_variant_under(readings: Mapping[str, str]) -> Callable[[type], type]:
+    """Register the decorated mixin as a framework that conforms because its vendor declares ``readings``."""
+
+    def register(mixin: type) -> type:
+        POLICY_READINGS[mixin.__name__] = readings
+        return policy_variant(mixin)
+
+    return register
 
 
 def breaks_core(

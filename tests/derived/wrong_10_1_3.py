@@ -90,6 +90,11 @@ class protects_from_connections_only(Base):
     link_class = _PastProtection
 
 
+@breaks_policy("R-10.1.3.2-09", readings={"active-unmanaged": "unprotected"})
+class leaves_active_components_open_as_if_declared(leaves_active_components_open):
+    """Active components are open, of which the vendor has declared a part only."""
+
+
 @breaks_policy("R-10.1.3.2-10")
 class protects_managed_ports_only(Base):
     """The ports of an active component that its policy does not manage are open."""
