@@ -14,6 +14,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Paused
 from ucm_cts.reference_models.interactions import Interactions, MethodCall
+from ucm_cts.reference_models.runtime import Container
 from ucm_cts.reference_models.service_policies import policy_elements
 
 LOCAL, SYNCHRONIZED = "get_local_time", "get_synchronized_time"
@@ -44,6 +45,11 @@ class ClockReading:
     def body(self) -> tuple[str, int]:
         """Who read the clock."""
         return self.call.request.component, self.call.request.instance
+
+    @property
+    def container(self) -> Container | None:
+        """Where the body is; None if nobody knows."""
+        return self.call.caller.container if self.call.caller is not None else None
 
     def is_before(self, other: ClockReading) -> bool:
         """Was it over before the other one began?"""

@@ -123,9 +123,13 @@ def _refused(ledger: Ledger, window: Window, end: Raise) -> None:
 
 @rule("closed", "R-10.1.4.1-08")
 def local_time_order(ledger: Ledger, runtime: Runtime) -> None:
-    """Of two readings of local time one after the other the later one is not earlier, unless the clock may have been set."""
+    """Of two readings of local time in one container, one after the other, the later one is not earlier, unless the clock
+    may have been set. Another container may be on another node.
+    """
     tolerance = ledger.claims.tolerance("clock-tolerance") * MILLISECOND
     for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(ledger)):
+        if earlier.container is None or earlier.container is not later.container:
+            continue
         went = passed(earlier.time, later.time)
         if went >= 0:
             if drift <= tolerance:
@@ -145,6 +149,26 @@ def synchronized_time_agrees(ledger: Ledger, runtime: Runtime) -> None:
             return
         if earlier.body != later.body and drift <= tolerance * MILLISECOND:
             ledger.exercised("R-10.1.4.1-10")
+
+
+@rule("closed", "R-10.1.4.1-10", timed=True)
+def synchronized_time_passes(ledger: Ledger, runtime: Runtime) -> None:
+    """Between two readings of one body synchronized time went on, by half of the real time at least."""
+    tolerance = ledger.claims.tolerance("synchronization-tolerance") * MILLISECOND
+    for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
+        least = (later.asked - earlier.told) // 2
+        went = passed(earlier.time, later.time)
+        if earlier.body != later.body or went >= least - tolerance - drift:
+            continue
+        ledger.violated(
+            "R-10.1.4.1-10",
+            "synchronized_time_passes",
+            "too slow",
+            f"synchronized time goes on by {_milliseconds(least - tolerance)} ms at least",
+            f"'{_who(later)}' saw it go on by {_milliseconds(went)} ms",
+            (earlier.end, later.end),
+        )
+        return
 
 
 @rule("closed", "R-10.1.4.1-09", timed=True)

@@ -55,6 +55,22 @@ class has_seconds_that_wrap(Base):
 
 
 @core_variant_of("10.1.4")
+class has_a_node_for_each_container(Base):
+    """Every sub-container is on a node with a clock of its own, some seconds behind; synchronized time is one."""
+
+    def _local_time(self, member: Member) -> int:
+        return super()._local_time(member) - (self is not self.manager) * 5 * SECOND
+
+
+@core_variant_of("10.1.4")
+class keeps_synchronized_time_loosely(Base):
+    """Synchronized time goes on in steps of 40 ms, and a bit slower than it should."""
+
+    def _synchronized_time(self, member: Member) -> int:
+        return super()._synchronized_time(member) * 9 // 10 // (40 * MILLISECOND) * 40 * MILLISECOND
+
+
+@core_variant_of("10.1.4")
 class notices_clocks_at_start(Base):
     """Components with two clocks are added, and keep their container from starting."""
 

@@ -176,6 +176,23 @@ class synchronizes_in_containers_only(Base):
         return super()._synchronized_time(member) + (self is self.manager) * SECOND
 
 
+@breaks_core("R-10.1.4.1-10", clauses=HERE)
+class synchronized_time_begins_with_the_first_reading(Base):
+    """Every component's synchronized time is the time since it first asked."""
+
+    def _synchronized_time(self, member: Member) -> int:
+        now = time.monotonic_ns()
+        return now - int(member.__dict__.setdefault("first asked", now))
+
+
+@breaks_core("R-10.1.4.1-10", clauses=HERE)
+class synchronized_time_stands_still(Base):
+    """Synchronized time is when the framework was loaded."""
+
+    def _synchronized_time(self, member: Member) -> int:
+        return BEGINNING
+
+
 @breaks_core("R-10.1.4.2-14", clauses=HERE)
 class tells_too_many_microseconds(Base):
     """A second is told as microseconds."""
