@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.trace import Raise, Return, Timeout
 from ucm_cts.reference_models.interactions import Delivery, End, LinkState, MethodCall
 from ucm_cts.reference_models.ledger import Ledger, rule
@@ -24,9 +21,7 @@ from ucm_cts.reference_models.messages import (
     was_delivered,
 )
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
-
-_OVERWRITTEN_BY = 3
-"""So many owners of one buffer may have overwritten it."""
+from ucm_cts.reference_models.values_carried import overwritten
 
 
 @rule("closed", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-08", "R-10.1.6.1-10", "R-10.1.6.1-20")
@@ -195,7 +190,7 @@ def values_isolated(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> Non
     pushed, got = list(call.request.arguments or ()), list(enter.arguments or ())
     if delivery.fit == "same":
         ledger.exercised("R-10.1.6.1-19")
-    elif got in _overwritten(pushed):
+    elif got in overwritten(pushed):
         ledger.violated(
             "R-10.1.6.1-19",
             "values_isolated",
@@ -263,24 +258,6 @@ def _is_taken(member: Member, port: str) -> bool:
 def _overwrites(receiver: Member) -> bool:
     plan = receiver.declaration.plan.get("method", ())
     return any(isinstance(a, s.Answer) and a.method == s.PUSH and a.overwrite for a in plan)
-
-
-def _overwritten(values: Sequence[Datum]) -> list[list[Datum]]:
-    """What a buffer may hold after its owners have overwritten it, as bodies do."""
-    found: list[list[Datum]] = []
-    now = list(values)
-    for _ in range(_OVERWRITTEN_BY):
-        now = [_other(value) for value in now]
-        found.append(now)
-    return found
-
-
-def _other(value: Datum) -> Datum:
-    if isinstance(value, bool):
-        return not value
-    if isinstance(value, int):
-        return int(value == 0)
-    return f"{value}?" if isinstance(value, str) else [*map(_other, value), 0]
 
 
 def _missing(

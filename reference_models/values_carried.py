@@ -18,6 +18,8 @@ from ucm_cts.reference_models.runtime import Runtime
 MESSAGE = "message"
 EXCEPTION = "field of an exception"
 _NEVER = 2**63
+_OVERWRITTEN_BY = 3
+"""So many owners of one buffer may have overwritten it."""
 
 
 @dataclass(frozen=True)
@@ -153,14 +155,40 @@ def _are_displaced(call: MethodCall, sent: Sequence[Datum], got: Sequence[Datum]
 
 
 def _is_of_another(interactions: Interactions, call: MethodCall, delivery: Delivery) -> bool:
-    """Did the values of another client's call arrive in place of this one's?"""
+    """Did the values of another client's call arrive in place of this one's, or what their owner wrote over them?"""
     if delivery.fit == "same":
         return False
+    if call.is_message and _is_overwritten(interactions, delivery):
+        return True
     return any(
         other.request.arguments == delivery.enter.arguments and other.request.method == call.request.method
         for other in interactions.calls
         if other.link is call.link and other.caller is not call.caller
     )
+
+
+def _is_overwritten(interactions: Interactions, delivery: Delivery) -> bool:
+    """Is it what the owner of a message on this link may have made of it?"""
+    got = list(delivery.enter.arguments or ())
+    return any(got in overwritten(c.request.arguments or ()) for c in interactions.calls if c.link is delivery.link)
+
+
+def overwritten(values: Sequence[Datum]) -> list[list[Datum]]:
+    """What a buffer may hold after its owners have overwritten it, as bodies do."""
+    found: list[list[Datum]] = []
+    now = list(values)
+    for _ in range(_OVERWRITTEN_BY):
+        now = [_other(value) for value in now]
+        found.append(now)
+    return found
+
+
+def _other(value: Datum) -> Datum:
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int):
+        return int(value == 0)
+    return f"{value}?" if isinstance(value, str) else [*map(_other, value), 0]
 
 
 def _is_result_of_another(interactions: Interactions, call: MethodCall, delivery: Delivery) -> bool:
