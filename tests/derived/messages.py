@@ -13,6 +13,7 @@ from derived.registry import Base, core_variant_of
 from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import UcmError
+from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
 from ucm_cts.adapters.reference_py.connectors import COMM_ERROR, INTERNAL_ERROR, OK, Link, LinkElement, Taker
 from ucm_cts.adapters.reference_py.framework import Member
 
@@ -103,6 +104,17 @@ class passes_codes_on(Base):
             for connection in self._connections_from(member):
                 if isinstance(connection.target, LinkElement) and not connection.target.link.takers:
                     raise UcmError("nobody is there")
+
+
+@core_variant_of(*_CLAUSES, readings={"push-without-receiver": "refused"})
+class attaches_emitters_where_somebody_receives(Base):
+    """An emitter is attached to a connection that has a receiver, and to no other one."""
+
+    class link_class(Link):
+        def _attach_sender(self, member: Member, port: str) -> None:
+            if self.connector == MESSAGE_CONNECTOR and not self.takers:
+                raise UcmError("nobody would receive")
+            super()._attach_sender(member, port)
 
 
 class _Holding(_Codes):
