@@ -68,12 +68,12 @@ class _Cast:
         self.steps.append(s.Attach(link, "emitter", name, "out.api", self.places[name]))
         self.steps.append(s.GetPortElement(name, "in.api", f"tell {name}", self.places[name]))
 
-    def scenario(self, calls: Sequence[Step], patience: int = 2000) -> Scenario:
-        """Start all, receivers first, take ``calls``, stop all, emitters first."""
+    def scenario(self, calls: Sequence[Step], patience: int = 2000, may_stay: tuple[str, ...] = ()) -> Scenario:
+        """Start all, receivers first, take ``calls``, stop all, emitters first. Workers in ``may_stay`` may be slow."""
         places = list(dict.fromkeys(self.places.values()))
         starts, stops = [s.Start(place) for place in places], [s.Stop(place) for place in reversed(places)]
         steps = (*self.steps, *starts, *calls, *stops, s.GetComponents())
-        return Scenario(self.components, steps, patience, self.interfaces)
+        return Scenario(self.components, steps, patience, self.interfaces, may_stay)
 
 
 def message_purposes() -> list[TestPurpose]:
@@ -127,8 +127,13 @@ def _told(names: Sequence[str], at_once: bool) -> list[Step]:
     """Each emitter is told to push."""
     if not at_once:
         return [s.Invoke(f"tell {name}", number + 1) for number, name in enumerate(names)]
-    calls: list[Step] = [s.Invoke(f"tell {name}", n + 1, thread=f"thread of {name}") for n, name in enumerate(names)]
-    return [*calls, *(s.Join(f"thread of {name}") for name in names)]
+    calls: list[Step] = [s.Invoke(f"tell {name}", n + 1, thread=_worker_of(name)) for n, name in enumerate(names)]
+    return [*calls, *(s.Join(_worker_of(name)) for name in names)]
+
+
+def _worker_of(emitter: str) -> str:
+    """Who tells it to push, if all are told at once."""
+    return f"thread of {emitter}"
 
 
 def _several_connections() -> list[TestPurpose]:
@@ -251,7 +256,7 @@ def _burst(emitters: int, receivers: int, count: int) -> Scenario:
         burst = Declaration(("in.api",), ("out.api",), plan=plan, ports={"out.api": _NUMBERS})  # type: ignore[arg-type]
         cast.add_emitter(name, "link", burst)
     waits: list[Step] = [s.AwaitMessages(f"receiver {number}", emitters * count) for number in range(receivers)]
-    return cast.scenario([*_told(names, True), *waits], patience=10_000)
+    return cast.scenario([*_told(names, True), *waits], 10_000, tuple(_worker_of(name) for name in names))
 
 
 def _purpose(
