@@ -19,7 +19,7 @@ from ucm_cts.adapters.contract.messages import PROTOCOL, Welcome
 from ucm_cts.harness.catalogue import load_capabilities, load_options, load_requirements
 from ucm_cts.harness.documents import DocumentError
 from ucm_cts.harness.hosting.locate import WrongUse, locate
-from ucm_cts.harness.models.core_models import CHECKS, CORE
+from ucm_cts.harness.models.core_models import CHECKS, CORE, compare
 from ucm_cts.harness.pytest_plugin import _undecided
 from ucm_cts.harness.report.write import save_report
 from ucm_cts.harness.results import Report
@@ -27,7 +27,7 @@ from ucm_cts.harness.running.campaign import Campaign
 from ucm_cts.harness.running.driver import Driver
 from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.harness.stating.applicability import asked_in_vain, needs_of, purposes_for, why_not
-from ucm_cts.harness.stating.files import LARGEST, check_subject, read_statement
+from ucm_cts.harness.stating.files import LARGEST, check_subject, read_statement, stated_by
 from ucm_cts.harness.stating.statement import HOOKS, IXIT, Statement, default_statement
 from ucm_cts.harness.stating.writing import to_toml, write_statement
 
@@ -365,7 +365,7 @@ def test_without_models_what_only_they_show_is_open(here: Path) -> None:
 
 
 def test_ics_writes_a_statement_that_run_takes(here: Path) -> None:
-    outcome = ucm_cts("ics", "reference-py")
+    outcome = ucm_cts("ics", ADAPTER)
     assert (outcome.status, outcome.err) == (0, "")
     statement = read_statement(here / "ucm-cts-ics.toml")
     assert statement.product == "UCM-CTS reference framework (Python)"
@@ -426,6 +426,13 @@ def test_wrong_statements_are_wrong_use(here: Path) -> None:
         assert len(outcome.err.splitlines()) == 1
     outcome = ucm_cts("run", "reference-py", "--ics", "nowhere.toml")
     assert (outcome.status, outcome.err) == (2, "ucm-cts: nowhere.toml: cannot be read: No such file or directory\n")
+
+
+def test_ics_writes_what_is_published_with_a_short_name(here: Path) -> None:
+    assert ucm_cts("ics", "reference-cpp", "--out", "own.toml").status == 0
+    own, published = read_statement(here / "own.toml"), stated_by(None, "reference-cpp")
+    assert (own.readings, own.product) == (published.readings, published.product)
+    assert {r.status for r in compare(own.model_paths, own.readings).results} == {"kept"}
 
 
 def test_reference_frameworks_state_what_they_are(here: Path) -> None:

@@ -15,15 +15,18 @@ from ucm_cts.harness.catalogue import Interpretation, load_capabilities, load_in
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.scenarios.purposes import PARTS
-from ucm_cts.harness.stating.statement import IXIT, Statement, default_statement
+from ucm_cts.harness.stating.files import stated_by
+from ucm_cts.harness.stating.statement import IXIT, Statement
 
 WIDTH = 120
 
 
 def write_statement(out: Path, identity: Welcome, adapter: str, force: bool = False) -> None:
-    """Write what holds without a statement, for the vendor of ``identity`` to edit. Raises ``WrongUse``."""
+    """Write what holds unless another statement is given, for the vendor of ``identity`` to edit. Raises ``WrongUse``."""
     product, version = one_line(identity.product), one_line(identity.version)
-    statement = msgspec.structs.replace(default_statement(), product=product, version=version)
+    known = stated_by(None, adapter)
+    models = tuple(str(path.resolve()) for path in known.model_paths)
+    statement = msgspec.structs.replace(known, product=product, version=version, models=models)
     text = to_toml(statement, one_line(adapter), one_line(str(out)))
     try:
         with out.open("w" if force else "x", encoding="utf-8") as file:
