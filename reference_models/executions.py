@@ -100,7 +100,7 @@ class BusinessCall:
 class Execution:
     """A body inside ``exchange`` or ``run``: how it was entered, by which call, and at which gate it is held.
 
-    ``waited`` are calls that were seen waiting meanwhile; ``left`` is when it was over; ``earlier`` are the body's runs
+    ``waited`` are calls that were seen waiting meanwhile; ``left`` is when it was over, ``end`` the event; ``earlier`` are the body's runs
     before this one.
     """
 
@@ -110,6 +110,7 @@ class Execution:
     waited: list[BusinessCall] = field(default_factory=list)
     over: bool = False
     left: int = 0
+    end: int = 0
     earlier: list[Execution] = field(default_factory=list)
 
     @property
@@ -125,6 +126,7 @@ class Executions:
         self._runtime = runtime
         self._inside: dict[tuple[str, int], list[Execution]] = {}
         self._runs: dict[tuple[str, int], list[Execution]] = {}
+        self._past: dict[tuple[str, int], list[Execution]] = {}
         self._opened: set[str] = set()
         self._pending: list[BusinessCall] = []
         self.waiting: dict[int, tuple[BusinessCall, Execution]] = {}
@@ -179,9 +181,14 @@ class Executions:
             if execution.enter.thread == exit_.thread and execution.enter.hook == exit_.hook:
                 inside.remove(execution)
                 execution.over = True
-                execution.left = exit_.t
+                execution.left, execution.end = exit_.t, exit_.n
+                self._past.setdefault((exit_.component, exit_.instance), []).append(execution)
                 return execution
         return None
+
+    def past(self, component: str, instance: int) -> tuple[Execution, ...]:
+        """What a body has executed, in the order in which it ended."""
+        return tuple(self._past.get((component, instance), ()))
 
     def hold(self, event: Held) -> None:
         """An execution is held at a gate."""

@@ -89,7 +89,7 @@ class Message:
 class Tracing:
     """Calls of ``method`` that are traced: each time, at one of its two ends, by one policy. ``due`` of them have their
     record in the log sooner or later, ``possible`` ones may have one, ``barred`` ones are below the threshold. ``others`` are
-    ends of such calls that are not traced.
+    ends of such calls that are not traced. ``ports`` says how many are due where.
     """
 
     method: str
@@ -97,7 +97,7 @@ class Tracing:
     possible: int = 0
     barred: int = 0
     others: int = 0
-    ports: set[tuple[str, str]] = field(default_factory=set)
+    ports: Counter[tuple[str, str]] = field(default_factory=Counter)
     severities: set[str] = field(default_factory=set)
     records: list[LogRecord] = field(default_factory=list)
 
@@ -105,6 +105,14 @@ class Tracing:
     def most(self) -> int:
         """So many traced calls there may be, whatever the threshold is."""
         return self.due + self.possible + self.barred
+
+    @property
+    def pairs(self) -> set[int]:
+        """How many calls can have a second record, for their return, as every port has them or has none."""
+        sums = {0}
+        for number in self.ports.values():
+            sums |= {total + number for total in sums}
+        return sums
 
     @property
     def is_traced(self) -> bool:
@@ -153,9 +161,9 @@ def contents_of(
     )
     rest = _without_messages(contents)
     for record in rest:
-        tracing = next((t for t in contents.tracings.values() if t.method in record.message), None)
-        if tracing is not None:
-            tracing.records.append(record)
+        named = [method for method in contents.tracings if method in record.message]
+        if named:  # of names that are parts of others the whole one is meant
+            contents.tracings[max(named, key=len)].records.append(record)
         elif not _is_altered(contents, record):
             contents.strays.append(record)
     return contents
@@ -240,20 +248,24 @@ def _tracings(
         if not policies:
             tracing.others += 1
         for policy in policies:
-            tracing.ports.add((component, port))
-            _add(tracing, policy, end is not None and end < reading.begin.n, threshold)
+            tracing.ports[component, port] += _add(
+                tracing, policy, end is not None and end < reading.begin.n, threshold
+            )
     return tracings
 
 
-def _add(tracing: Tracing, policy: Policy, over: bool, threshold: Threshold) -> None:
+def _add(tracing: Tracing, policy: Policy, over: bool, threshold: Threshold) -> bool:
+    """A call is traced by this policy; tells whether its record is due."""
     severity = policy.parameters.get(s.LOG_SEVERITY, "")
+    tracing.severities.add(severity)
     if not (over and threshold.knows(severity)):
         tracing.possible += 1
     elif threshold.records(severity):
         tracing.due += 1
+        return True
     else:
         tracing.barred += 1
-    tracing.severities.add(severity)
+    return False
 
 
 def _ends(

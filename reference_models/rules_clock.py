@@ -164,7 +164,7 @@ def synchronized_time_passes(ledger: Ledger, runtime: Runtime) -> None:
             "R-10.1.4.1-10",
             "synchronized_time_passes",
             "too slow",
-            f"synchronized time goes on by {_milliseconds(least - tolerance)} ms at least",
+            f"synchronized time goes on by {_milliseconds(least - int(tolerance))} ms at least",
             f"'{_who(later)}' saw it go on by {_milliseconds(went)} ms",
             (earlier.end, later.end),
         )

@@ -9,6 +9,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, HoldAtGate
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
 from ucm_cts.reference_models.executions import (
+    CALL_EXCLUSIONS,
     EXCLUSIONS,
     BusinessCall,
     Execution,
@@ -19,6 +20,7 @@ from ucm_cts.reference_models.executions import (
     managed_ports,
     protection_of,
 )
+from ucm_cts.reference_models.interactions import Delivery
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Runtime, Window, lane, raises
 from ucm_cts.reference_models.service_policies import SERVICES, policies_of
@@ -60,6 +62,7 @@ def no_reentry(ledger: Ledger, runtime: Runtime, execution: Execution, met: list
 def overlap_possible(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
     """Two callers may be inside an unprotected passive component, which is told and never demanded."""
     if met and protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
+        ledger.observed("unprotected-concurrency", "concurrent")
         ledger.exercised("R-10.1.3.2-20")
         ledger.measured("overlaps provoked")
 
@@ -76,6 +79,49 @@ def kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, end: int) -
             if requirement and not inside:
                 ledger.exercised(requirement)
                 ledger.measured("exclusions proved")
+
+
+@rule("delivered", *CALL_EXCLUSIONS)
+def message_kept_out(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+    """A message was pushed while its receiver was executed, time passed, and it came in when the execution had ended."""
+    call, receiver = delivery.call, delivery.receiver
+    if call is None or receiver is None or not call.is_message or runtime.executions is None:
+        return
+    enter = delivery.enter
+    for execution in runtime.executions.past(enter.component, enter.instance):
+        was_there = execution.enter.n < call.request.n
+        if was_there and _time_passed(runtime, call.request.n, execution.end) and enter.port is not None:
+            requirement = exclusion(receiver.declaration, ledger.claims, execution.way, enter.port)
+            if requirement:
+                ledger.exercised(requirement)
+                ledger.measured("exclusions proved")
+
+
+def _time_passed(runtime: Runtime, begin: int, end: int) -> bool:
+    """Did the scenario let time pass between these events?"""
+    return runtime.interactions is not None and any(begin < pause.n < end for pause in runtime.interactions.pauses)
+
+
+@rule("over", "R-10.1.3.2-20")
+def callers_meet(ledger: Ledger, runtime: Runtime, execution: Execution, end: int) -> None:
+    """Who waits while an unprotected component is executed is kept out, which is wrong if callers are said to meet."""
+    enter = execution.enter
+    body = enter.component, enter.instance
+    if protection_of(runtime.scenario.components[enter.component]) != "unprotected":
+        return
+    for call in execution.waited:
+        inside = any((e.component, e.instance) == body for e, _ in call.entries)
+        if inside or not _time_passed(runtime, call.n, end):
+            continue
+        if not ledger.observed("unprotected-concurrency", "may-serialise"):
+            ledger.violated(
+                "R-10.1.3.2-20",
+                "callers_meet",
+                "kept out",
+                f"callers of '{lane(*body)}', which is not protected, meet inside, as declared",
+                "one waited while another one was held there",
+                (enter.n, call.n, end),
+            )
 
 
 @rule("began", "R-10.1.3.2-05")

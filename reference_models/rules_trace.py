@@ -207,19 +207,26 @@ def _number_problem(ledger: Ledger, contents: Contents, tracing: Tracing) -> str
     if found > 2 * possible:
         return "threshold"
     if found > possible or (in_vain and found == possible > 0):
-        reading = "call-and-return" if found > possible else "call"
-        if not ledger.observed("port-trace-records", reading):
-            return f"{reading}, which is not what is declared"
+        for reading in _readings_of_number(found, possible, in_vain):
+            if not ledger.observed("port-trace-records", reading):
+                return f"{reading}, which is not what is declared"
     return ""
 
 
+def _readings_of_number(found: int, calls: int, in_vain: bool) -> list[str]:
+    """What so many records of so many traced calls say: one port may have one a call, and another one two."""
+    if found <= calls:
+        return ["call"]
+    return ["call-and-return", "call"] if in_vain and found < 2 * calls else ["call-and-return"]
+
+
 def _has_too_many(ledger: Ledger, contents: Contents, tracing: Tracing) -> bool:
-    """Are there more records with the method's name than one, or two, for each call that is traced?"""
+    """Are there more records with the method's name than one, or two, for each call that is traced at a port?"""
     found, most = len(tracing.records), tracing.most
     no_more_to_come = contents.reading.in_vain and not tracing.possible
-    between = most < found < 2 * most
+    between = most < found < 2 * most and found - tracing.due not in tracing.pairs
     one_a_call = ledger.claims.reading("port-trace-records") == "call"
-    return found > 2 * most or (between and (no_more_to_come or one_a_call))
+    return found > 2 * most or (between and no_more_to_come) or (one_a_call and most < found < 2 * most)
 
 
 def _may_be_of_others(tracing: Tracing) -> bool:
@@ -229,7 +236,7 @@ def _may_be_of_others(tracing: Tracing) -> bool:
 
 
 def _wrong_number(ledger: Ledger, contents: Contents, tracing: Tracing, problem: str) -> None:
-    beside = [t for t in contents.tracings.values() if t.ports & tracing.ports]
+    beside = [t for t in contents.tracings.values() if t.ports.keys() & tracing.ports.keys()]
     nothing = problem == "none" and not any(t.records for t in beside)
     ledger.violated(
         "R-10.1.4.2-04" if nothing else "R-10.1.4.2-32",

@@ -9,6 +9,7 @@ from __future__ import annotations
 import random
 import re
 import string
+from collections.abc import Sequence
 from typing import TypeVar
 
 import msgspec
@@ -44,6 +45,8 @@ class Disguise:
 
     def scenario(self, scenario: Scenario) -> Scenario:
         """``scenario`` in disguise."""
+        for interface in scenario.interfaces.values():
+            self._name_methods(sorted(interface.methods, key=len))
         return Scenario(
             {self._name(name): self._declaration(d) for name, d in scenario.components.items()},
             tuple(self._step(step) for step in scenario.steps),
@@ -77,6 +80,15 @@ class Disguise:
             self._tokens[plain] = token
             self._remember(token, plain)
         return token
+
+    def _name_methods(self, methods: Sequence[str]) -> None:
+        """A method whose name begins with that of another one, which comes before it, still does so in disguise."""
+        for number, method in enumerate(methods):
+            beginnings = [other for other in methods[:number] if method.startswith(other)]
+            if beginnings and method not in self._tokens and not s.STANDARD_METHODS & {method, beginnings[-1]}:
+                token = self._name(beginnings[-1]) + "".join(self._random.choices(_LETTERS, k=3))
+                self._tokens[method] = token
+                self._remember(token, method)
 
     def _port(self, plain: str) -> str:
         spelled = self._ports.get(plain)

@@ -7,7 +7,7 @@ waited for are looked for again after a pause.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import msgspec
 
@@ -44,11 +44,12 @@ _WIDE = (
 )
 """Empty; beyond ASCII; beyond the BMP; of 256 and of 65,536 characters."""
 
+_MANY = 250
 _NARROW_LIMIT, _LONG = 255, 65_536
 assert len(_NARROW[-1]) == _NARROW_LIMIT
 assert len(_WIDE[-1]) == _LONG
 
-_CALLS = Interface({"alpha": Method(), "beta": Method(), "gamma": Method()})
+_CALLS = Interface({"alpha": Method(), "beta": Method(), "gamma": Method(), "alphabet": Method()})
 _NUMBERS = message_interface(Integer("ULONG"))
 
 
@@ -71,6 +72,12 @@ def _message_purposes() -> list[TestPurpose]:
             ("R-10.1.4.2-47", "R-10.1.4.2-26"),
             _written("warning", _WIDE, more=1),
             under=("log-message=wide-unbounded",),
+        ),
+        _purpose(
+            "log/many records",
+            "So many messages are written that a seldom loss shows.",
+            ("R-10.1.4.2-26", "R-10.1.4.2-25", "R-10.1.4.2-51"),
+            _writing([(_COMMON[number % 4], f"record {number}") for number in range(_MANY)], 0),
         ),
         _purpose(
             "log/severities of the model",
@@ -129,6 +136,7 @@ class _Cast:
     traces: Mapping[str, tuple[Policy, ...]]
     execution: Policy = _UNPROTECTED
     places: Mapping[str, str] = field(default_factory=dict)
+    through_connectors: bool = False
 
     def scenario(self, *reading: Step) -> Scenario:
         """The client is called; then comes ``reading``."""
@@ -149,14 +157,24 @@ class _Cast:
             components[server] = Declaration(
                 ("in.api",), ports={"in.api": "calls"}, policies=(self.execution, *self.traces.get(server, ()))
             )
-            steps += [
-                s.AddComponent(server, place),
-                s.GetPortElement(server, "in.api", f"goal of {port}", place),
-                s.Connect("client", port, f"goal of {port}", f"connection of {port}"),
-            ]
+            steps += [s.AddComponent(server, place), *self._connected(port, server, place)]
         containers = [*self.places.values(), s.MANAGER]
         steps += [s.GetPortElement("client", "in.api", "api"), *map(s.Start, containers), s.Invoke("api", 1), *reading]
         return Scenario(components, (*steps, *map(s.Stop, reversed(containers))), interfaces={"calls": _CALLS})
+
+    def _connected(self, port: str, server: str, place: str) -> list[Step]:
+        if self.through_connectors:
+            link = f"link of {port}"
+            return [
+                s.Link("simple_service_connector", "calls", link),
+                s.Attach(link, "server", server, "in.api", place),
+                s.Attach(link, "client", "client", port),
+            ]
+        goal = f"goal of {port}"
+        return [
+            s.GetPortElement(server, "in.api", goal, place),
+            s.Connect("client", port, goal, f"connection of {port}"),
+        ]
 
 
 _ONE = {"out.api": "server"}
@@ -203,6 +221,31 @@ def _port_purposes() -> list[TestPurpose]:
             "After what is traced has been read, only a method is called that is not.",
             ("R-10.1.4.2-33",),
             _nothing_to_trace(),
+            under=_ON_PORTS,
+        ),
+        _purpose(
+            "port trace/after a restart",
+            "A method is traced, and traced again when all have been stopped and started again.",
+            _RECORDED,
+            _restarted(),
+            under=_ON_PORTS,
+        ),
+        _purpose(
+            "port trace/through a connector",
+            "A method that is called through a connector is traced at both ends.",
+            _RECORDED,
+            _connected_ends().scenario(*_read(4)),
+            under=_ON_PORTS,
+        ),
+        TestPurpose(
+            "port trace/names in names",
+            _CLAUSE,
+            "The name of a method that is traced begins like that of one that is not, or the other way round.",
+            _RECORDED,
+            tuple(
+                (f"port trace/{method} of alpha and alphabet", _names_in_names(method))
+                for method in ("alpha", "alphabet")
+            ),
             under=_ON_PORTS,
         ),
         _purpose(
@@ -256,6 +299,21 @@ def _sides() -> list[tuple[str, Scenario]]:
 def _both_ends() -> _Cast:
     both = {"client": (_trace("out.api", "alpha", "info"),), "server": (_trace("in.api", "alpha", "info"),)}
     return _Cast(_THREE_CALLS, _ONE, both)
+
+
+def _connected_ends() -> _Cast:
+    return replace(_both_ends(), through_connectors=True)
+
+
+def _restarted() -> Scenario:
+    first = _both_ends().scenario(*_read(4))
+    again: tuple[Step, ...] = (s.Start(), s.Invoke("api", 2), *_read(8), s.Stop())
+    return msgspec.structs.replace(first, steps=(*first.steps, *again))
+
+
+def _names_in_names(traced: str) -> Scenario:
+    calls = [("out.api", method) for method in ("alpha", "alphabet", "alpha", "alphabet")]
+    return _Cast(calls, _ONE, {"server": (_trace("in.api", traced, "info"),)}).scenario(*_read(2))
 
 
 def _ways_of_execution() -> list[tuple[str, Scenario]]:

@@ -108,6 +108,17 @@ class writes_calls_and_returns(Base):
 
 
 @core_variant_of("10.1.4")
+class writes_returns_at_required_ports(Base):
+    """A traced call has a record, and one more when it returns to a required port."""
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        result = super()._trace_call(member, port, method, work)
+        if port in member.implementation.requires:
+            super()._trace_call(member, port, method, lambda: None)
+        return result
+
+
+@core_variant_of("10.1.4")
 class writes_late(Base):
     """Another thread writes records, one by one, some time after they were made."""
 

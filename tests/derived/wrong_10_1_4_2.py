@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from derived.registry import Base, breaks_core
 from derived.wrong_10_1_4_1 import HERE, Withholds
+from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, UcmError
-from ucm_cts.adapters.contract.scenario import COMPONENT_TRACE, PORT_TRACE, Policy
+from ucm_cts.adapters.contract.scenario import COMPONENT_TRACE, METHODS_TO_TRACE, PORT_TRACE, Policy
+from ucm_cts.adapters.reference_py.connectors import Link
 from ucm_cts.adapters.reference_py.container_services import Record
 from ucm_cts.adapters.reference_py.framework import Member
 
@@ -93,6 +96,26 @@ class log_drops_debug_messages(Base):
 @breaks_core("R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-32",), readings={"log-threshold": "warning"})
 class log_knows_no_threshold(Base):
     """Everything is recorded; the vendor declares a threshold."""
+
+
+@breaks_core("R-10.1.4.2-26", clauses=HERE)
+class log_loses_what_comes_from_sub_containers(Base):
+    """What components of sub-containers write is not recorded."""
+
+    def _log(self, member: Member, severity: str, message: str) -> None:
+        if member.container is self.manager:
+            super()._log(member, severity, message)
+
+
+@breaks_core("R-10.1.4.2-26", clauses=HERE)
+class log_loses_every_hundredth(Base):
+    """One record of a hundred is lost."""
+
+    def _log(self, member: Member, severity: str, message: str) -> None:
+        runtime = self.manager.__dict__
+        runtime["logged"] = runtime.get("logged", 0) + 1
+        if runtime["logged"] % 100:
+            super()._log(member, severity, message)
 
 
 @breaks_core("R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-02",))
@@ -260,6 +283,41 @@ class traces_one_port_of_a_component(Base):
 
 
 @breaks_core("R-10.1.4.2-32", clauses=HERE)
+class traces_until_the_first_stop(Base):
+    """Who is started again is not traced any more."""
+
+    def _end_execution(self, member: Member) -> None:
+        super()._end_execution(member)
+        member.__dict__["was stopped"] = True
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        return work() if "was stopped" in member.__dict__ else super()._trace_call(member, port, method, work)
+
+
+class _BlindLink(Link):
+    within = threading.local()
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        self.within.connector = True
+        try:
+            return super()._request(method, arguments)
+        finally:
+            self.within.connector = False
+
+
+@breaks_core("R-10.1.4.2-32", clauses=HERE)
+class traces_no_calls_from_connectors(Base):
+    """What comes in through a service connector is not traced."""
+
+    link_class = _BlindLink
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        if getattr(_BlindLink.within, "connector", False):
+            return work()
+        return super()._trace_call(member, port, method, work)
+
+
+@breaks_core("R-10.1.4.2-32", clauses=HERE)
 class traces_the_first_call(Base):
     """A method is recorded when it is called first."""
 
@@ -311,6 +369,22 @@ class traces_all_methods(Base):
 
     def _is_traced(self, policy: Policy, method: str) -> bool:
         return True
+
+
+@breaks_core("R-10.1.4.2-33", clauses=HERE)
+class traces_methods_that_begin_alike(Base):
+    """Methods are traced whose names begin with what methods_to_trace says."""
+
+    def _is_traced(self, policy: Policy, method: str) -> bool:
+        return method.startswith(policy.parameters[METHODS_TO_TRACE])
+
+
+@breaks_core("R-10.1.4.2-33", clauses=HERE)
+class traces_methods_found_somewhere_in_names(Base):
+    """Methods are traced whose names are anywhere in methods_to_trace."""
+
+    def _is_traced(self, policy: Policy, method: str) -> bool:
+        return method in policy.parameters[METHODS_TO_TRACE]
 
 
 @breaks_core("R-10.1.4.2-33", clauses=HERE)
