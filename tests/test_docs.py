@@ -359,3 +359,15 @@ def test_cpp_guide_step_by_step() -> None:
     alias = "import sys, ucm_cts.adapters._reference_cpp as module; sys.modules['acme_adapter'] = module\n"
     check = "\nassert runtime.get_components() == [clock, display]; assert acme_adapter.life_cycles(10) > 0"
     subprocess.run([sys.executable, "-c", alias + textwrap.dedent(code) + check], check=True)
+
+
+def test_example_of_profile_core_serves(here: Path) -> None:
+    write_files("docs/adapter-python.md")
+    write_files("docs/profile-core.md")
+    shell(f"{marked('docs/profile-core.md', 'wired beans').strip()} || true")
+    verdicts = {
+        entry["id"]: entry["verdict"]
+        for entry in json.loads(Path("ucm-cts-report/report.json").read_text())["requirements"]
+    }
+    assert verdicts["R-10.1.5.1-01"] == "pass"
+    assert {"R-10.1.5.1-11", "R-10.1.5.1-05"} <= {one for one, verdict in verdicts.items() if verdict == "pass"}
