@@ -161,6 +161,11 @@ class leaves_unmanaged_ports_open(Base):
         return super()._execute_alone(member, port, work)
 
 
+@policy_variant_under({"unprotected-concurrency": "concurrent"})
+class lets_callers_meet(Base):
+    """Callers meet in unprotected passive components, as they do in the reference framework."""
+
+
 @policy_variant_under({"protected-active-applicability": "onComponent"})
 class manages_whole_components(Base):
     """The active policy cannot be applied to ports; all ports of a component that has it are managed."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TypeVar
 
 from derived.registry import Base, Proxy, breaks_core, breaks_policy
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
-from ucm_cts.adapters.reference_py.connectors import Link
+from ucm_cts.adapters.reference_py.connectors import Link, Taker
 from ucm_cts.adapters.reference_py.framework import Failures, Member
 from ucm_cts.adapters.reference_py.policies import ProtectedElement, Trigger
 
@@ -88,6 +88,70 @@ class protects_from_connections_only(Base):
     """Connectors of services call bodies directly."""
 
     link_class = _PastProtection
+
+
+class _PushesPastProtection(Link):
+    def _deliver(self, taker: Taker, method: str) -> None:
+        while (message := taker.messages.get()) is not None:
+            element = taker.member.body.get_portElement(taker.port)
+            assert element is not None
+            with suppress(Exception):
+                element.call(method, [message])
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-16")
+class protects_from_calls_only(Base):
+    """Messages enter protected components while others are inside."""
+
+    link_class = _PushesPastProtection
+
+
+class _LosesWhereProtected(Link):
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        if not taker.member.container._is_protected(taker.member):
+            super()._post(taker, method, arguments)
+
+
+@breaks_policy("R-10.1.2-10")
+class loses_messages_to_protected_components(Base):
+    """Messages to protected components get ok and are lost."""
+
+    link_class = _LosesWhereProtected
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16")
+class protects_until_exceptions(Base):
+    """A protected component that was left with an exception is protected no more."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.__dict__.get("was left with an exception"):
+            return work()
+        try:
+            return super()._execute(member, port, work)
+        except Exception:
+            member.__dict__["was left with an exception"] = True
+            raise
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16", also=("R-10.1.3.2-05",))
+class protects_until_the_first_stop(Base):
+    """Components that have been stopped are protected no more."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        return work() if member.__dict__.get("was stopped") else super()._execute(member, port, work)
+
+    def _end_execution(self, member: Member) -> None:
+        if member in self.started:
+            member.__dict__["was stopped"] = True
+        super()._end_execution(member)
+
+
+@breaks_policy("R-10.1.3.2-20", readings={"unprotected-concurrency": "concurrent"})
+class serialises_what_it_says_it_does_not(Base):
+    """Unprotected passive components are entered one at a time, and callers are said to meet there."""
+
+    def _is_protected(self, member: Member) -> bool:
+        return super()._is_protected(member) or member.execution.definition == UNPROTECTED_PASSIVE
 
 
 @breaks_policy("R-10.1.3.2-09", readings={"active-unmanaged": "unprotected"})
@@ -293,6 +357,17 @@ class runs_after_stop(Base):
     def _remove(self, member: Member, failures: Failures) -> None:
         super()._end_execution(member)
         super()._remove(member, failures)
+
+
+@breaks_policy("R-10.1.3.2-02", also=("R-10.1.3.2-06",))
+class runs_once_more_after_stop(Base):
+    """run is called once more a little after stop."""
+
+    def _end_execution(self, member: Member) -> None:
+        had_run = member.execution.trigger is not None
+        super()._end_execution(member)
+        if had_run:
+            threading.Timer(1.5 * self.period, self._execution_api(member).run).start()
 
 
 @breaks_policy("R-10.1.3.2-14")
