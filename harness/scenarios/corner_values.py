@@ -31,11 +31,17 @@ Readings = Mapping[str, str]
 UNDECLARED: Readings = MappingProxyType({})
 """What holds when the vendor declares nothing."""
 
-LONG_STRING = 1000
+LONG_STRING = 1025
 """Characters of an unbounded string that counts as long."""
 
-LONG_SEQUENCE = 300
-"""Elements of an unbounded sequence that counts as long: more than an octet can count."""
+LONGEST_STRING = 65_536
+"""Characters of one that is longer than 16 bits can count."""
+
+LONG_SEQUENCE = 1000
+"""Elements of an unbounded sequence that counts as long."""
+
+_OCTET = 256
+"""An octet cannot count so many elements."""
 
 _MOST_COMBINATIONS = 12
 
@@ -145,7 +151,8 @@ def _of_string(of: String, readings: Readings) -> list[Datum]:
         "".join(alphabet),
     ]
     full = ["".join(alphabet[(i * 5 + 1) % len(alphabet)] for i in range(size)), "x" * size, "x" * (size - 1) + " "]
-    kept = [text for text in shapes + full if len(text) <= size and all(ord(c) <= last for c in text)]
+    full += ["y" * LONGEST_STRING] if of.size < 0 else []
+    kept = [text for text in shapes + full if (of.size < 0 or len(text) <= size) and all(ord(c) <= last for c in text)]
     return list(dict.fromkeys(kept))
 
 
@@ -204,7 +211,8 @@ def _dealer(values: Sequence[Datum], start: int) -> Callable[[], Datum]:
 def _of_sequence(of: SequenceType, readings: Readings) -> list[Datum]:
     least, most = lengths(of, readings, LONG_SEQUENCE)
     elements = corners(of.of, readings)
-    wanted = sorted({n for n in (least, 1, 2, most // 2, most - 1, most) if least <= n <= most})
+    some = (_OCTET,) if of.size < 0 else (most // 2, most - 1)
+    wanted = sorted({n for n in (least, 1, 2, *some, most) if least <= n <= most})
     if of.size < 0 and isinstance(of.of, Structure | Union | Array | SequenceType):
         wanted = [n for n in wanted if n <= 2] + [5]
     return [_array((length,), _dealer(elements, length)) for length in wanted]

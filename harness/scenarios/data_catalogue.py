@@ -151,6 +151,9 @@ CATALOGUE = (
             "names": Sequence(NAME, 3),
             "numbers": Sequence(DOUBLE, 4),
             "up to 1": Sequence(LONGLONG, 1),
+            "flags": Sequence(Boolean(), 17),
+            "measures": Sequence(DOUBLE, 25),
+            "rough measures": Sequence(FLOAT, 25),
         },
     ),
     TypesUnderTest(

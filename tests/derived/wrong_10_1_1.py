@@ -19,6 +19,7 @@ from ucm_cts.adapters.contract.data_types import (
     String,
 )
 from ucm_cts.adapters.contract.data_values import read_spelled, spell
+from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.reference_py.framework import Member
 
 _CLAUSE = ("10.1.1",)
@@ -157,6 +158,27 @@ class strips_blanks(Base):
 @carries(_text(lambda of, text: text[:255]), "R-10.1.1-11")
 class counts_characters_in_an_octet(Base):
     """No string is longer than 255 characters."""
+
+
+@carries(_text(lambda of, text: text[:1000]), "R-10.1.1-11")
+class cuts_strings_after_a_thousand_characters(Base):
+    """No string is longer than 1,000 characters."""
+
+
+@carries(_text(lambda of, text: text[:0xFFFF]), "R-10.1.1-11")
+class counts_characters_in_16_bits(Base):
+    """No string is longer than 65,535 characters."""
+
+
+def _sendable(of: String, text: str) -> str:
+    if len(text) > 0xFFFF:
+        raise UcmError("too long")
+    return text
+
+
+@carries(_text(_sendable), "R-10.1.1-11", also=("R-10.1.2-02", "R-10.1.2-09", "R-10.1.5.1-01", "R-10.1.5.1-13"))
+class refuses_long_strings(Base):
+    """What is longer than 65,535 characters cannot be sent."""
 
 
 @carries(_text(lambda of, text: "".join(c if ord(c) <= 0xFFFF else "?" for c in text)), "R-10.1.1-11")

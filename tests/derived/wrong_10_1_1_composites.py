@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import math
+import struct
 
 from derived.altering import carries, made_to
 from derived.registry import Base, breaks_core
@@ -10,6 +12,7 @@ from ucm_cts.adapters.contract.data_types import (
     Alias,
     AnyType,
     Array,
+    Boolean,
     Datum,
     Float,
     Integer,
@@ -118,6 +121,36 @@ class counts_elements_in_an_octet(Base):
 
 
 # aliases, types in types
+
+
+def _one_octet(of: AnyType, value: Datum) -> Datum:
+    assert isinstance(of, Sequence)
+    assert isinstance(value, list)
+    return [one and place < 8 for place, one in enumerate(value)] if isinstance(of.of, Boolean) else value
+
+
+@carries(made_to(Sequence, _one_octet), "R-10.1.1-16")
+class packs_flags_into_one_octet(Base):
+    """The ninth BOOLEAN of a sequence is always false, and so are those after it."""
+
+
+def _plain_numbers(of: AnyType, value: Datum) -> Datum:
+    assert isinstance(of, Sequence)
+    assert isinstance(value, list)
+    if not isinstance(of.of, Float):
+        return value
+    form = ">f" if of.of.kind == "FLOAT" else ">d"
+    numbers = [struct.unpack(form, bytes.fromhex(str(one)))[0] for one in value]
+    spelled = map(str, value)
+    return [
+        one if math.isfinite(number) and (number or one[0] != "8") else "0" * len(one)
+        for one, number in zip(spelled, numbers, strict=True)
+    ]
+
+
+@carries(made_to(Sequence, _plain_numbers), "R-10.1.1-16")
+class writes_no_special_numbers_in_sequences(Base):
+    """In sequences, infinities, NaNs and negative zeros arrive as zeros."""
 
 
 @breaks_core("R-10.1.1-17", clauses=_CLAUSE, also=_REFUSED)
