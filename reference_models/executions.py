@@ -186,6 +186,10 @@ class Executions:
                 return execution
         return None
 
+    def runs(self, component: str, instance: int) -> tuple[Execution, ...]:
+        """The body's executions by ``run``, over or not, in the order in which they began."""
+        return tuple(self._runs.get((component, instance), ()))
+
     def past(self, component: str, instance: int) -> tuple[Execution, ...]:
         """What a body has executed, in the order in which it ended."""
         return tuple(self._past.get((component, instance), ()))

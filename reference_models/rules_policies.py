@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.contract.trace import Raise, Return
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration
+from ucm_cts.adapters.contract.trace import Raise, Return, Timeout
 from ucm_cts.reference_models.executions import (
     CALL_EXCLUSIONS,
     BusinessCall,
     Execution,
     exclusion,
     goals_of,
+    managed_ports,
     protection_of,
 )
 from ucm_cts.reference_models.interactions import MethodCall
 from ucm_cts.reference_models.ledger import Ledger, rule
-from ucm_cts.reference_models.runtime import Member, Runtime, Window
+from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane, raises
+
+_MILLISECOND = 1_000_000
 
 
 @rule("ended", "R-10.1.3-02", at=("add_component", "start"))
@@ -49,6 +54,91 @@ def _note(ledger: Ledger, window: Window, who: str, reading: str, end: Return | 
         (end.n,),
         window.step_number,
     )
+
+
+@rule("ended", "R-10.1.3-03", at=("add_component", "start"))
+def active_policies(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """A component with the active policy on several ports is refused, or started, as declared."""
+    declarations = runtime.scenario.components
+    if window.operation == "add_component":
+        component = getattr(window.step, "component", "")
+        declaration = declarations.get(component)
+        is_open = declaration is not None and _is_active_twice(declaration) and window.container.started is False
+        if is_open and isinstance(end, Raise):
+            _note_active(ledger, window, component, "refuse", end)
+        return
+    twice = [m for m in window.container.live_members() if _is_active_twice(m.declaration)]
+    if twice and window.judged and isinstance(end, Return):
+        _note_active(ledger, window, twice[0].lane, "allow", end)
+
+
+def _is_active_twice(declaration: Declaration) -> bool:
+    """Has it nothing beside the active policy on several ports, and no callback that fails?"""
+    is_active = all(p.definition == s.ACTIVE and p.port is not None for p in declaration.policies)
+    fails = raises(declaration, "on_init", "set_container_interface")
+    return is_active and not fails and len(managed_ports(declaration)) > 1
+
+
+def _note_active(ledger: Ledger, window: Window, who: str, reading: str, end: Return | Raise) -> None:
+    if ledger.observed("second-active-policy", reading):
+        return
+    allows = reading == "refuse"
+    ledger.violated(
+        "R-10.1.3-03",
+        "active_policies",
+        reading,
+        f"'{who}', of which two ports are active, is {'allowed' if allows else 'refused'}, as declared",
+        f"it was {'refused' if allows else 'started'}",
+        (end.n,),
+        window.step_number,
+    )
+
+
+@rule("began", "R-10.1.3.2-01")
+def runs_again(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+    """run is called more than once a start, unless the vendor declares that it is called once."""
+    enter = execution.enter
+    if execution.way != "run" or met:
+        return
+    since = _runs_since_start(runtime, enter.component, enter.instance)
+    if len(since) > 1 and not ledger.observed("run-trigger", "repeated"):
+        ledger.violated(
+            "R-10.1.3.2-01",
+            "runs_again",
+            "repeated",
+            f"run of '{lane(enter.component, enter.instance)}' is called once a start, as declared",
+            "it was called again",
+            (since[0].enter.n, enter.n),
+        )
+
+
+@rule("waited", "R-10.1.3.2-01", timed=True)
+def runs_no_more(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
+    """run was called once and not again within most of the scenario's patience, although it returned."""
+    step = runtime.scenario.steps[event.step]
+    patience = runtime.scenario.patience
+    for member in runtime.everyone if isinstance(step, s.ReachGate) else ():
+        runs = _runs_since_start(runtime, member.component, member.instance or 0)
+        plan = member.declaration.plan.get("run", ())
+        if not member.serving or len(runs) != 1 or s.HoldAtGate(step.gate) not in plan or s.RaiseError() in plan:
+            continue
+        is_long_over = runs[0].over and event.t - runs[0].left > patience * _MILLISECOND / 2
+        if is_long_over and not ledger.observed("run-trigger", "once"):
+            ledger.violated(
+                "R-10.1.3.2-01",
+                "runs_no_more",
+                "once",
+                f"run of '{member.lane}' is called again and again, as declared",
+                f"it was called once, and not again within {patience} ms",
+                (runs[0].enter.n, event.n),
+                event.step,
+            )
+
+
+def _runs_since_start(runtime: Runtime, component: str, instance: int) -> list[Execution]:
+    started = runtime.startups.get((component, instance))
+    runs = runtime.executions.runs(component, instance) if runtime.executions is not None else ()
+    return [run for run in runs if started is not None and run.enter.n > started[0]]
 
 
 @rule("began", *CALL_EXCLUSIONS)

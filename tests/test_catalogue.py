@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+
 import pytest
 
 import ucm_cts.reference_models.judgement  # noqa: F401 - registers the rules
 from ucm_cts.harness.catalogue import (
+    SUITE,
     Requirement,
     in_the_making,
     load_interpretations,
     load_life_cycle,
+    load_options,
     load_requirements,
 )
 from ucm_cts.harness.models.core_models import CHECKS, checked
@@ -53,6 +58,22 @@ def test_interpretations_are_unique_and_each_value_is_named_once() -> None:
     for interpretation in INTERPRETATIONS.values():
         for option, values in interpretation.options.items():
             assert len(set(values)) == len(values) > 1, option
+
+
+def test_every_option_is_consulted() -> None:
+    """Nobody can declare what nobody reads: rules, rows of the table, comparisons of models, or scenarios."""
+    assert not load_options().keys() - set(_options_read())
+
+
+def _options_read() -> Iterator[str]:
+    """Options named as text of their own (``"option"``, ``"option=value"``) by what judges or provokes."""
+    for room in ("reference_models", "harness/models", "harness/scenarios", "harness/stating", "harness/running"):
+        for path in sorted((SUITE.parent / room).glob("*.py")):
+            yield from re.findall(r'"([a-z0-9-]+)(?:=[^"]*)?"', path.read_text())
+    for name in ("life_cycle.yaml", "models/core/declarations.yaml"):
+        text = (SUITE / name).read_text()
+        yield from re.findall(r"option: ([a-z0-9-]+)", text)
+        yield from re.findall(r"reading: \"?([a-z0-9-]+)=", text)
 
 
 @pytest.mark.parametrize("profile", PROFILES)

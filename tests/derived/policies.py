@@ -166,6 +166,21 @@ class lets_callers_meet(Base):
     """Callers meet in unprotected passive components, as they do in the reference framework."""
 
 
+@policy_variant_under({"second-active-policy": "refuse"})
+class refuses_two_active_ports(Base):
+    """The active policy on two ports is two policies."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1:
+            raise UcmError(f"{implementation.name!r} has more than one execution policy")
+        super()._check_policies(implementation)
+
+
+@policy_variant_under({"second-active-policy": "allow", "run-trigger": "repeated"})
+class says_what_it_does(Base):
+    """It does as the reference framework does, and its vendor says so."""
+
+
 @policy_variant_under({"protected-active-applicability": "onComponent"})
 class manages_whole_components(Base):
     """The active policy cannot be applied to ports; all ports of a component that has it are managed."""

@@ -154,6 +154,35 @@ class serialises_what_it_says_it_does_not(Base):
         return super()._is_protected(member) or member.execution.definition == UNPROTECTED_PASSIVE
 
 
+@breaks_policy("R-10.1.3-03", readings={"second-active-policy": "refuse"})
+class allows_what_it_says_it_refuses(Base):
+    """Two active ports of a component are said to be refused, and are not."""
+
+
+@breaks_policy("R-10.1.3-03", readings={"second-active-policy": "allow"})
+class refuses_what_it_says_it_allows(Base):
+    """Two active ports of a component are said to be allowed, and are refused."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1:
+            raise UcmError("two execution policies")
+        super()._check_policies(implementation)
+
+
+@breaks_policy("R-10.1.3.2-01", readings={"run-trigger": "once"})
+class runs_more_often_than_it_says(Base):
+    """run is said to be called once a start, and is called again and again."""
+
+
+@breaks_policy("R-10.1.3.2-01", readings={"run-trigger": "repeated"})
+class runs_less_often_than_it_says(Base):
+    """run is said to be called again and again, and is called once a start."""
+
+    def _keep_running(self, member: Member, trigger: Trigger) -> None:
+        if not trigger.ended.wait(self.period):
+            self._run(member, trigger)
+
+
 @breaks_policy("R-10.1.3.2-09", readings={"active-unmanaged": "unprotected"})
 class leaves_active_components_open_as_if_declared(leaves_active_components_open):
     """Active components are open, of which the vendor has declared a part only."""
