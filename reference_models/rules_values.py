@@ -28,6 +28,7 @@ from ucm_cts.reference_models.runtime import Runtime
 from ucm_cts.reference_models.services import (
     ServiceCall,
     is_disturbed,
+    is_nested,
     new_types,
     service_calls,
     trouble_with,
@@ -117,16 +118,39 @@ def values_accepted(ledger: Ledger, runtime: Runtime) -> None:
     judged = [one for one in service_calls(runtime) if one.call.reply is not None and not is_disturbed(runtime, one)]
     troubles = [(one, trouble_with(runtime, one)) for one in judged]
     served = [one for one, trouble in troubles if not trouble]
+    known = [value for one in served for value in _values_of(runtime, one)]
     refused = [
         (one, values)
         for one, trouble in troubles
         if not what_sets_apart(runtime, one, served) and (values := _refused(runtime, one, trouble))
+        if not _may_be_carried(one, values, known)
     ]
     if not refused or all(trouble in ("failed", "not served") for _, trouble in troubles):
         return
     alone = [of for _, values in refused for of, _ in values[:1]]
     for one, values in refused:
         _accuse_of_refusal(ledger, one, *values[0], alone)
+
+
+def _may_be_carried(
+    one: ServiceCall, values: Sequence[tuple[AnyType, Datum]], known: Sequence[tuple[AnyType, Datum]]
+) -> bool:
+    """Are its values like those of calls that are carried out? Of a call that is made while its client is called itself, or
+    gets a message, that may be the reason, so that values of the same types are enough.
+    """
+    if is_nested(one):
+        types = [of for of, _ in known]
+        return all(of in types for of, _ in values)
+    return all(value in known for value in values)
+
+
+def _values_of(runtime: Runtime, one: ServiceCall) -> Iterator[tuple[AnyType, Datum]]:
+    """The arguments that its server got, and the results that came back."""
+    method = method_of(runtime, one.call)
+    if method is not None:
+        yield from _typed([p.of for p in method.arguments], one.call.request.arguments)
+    if method is not None and one.exit is not None and one.exit.exception is None:
+        yield from _typed([p.of for p in method.results], one.exit.results)
 
 
 def _refused(runtime: Runtime, one: ServiceCall, trouble: str) -> list[tuple[AnyType, Datum]]:

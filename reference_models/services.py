@@ -119,6 +119,16 @@ def _comes_back(call: MethodCall, server: Member) -> bool:
     return False
 
 
+def is_nested(one: ServiceCall) -> bool:
+    """Did its client make it while it was called itself through a connector, or got a message?"""
+    inside = one.call.business.caller
+    while inside is not None:
+        if inside.enter.method is not None:
+            return True
+        inside = inside.call.caller if inside.call is not None else None
+    return False
+
+
 def operations_beside(runtime: Runtime, one: ServiceCall) -> list[Operation]:
     """The operations that were in progress while the call was."""
     interactions = interactions_of(runtime)
