@@ -117,7 +117,9 @@ def runs_no_more(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
     """run was called once and not again within most of the scenario's patience, although it returned."""
     step = runtime.scenario.steps[event.step]
     patience = runtime.scenario.patience
-    for member in runtime.everyone if isinstance(step, s.ReachGate) else ():
+    if not isinstance(step, s.ReachGate):
+        return
+    for member in runtime.everyone:
         runs = _runs_since_start(runtime, member.component, member.instance or 0)
         plan = member.declaration.plan.get("run", ())
         if not member.serving or len(runs) != 1 or s.HoldAtGate(step.gate) not in plan or s.RaiseError() in plan:

@@ -26,7 +26,7 @@ def judged(adapter: str, times: int = 1) -> tuple[Counter[str], dict[str, set[st
     judge = Judge(load_life_cycle())
     exercised: Counter[str] = Counter()
     broken: dict[str, set[str]] = {}
-    cases = [case for purpose in overlap_purposes() for case in purpose.scenarios]
+    cases = [case for purpose in overlap_purposes() if not purpose.under for case in purpose.scenarios]
     for seed in range(times):
         with Driver(locate(adapter), seed=seed) as driver:
             for answer in driver.run(cases):
@@ -54,7 +54,7 @@ def test_every_schedule_proves_something() -> None:
     judge = Judge(load_life_cycle())
     wanted = EXCLUSION | {"R-10.1.3-03", "R-10.1.3.2-05", "R-10.1.3.2-20"}
     with Driver(locate("reference-py"), seed=1) as driver:
-        for purpose in overlap_purposes():
+        for purpose in (p for p in overlap_purposes() if not p.under):
             for answer in driver.run(purpose.scenarios):
                 assert wanted & judge.judge(answer.disguised, answer.trace).exercises.keys(), answer.name
 

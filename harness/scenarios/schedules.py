@@ -115,7 +115,7 @@ def overlap_purposes() -> list[TestPurpose]:
         text = f"Clients of a service connector call a component that is {kind.name} while one is held inside."
         concerned = tuple(dict.fromkeys((*kind.same, *kind.different, *_served(kind))))
         purposes.append(TestPurpose(f"{kind.name}/services", _CLAUSE, text, concerned, scenarios))
-    purposes += [*_receivers(), *_after_something()]
+    purposes += [_active_as_a_whole(), *_receivers(), *_after_something()]
     entered = (*_WAYS, *_SERVICE_WAYS, _MESSAGE_WAY)
     runs = tuple((f"self-executing/{way.name}", _meeting_with_run(way)) for way in entered)
     text = "A self-executing component runs, once started and once started again, and one run at a time."
@@ -133,6 +133,16 @@ def overlap_purposes() -> list[TestPurpose]:
     text = "Callers of a self-executing component are sent while its run is held inside."
     purposes.append(TestPurpose("self-executing/run and ports", _CLAUSE, text, ("R-10.1.3.2-06",), runs))
     return purposes
+
+
+def _active_as_a_whole() -> TestPurpose:
+    """The policy is attached to the component, by vendors who allow that beside ports (active-applicability)."""
+    kind = _Kind("active as a whole", (Policy(s.ACTIVE),), ("R-10.1.3.2-09",), ("R-10.1.3.2-09",))
+    pairs = itertools.product(_WAYS[: len(_PORTS)], repeat=2)
+    scenarios = tuple((f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways)) for ways in pairs)
+    text = f"A component that is {kind.name} is called by two, one while the other is held inside."
+    under = ("protected-active-applicability=onBoth",)
+    return TestPurpose(kind.name, _CLAUSE, text, kind.same, scenarios, under=under)
 
 
 def _receivers() -> list[TestPurpose]:

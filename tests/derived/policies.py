@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from derived.registry import Base, policy_variant, policy_variant_under
 from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
-from ucm_cts.adapters.contract.scenario import ACTIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
+from ucm_cts.adapters.contract.scenario import ACTIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Policy
 from ucm_cts.adapters.reference_py.framework import Failures, Member
 from ucm_cts.adapters.reference_py.policies import Executor, Trigger
 
@@ -195,6 +195,20 @@ class manages_whole_components(Base):
 
     def _initialise(self, member: Member) -> None:
         if member.execution.definition == ACTIVE:
+            member.execution.managed = set(member.implementation.provides)
+        super()._initialise(member)
+
+
+@policy_variant_under({"protected-active-applicability": "onBoth"})
+class manages_ports_or_whole_components(Base):
+    """The active policy can be applied to ports, or to a component, all ports of which are managed then."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if implementation.policies != (Policy(ACTIVE),):
+            super()._check_policies(implementation)
+
+    def _initialise(self, member: Member) -> None:
+        if None in member.execution.managed:
             member.execution.managed = set(member.implementation.provides)
         super()._initialise(member)
 
