@@ -20,6 +20,9 @@ _NANOSECONDS = 1_000_000
 _WITHOUT_EFFECT = (s.Invoke, s.GetPortElement, s.GetComponents, s.ReadLog)
 """Operations that change nothing about who is operational."""
 
+_LONGEST = 200
+"""Characters of what a message carries that people are shown."""
+
 _PUNCTUALITY = 0.9
 """A wait for patience may end after this part of it: clocks differ."""
 
@@ -143,7 +146,8 @@ def overdue(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> Iterator[tupl
 def name_of(call: MethodCall) -> str:
     """The message, as findings tell of it."""
     emitter = call.caller.lane if call.caller is not None else call.request.component
-    return f"{list(call.request.arguments or ())} of {emitter}"
+    values = str(list(call.request.arguments or ()))
+    return f"{values if len(values) <= _LONGEST else f'{values[:_LONGEST]}…'} of {emitter}"
 
 
 def events_of(call: MethodCall, *further: int) -> tuple[int, ...]:

@@ -106,7 +106,11 @@ def told(of: AnyType, value: object) -> str:
     if isinstance(of, Float) and isinstance(value, str) and not misfit(of, value):
         return f"{value} ({_number(of, value)!r})"
     text = repr(value)
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 20]}… ({len(text)} characters)"
+    return (
+        text
+        if len(text) <= _LONGEST
+        else f"{text[: _LONGEST - 20]}… ({len(value) if isinstance(value, str) else len(text)} characters)"
+    )
 
 
 @rule("closed", *REQUIREMENTS)
