@@ -214,6 +214,26 @@ class Interactions:
                 operation.end = end
                 return
 
+    def has_left(self, delivery: Delivery) -> bool:
+        """Had who was entered been detached from the link, or removed, before this was called, or anything like it?"""
+        member, link, arguments = delivery.receiver, delivery.link, delivery.enter.arguments
+        moment = min(
+            (c.request.n for c in self.calls if c.link is link and c.request.arguments == arguments), default=0
+        )
+        ends = (
+            [e for e in link.ends if e.member is member and e.port == delivery.enter.port] if link is not None else []
+        )
+        if member is None or link is None or not ends or any(e.until is None and not member.gone for e in ends):
+            return False
+        attached = max(end.since for end in ends)
+        return any(
+            isinstance(o.end, Return) and o.begin.n > attached and o.end.n < moment
+            for o in self.operations
+            if isinstance(o.step, s.RemoveComponent)
+            or (isinstance(o.step, s.Detach) and (o.step.link, o.step.port) == (link.name, delivery.enter.port))
+            if self._runtime.members.get(o.step.id) is member
+        )
+
     def ends_phases(self, begin: int, end: int) -> bool:
         """Was something in progress between these events that stops or removes components, or undoes connections?"""
         ending = s.Stop | s.RemoveComponent | s.RemoveContainer | s.Destroy | s.Disconnect | s.Detach

@@ -134,6 +134,17 @@ def message_origin(ledger: Ledger, runtime: Runtime) -> None:
         receiver, link, enter = delivery.receiver, delivery.link, delivery.enter
         if receiver is None or link is None or link.connector != s.MESSAGE_CONNECTOR or enter.method != s.PUSH:
             continue
+        call = delivery.call
+        if call is not None and interactions_of(runtime).has_left(delivery):
+            ledger.violated(
+                "R-10.1.6.1-06",
+                "message_origin",
+                "no receiver any more",
+                f"{receiver.lane} gets nothing that is pushed when it is no longer a receiver",
+                f"it got {name_of(call)}",
+                events_of(call, enter.n),
+            )
+            continue
         if delivery.fit != "stray":
             ledger.exercised("R-10.1.6.1-06")
             continue

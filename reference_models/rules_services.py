@@ -243,6 +243,25 @@ def service_uncalled(ledger: Ledger, runtime: Runtime) -> None:
         )
 
 
+@rule("closed", _CALLS)
+def servers_that_left(ledger: Ledger, runtime: Runtime) -> None:
+    """Who is no longer a server of the connection is not entered by calls through it."""
+    interactions = interactions_of(runtime)
+    for delivery in interactions.deliveries:
+        link, call, enter = delivery.link, delivery.call, delivery.enter
+        if link is None or link.connector != s.SERVICE_CONNECTOR or call is None or call.link is not link:
+            continue
+        if delivery.fit == "same" and interactions.has_left(delivery):
+            ledger.violated(
+                _CALLS,
+                "servers_that_left",
+                "no server any more",
+                f"'{lane(enter.component, enter.instance)}' is not called through {link.name}, which it was detached from",
+                f"a later call of {call.request.component} entered {enter.method}",
+                (call.request.n, enter.n),
+            )
+
+
 def _may_be_late(runtime: Runtime, moment: int) -> bool:
     """Were connections undone, or broken, before? Then it is open what is still on its way."""
     undoing = (s.Detach, s.Break, s.Mend)
