@@ -134,3 +134,13 @@ def test_framework_that_knows_the_scripts_by_heart_is_failed() -> None:
 def test_spelling_that_does_not_say_port_and_element_is_wrong_use(spelling: str) -> None:
     with pytest.raises(WrongUse, match=r"must hold \{port\} and \{element\}"):
         Disguise(1, spelling)
+
+
+def test_names_of_methods_that_begin_like_others_still_do() -> None:
+    scenario = dict(next(p for p in load_purposes("core") if p.id == "port trace/names in names").scenarios)
+    (plain,) = [one for name, one in scenario.items() if name.startswith("port trace/alphabet")]
+    disguise = Disguise(3, SPELLING)
+    (interface,) = disguise.scenario(plain).interfaces.values()
+    revealed = {disguise.reveal(name): name for name in interface.methods}
+    assert revealed["alphabet"].startswith(revealed["alpha"])
+    assert not revealed["beta"].startswith(revealed["alpha"])

@@ -6,7 +6,7 @@ waited for are looked for again after a pause.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import msgspec
@@ -171,10 +171,8 @@ class _Cast:
                 s.Attach(link, "client", "client", port),
             ]
         goal = f"goal of {port}"
-        return [
-            s.GetPortElement(server, "in.api", goal, place),
-            s.Connect("client", port, goal, f"connection of {port}"),
-        ]
+        to_goal = s.Connect("client", port, goal, f"connection of {port}")
+        return [s.GetPortElement(server, "in.api", goal, place), to_goal]
 
 
 _ONE = {"out.api": "server"}
@@ -234,7 +232,7 @@ def _port_purposes() -> list[TestPurpose]:
             "port trace/through a connector",
             "A method that is called through a connector is traced at both ends.",
             _RECORDED,
-            _connected_ends().scenario(*_read(4)),
+            replace(_both_ends(), through_connectors=True).scenario(*_read(4)),
             under=_ON_PORTS,
         ),
         TestPurpose(
@@ -242,10 +240,7 @@ def _port_purposes() -> list[TestPurpose]:
             _CLAUSE,
             "The name of a method that is traced begins like that of one that is not, or the other way round.",
             _RECORDED,
-            tuple(
-                (f"port trace/{method} of alpha and alphabet", _names_in_names(method))
-                for method in ("alpha", "alphabet")
-            ),
+            (*_names_in_names(),),
             under=_ON_PORTS,
         ),
         _purpose(
@@ -301,19 +296,17 @@ def _both_ends() -> _Cast:
     return _Cast(_THREE_CALLS, _ONE, both)
 
 
-def _connected_ends() -> _Cast:
-    return replace(_both_ends(), through_connectors=True)
-
-
 def _restarted() -> Scenario:
     first = _both_ends().scenario(*_read(4))
     again: tuple[Step, ...] = (s.Start(), s.Invoke("api", 2), *_read(8), s.Stop())
     return msgspec.structs.replace(first, steps=(*first.steps, *again))
 
 
-def _names_in_names(traced: str) -> Scenario:
+def _names_in_names() -> Iterator[tuple[str, Scenario]]:
     calls = [("out.api", method) for method in ("alpha", "alphabet", "alpha", "alphabet")]
-    return _Cast(calls, _ONE, {"server": (_trace("in.api", traced, "info"),)}).scenario(*_read(2))
+    for traced in ("alpha", "alphabet"):
+        cast = _Cast(calls, _ONE, {"server": (_trace("in.api", traced, "info"),)})
+        yield f"port trace/{traced} of alpha and alphabet", cast.scenario(*_read(2))
 
 
 def _ways_of_execution() -> list[tuple[str, Scenario]]:
