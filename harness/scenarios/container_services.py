@@ -240,7 +240,7 @@ def _port_purposes() -> list[TestPurpose]:
             _CLAUSE,
             "The name of a method that is traced begins like that of one that is not, or the other way round.",
             _RECORDED,
-            (*_names_in_names(),),
+            tuple(_names_in_names()),
             under=_ON_PORTS,
         ),
         _purpose(
