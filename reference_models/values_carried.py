@@ -49,7 +49,9 @@ def values_carried(runtime: Runtime) -> list[Carried]:
     return [
         one
         for one in carried
-        if one.way not in lost and (not one.doubtful or any(d.part.of in altered for d in one.differences))
+        if one.way not in lost
+        and not _is_lost_in_exceptions(one, carried)
+        and (not one.doubtful or any(d.part.of in altered for d in one.differences))
     ]
 
 
@@ -78,6 +80,16 @@ def _lost_ways(carried: Sequence[Carried]) -> set[str]:
     well = {one.way for one in carried if not one.differences}
     wrong = {one.way for one in carried if one.differences and one.way != MESSAGE}
     return wrong - well if well else set()
+
+
+def _is_lost_in_exceptions(one: Carried, carried: Sequence[Carried]) -> bool:
+    """Does its type arrive well on other ways, always, and never in an exception?"""
+    if one.way != EXCEPTION or not one.differences or any(d.is_nan for d in one.differences):
+        return False
+    same = [other for other in carried if other.of == one.of]
+    well = {other.way == EXCEPTION for other in same if not other.differences}
+    wrong = {other.way == EXCEPTION for other in same if other.differences}
+    return well == {False} and wrong == {True}
 
 
 def _carried_by(interactions: Interactions, runtime: Runtime, call: MethodCall) -> Iterator[Carried]:

@@ -59,7 +59,7 @@ class refuses_calls_of_receivers(Base):
             return super()._request(method, arguments)
 
 
-@breaks_core(_ARRIVES, clauses=("10.1.6",), also=("R-10.1.6.1-03",))
+@breaks_core(_ARRIVES, clauses=("10.1.2",))
 class loses_what_servers_push(Base):
     """What is pushed while a call is served is answered ok, and lost."""
 
@@ -68,7 +68,7 @@ class loses_what_servers_push(Base):
             return OK if getattr(self.here, "served", 0) else super()._emit(method, arguments)
 
 
-@breaks_core(_ARRIVES, clauses=("10.1.6",), also=("R-10.1.6.1-03",))
+@breaks_core(_ARRIVES, clauses=("10.1.2",))
 class loses_what_receivers_push(Base):
     """What is pushed while a message is received is answered ok, and lost."""
 
@@ -122,3 +122,16 @@ class loses_exceptions_of_inherited_methods(Base):
                 if method in self.interface.inherited:
                     raise UcmError("something went wrong") from None
                 raise
+
+
+@breaks_core(_EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
+class loses_the_second_field_of_exceptions(Base):
+    """Of an exception the first field arrives, and the others are empty."""
+
+    class link_class(Link):
+        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+            try:
+                return super()._request(method, arguments)
+            except DeclaredException as error:
+                fields = [*error.fields[:1], *(0 if isinstance(f, int) else f for f in error.fields[1:])]
+                raise DeclaredException(error.name, fields) from None
