@@ -10,7 +10,7 @@ from command_line import report_of, ucm_cts, within
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.contract.trace import Call
+from ucm_cts.adapters.contract.trace import Call, Skip
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.results import Incident
 from ucm_cts.harness.running.driver import Driver, Limits
@@ -105,3 +105,16 @@ def test_second_looks_are_for_what_is_not_explained() -> None:
     assert not patience.is_worth_a_look(STOPS, "crash")
     assert patience.is_worth_a_look(STOPS, "hang")
     assert patience.is_worth_a_look(LISTS, "crash")
+
+
+@pytest.mark.parametrize("connector", [s.SERVICE_CONNECTOR, s.MESSAGE_CONNECTOR])
+def test_connector_that_is_not_offered_is_not_asked_for_again(connector: str) -> None:
+    patience = Patience(60)
+    asked = {kind: Scenario({}, (s.Link(kind, "any", "link"),)) for kind in (s.SERVICE_CONNECTOR, s.MESSAGE_CONNECTOR)}  # type: ignore[arg-type]
+    assert patience.not_tried(asked[connector]) is None
+    patience.heard(asked[connector], (Call(1, 0, 0, 0), Skip(2, 0, 0, 0, "link")))
+    refused = patience.not_tried(asked[connector])
+    assert refused is not None
+    assert connector in refused.detail
+    assert [patience.not_tried(other) for kind, other in asked.items() if kind != connector] == [None]
+    assert patience.not_tried(STARTS) is None

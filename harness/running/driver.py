@@ -102,6 +102,7 @@ class Driver:
                     yield from untried()
                     case = waiting.popleft()
                     trace, incident = self._examine(case, reply, insist)
+                    self._patience.heard(case.run.scenario, trace if incident is None else ())
                     lost = incident is not None and incident.kind in _HOST_IS_GONE
                     if incident is not None and lost:
                         self._patience.spend(time.monotonic() - began, case.run.scenario, incident, trace)

@@ -10,7 +10,7 @@ from collections import Counter
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.contract.trace import Call, Raise, Return, Trace
+from ucm_cts.adapters.contract.trace import Call, Raise, Return, Skip, Trace
 from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.rules_operations import DECLARED
@@ -31,9 +31,25 @@ class Patience:
         self._spent_looking = 0.0
         self._met: Counter[tuple[str, IncidentKind]] = Counter()
         self._exhausted = False
+        self._unoffered: set[str] = set()
+
+    def heard(self, scenario: Scenario, trace: Trace) -> None:
+        """A scenario has come back; perhaps the adapter has said that it does not offer a connector."""
+        for event in trace:
+            if isinstance(event, Skip):
+                step = scenario.steps[event.step]
+                if isinstance(step, s.Link) and event.variable == s.operation(step):
+                    self._unoffered.add(step.connector)
 
     def not_tried(self, scenario: Scenario) -> Incident | None:
-        """Why ``scenario`` is not worth a try; None if it is."""
+        """Why ``scenario`` is not worth a try; None if it is.
+
+        Where a connector is not offered nothing comes through it, and waiting for that would take minutes.
+        """
+        links = (step.connector for step in scenario.steps if isinstance(step, s.Link))
+        unoffered = next((connector for connector in links if connector in self._unoffered), None)
+        if unoffered is not None:
+            return Incident("untried", f"not tried: the adapter does not offer {unoffered}")
         if self._spent < self.seconds:
             return None
         reason = f"incidents had taken {self.seconds:g} s (--incident-time)"
