@@ -1,9 +1,15 @@
 """Fixtures of several test modules, and who runs what where there are several workers."""
 
+import signal
+
 import pytest
 from cpp_builds import builds
 
 __all__ = ["builds"]
+
+# A shell that runs the tests in the background may have them ignore these; then no test could interrupt what it starts.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
