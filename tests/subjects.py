@@ -1,4 +1,4 @@
-"""Adapters for tests of the command line: ``subjects:NAME`` is any wrong subject, or one of those below."""
+"""Adapters for tests of the command line: ``subjects:NAME`` is any mutant, or one of those below."""
 
 from __future__ import annotations
 
@@ -9,17 +9,16 @@ import threading
 from collections.abc import Sequence
 from pathlib import Path
 
-from derived import CORE_SUBJECTS, SUBJECTS
-from derived.registry import Base, bind
-
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
+from ucm_cts.adapters.derived import MUTANTS
+from ucm_cts.adapters.derived.registry import Base, bind
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference_py.framework import ContainerManager, Member
 
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:
     try:
-        return (SUBJECTS | CORE_SUBJECTS)[name].adapter
+        return MUTANTS[name].adapter
     except KeyError:
         raise AttributeError(name) from None
 

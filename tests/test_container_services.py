@@ -7,8 +7,6 @@ from typing import Any
 
 import msgspec
 import pytest
-from derived import container_services as variants
-from derived.registry import Base, bind
 from performing import answer
 
 from ucm_cts.adapters.contract.adapter import NotOffered
@@ -16,6 +14,8 @@ from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
 from ucm_cts.adapters.contract.scenario import PORT_TRACE, Policy, Scenario
 from ucm_cts.adapters.contract.trace import Event, LogRecord, Paused, Reply, Request, Return
+from ucm_cts.adapters.derived import container_services as variants
+from ucm_cts.adapters.derived.registry import Base, bind
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference_py.framework import Member
 from ucm_cts.harness.catalogue import load_life_cycle

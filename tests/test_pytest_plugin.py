@@ -14,10 +14,10 @@ from xml.etree import ElementTree
 
 import pytest
 from command_line import report_of, within
-from derived import SUBJECTS
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
+from ucm_cts.adapters.derived import MUTANTS
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.running.disguise import Disguise
@@ -186,7 +186,7 @@ def test_defect_fails_the_nodes_that_show_it_and_no_others(wrong: tuple[Session,
     session, _ = wrong
     assert session.status == 1
     assert set(session.nodes) == set(PURPOSES)
-    assert set(session.failed) == broken(SUBJECTS[SUBJECT].adapter)
+    assert set(session.failed) == broken(MUTANTS[SUBJECT].adapter)
     exercising = {name for name, purpose in PURPOSES.items() if REQUIREMENT in purpose.requirements}
     assert exercising
     assert exercising <= set(session.failed)

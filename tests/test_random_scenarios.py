@@ -8,7 +8,6 @@ from pathlib import Path
 
 import msgspec
 import pytest
-from derived import SUBJECTS, VARIANTS
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from random_scenarios import scenarios
@@ -16,6 +15,7 @@ from random_scenarios import scenarios
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event, Trace
+from ucm_cts.adapters.derived import CONTAINER, mutants_of, variants_of
 from ucm_cts.adapters.python.engine import ContractBroken, Performance
 from ucm_cts.adapters.python.recorder import Recorder
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
@@ -29,10 +29,11 @@ from ucm_cts.reference_models.judgement import Judge
 WAITING = ("calls_wait_for_the_start", "starts_all_at_a_time")
 """Variants that may wait for ever where a scenario calls too early or a body raises."""
 
-CONFORMANT: dict[str, type[Adapter]] = {"reference": ReferenceAdapter, **VARIANTS}
+CONFORMANT: dict[str, type[Adapter]] = {"reference": ReferenceAdapter}
+CONFORMANT |= {name: variant.adapter for name, variant in variants_of(CONTAINER).items()}
 for waiting in WAITING:
     CONFORMANT.pop(waiting, None)
-WRONG = [subject.adapter for subject in SUBJECTS.values()]
+WRONG = [mutant.adapter for mutant in mutants_of(CONTAINER).values()]
 SOME = 20
 """One of so many wrong subjects takes part in each example."""
 

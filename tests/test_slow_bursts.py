@@ -8,12 +8,12 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 import pytest
-from derived.registry import Base, bind
 from performing import answer
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.derived.registry import Base, bind
 from ucm_cts.adapters.reference_py.connectors import COMM_ERROR, Link
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.running.integrity import contradiction

@@ -11,10 +11,10 @@ from typing import Any
 
 import msgspec
 import pytest
-from derived.registry import Base, bind
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Trace
+from ucm_cts.adapters.derived.registry import Base, bind
 from ucm_cts.adapters.reference_py.framework import Member
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.results import Report

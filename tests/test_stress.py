@@ -10,12 +10,12 @@ from typing import TypeVar
 
 import msgspec
 import pytest
-from derived.registry import Base, bind
 from performing import answer
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Stressed, Trace
+from ucm_cts.adapters.derived.registry import Base, bind
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference_py.framework import Member
 from ucm_cts.harness.catalogue import load_life_cycle

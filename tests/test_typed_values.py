@@ -8,7 +8,6 @@ from collections.abc import Iterator
 
 import msgspec
 import pytest
-from derived.altering import rebuilt
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -30,6 +29,7 @@ from ucm_cts.adapters.contract.data_types import (
     integer_range,
 )
 from ucm_cts.adapters.contract.data_values import SCALARS, misfit, parts, read_spelled, spell
+from ucm_cts.adapters.derived.altering import rebuilt
 from ucm_cts.harness.scenarios.corner_values import LONG_SEQUENCE, LONG_STRING, LONGEST_STRING, UNDECLARED, corners
 from ucm_cts.harness.scenarios.data_catalogue import CATALOGUE, COLOUR, KINDS, LONG, NAME, POINT
 from ucm_cts.harness.scenarios.typed_values import draw, values

@@ -5,9 +5,9 @@ from __future__ import annotations
 import functools
 
 import pytest
-from derived import VARIANTS
 from pipeline import Product
 
+from ucm_cts.adapters.derived import CONTAINER, Variant, variants_of
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_options
 
@@ -17,9 +17,9 @@ def reference() -> Product:
     return Product(ReferenceAdapter)
 
 
-@pytest.mark.parametrize("adapter", VARIANTS.values(), ids=VARIANTS.keys())
-def test_conformant_variant_is_not_failed(adapter: type[ReferenceAdapter]) -> None:
-    product = Product(adapter)
+@pytest.mark.parametrize("variant", variants_of(CONTAINER).values(), ids=variants_of(CONTAINER).keys())
+def test_conformant_variant_is_not_failed(variant: Variant) -> None:
+    product = Product(variant.adapter)
     assert product.failing == {}
     assert [option for option, values in product.readings.items() if len(values) > 1] == []
     if product.readings != reference().readings:

@@ -1,0 +1,74 @@
+"""Frameworks that do clause 10.1 wrongly are found out, for the right reason; those that do it in their own way are not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import msgspec
+import pytest
+from performing import answer
+
+from ucm_cts.adapters.contract.messages import Traced
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.derived import CORE, Mutant, Variant, mutants_of, variants_of
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.reference_models.claims import Claims
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.judgement import Judge
+
+SHORT = 0.2
+"""Of the patience of scenarios. What a wrong framework never does is not waited for longer."""
+
+
+def scenarios(clauses: tuple[str, ...], readings: Mapping[str, str]) -> Iterator[tuple[str, Scenario]]:
+    for purpose in load_purposes("core", *(f"{option}={value}" for option, value in readings.items())):
+        if purpose.clause.startswith(clauses):
+            yield from purpose.scenarios
+
+
+def failing(
+    adapter: type[ReferenceAdapter],
+    clauses: tuple[str, ...],
+    patience: float = 1,
+    readings: Mapping[str, str] = {},
+    enough: frozenset[str] = frozenset(),
+) -> dict[str, str]:
+    """Failing requirements, each with an example. Waiting for more ends when all of ``enough`` have failed."""
+    judge = Judge(load_life_cycle(), Claims(readings))
+    found: dict[str, str] = {}
+    for name, whole in scenarios(clauses, readings):
+        asked = msgspec.structs.replace(whole, patience=int(whole.patience * patience))
+        reply = answer(asked, adapter)
+        assert isinstance(reply, Traced), (name, reply)
+        problem = contradiction(asked, reply.events, bool(reply.stuck))
+        assert problem is None, (name, problem)
+        for finding in judge.judge(asked, reply.events).findings:
+            found.setdefault(finding.requirement, _told(name, finding))
+        if enough and enough <= found.keys():
+            break
+    return found
+
+
+def _told(name: str, finding: Finding) -> str:
+    return f"{name}: expected {finding.expected}; observed {finding.observed}"
+
+
+def test_reference_framework_is_not_failed() -> None:
+    assert failing(ReferenceAdapter, CORE) == {}
+
+
+@pytest.mark.parametrize("variant", variants_of(CORE).values(), ids=variants_of(CORE).keys())
+def test_conformant_framework_is_not_failed(variant: Variant) -> None:
+    assert failing(variant.adapter, variant.clauses, readings=variant.readings) == {}
+
+
+@pytest.mark.parametrize("mutant", mutants_of(CORE).values(), ids=mutants_of(CORE).keys())
+def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
+    found = failing(mutant.adapter, mutant.clauses, SHORT, mutant.readings, frozenset(mutant.requirements))
+    missed = set(mutant.requirements) - set(found)
+    spilled = {k: v for k, v in found.items() if k not in mutant.requirements and k not in mutant.also}
+    assert not missed, f"{mutant.name} survives {missed}; it fails {found}"
+    assert not spilled, f"{mutant.name} also fails {spilled}"

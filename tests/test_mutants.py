@@ -1,0 +1,27 @@
+"""Every testable requirement has a mutant that fails it, and fails nothing that it does not break."""
+
+from __future__ import annotations
+
+import pytest
+from pipeline import failing_requirements
+
+from ucm_cts.adapters.derived import CONTAINER, MUTANTS, Mutant, mutants_of
+from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.reference_models.ledger import RULES
+
+
+@pytest.mark.parametrize("mutant", mutants_of(CONTAINER).values(), ids=mutants_of(CONTAINER).keys())
+def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
+    failing = failing_requirements(mutant.adapter)
+    missed = set(mutant.requirements) - set(failing)
+    spilled = {k: v for k, v in failing.items() if k not in mutant.requirements and k not in mutant.also}
+    assert not missed, f"{mutant.name} survives {missed}; it fails {failing}"
+    assert not spilled, f"{mutant.name} also fails {spilled}"
+
+
+def test_every_testable_requirement_has_a_mutant() -> None:
+    broken = {requirement for mutant in MUTANTS.values() for requirement in mutant.requirements}
+    testable = {r.id for r in load_requirements() if any(rule in RULES for rule in r.rules)}
+    permissions = {r.id for r in load_requirements() if r.level == "may"}  # nothing can break them
+    assert testable - broken - permissions == set()
+    assert broken <= testable

@@ -1,0 +1,102 @@
+"""Frameworks that apply execution policies wrongly are found out, and those that do it in their own way are not (10.1.3)."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+
+import msgspec
+import pytest
+from performing import answer, scenario
+
+from ucm_cts.adapters.contract.messages import Traced
+from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Scenario
+from ucm_cts.adapters.derived import POLICIES, Mutant, Variant, mutants_of, variants_of
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.schedules import overlap_purposes
+from ucm_cts.harness.stating.applicability import purposes_for
+from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.reference_models.claims import Claims
+from ucm_cts.reference_models.judgement import Judge
+
+PASSIVE = {"provides": ["in.api"], "policies": [{"definition": PROTECTED_PASSIVE}]}
+OPEN = {"provides": ["in.api"], "policies": [{"definition": UNPROTECTED_PASSIVE}]}
+RUNNING = {"provides": ["in.api"], "policies": [{"definition": SELF_EXECUTING}]}
+HOLD = {"do": "hold", "gate": "inside"}
+CALL = {"do": "call", "port": "out.api", "value": 3}
+SERVER = ["add_component component=server", "get_port_element id=server port=in.api bind=in"]
+TWO = ["invoke ref=in value=1 thread=v", "reach gate=inside", "invoke ref=in value=2 thread=w", "settle worker=w",
+       "open gate=inside", "join worker=v", "join worker=w"]  # fmt: skip
+
+OWN = {
+    "the first fails": scenario(
+        {"server": PASSIVE | {"plan": {"exchange": [HOLD, {"do": "raise"}]}}}, [*SERVER, "start", *TWO, "stop"]
+    ),
+    "the first calls somebody": scenario(
+        {"server": PASSIVE | {"requires": ["out.api"], "plan": {"exchange": [CALL]}},
+         "other": {"provides": ["in.api"], "plan": {"exchange": [HOLD]}}},
+        [*SERVER, "add_component component=other", "get_port_element id=other port=in.api bind=goal",
+         "connect id=server port=out.api to=goal bind=link", "start", *TWO, "stop"],
+    ),
+    "nobody calls": scenario(
+        {"server": PASSIVE, "library": OPEN, "running": RUNNING | {"plan": {"run": [HOLD]}}},
+        ["add_component component=server", "add_component component=library", "add_component component=running",
+         "start", "reach gate=inside", "open gate=inside", "stop", "get_components", "start", "stop"],
+    ),
+    "run fails": scenario(
+        {"running": RUNNING | {"plan": {"run": [HOLD, {"do": "raise"}]}}, "server": PASSIVE},
+        ["add_component component=running", "get_port_element id=running port=in.api bind=in", "start",
+         "reach gate=inside", "invoke ref=in value=1 thread=v", "settle worker=v", "open gate=inside", "join worker=v",
+         "stop"],
+    ),
+}  # fmt: skip
+
+
+@functools.cache
+def scenarios(*declared: tuple[str, str]) -> dict[str, Scenario]:
+    """Callers of the test and of a component, and run, met by another one; with a patience that wrong subjects try."""
+    default = default_statement()
+    statement = msgspec.structs.replace(default, readings={**default.readings, **dict(declared)})
+    own = {purpose.id for purpose in overlap_purposes()}
+    purposes = [purpose for purpose in purposes_for(statement, "core") if purpose.id in own]
+    met = {name: plain for purpose in purposes for name, plain in purpose.scenarios}
+    short = {name: plain for name, plain in met.items() if "elsewhere" not in name and name.count(",") < 2}
+    return {name: msgspec.structs.replace(plain, patience=300) for name, plain in (short | OWN).items()}
+
+
+def failing(
+    adapter: type[ReferenceAdapter], readings: Mapping[str, str] = {}, enough: frozenset[str] = frozenset()
+) -> dict[str, str]:
+    """Failing requirements, each with an example. Waiting for more ends when all of ``enough`` have failed."""
+    judge = Judge(load_life_cycle(), Claims(readings))
+    found: dict[str, str] = {}
+    for name, asked in scenarios(*readings.items()).items():
+        reply = answer(asked, adapter)
+        assert isinstance(reply, Traced), (name, reply)
+        problem = contradiction(asked, reply.events, bool(reply.stuck))
+        assert problem is None, (name, problem)
+        for f in judge.judge(asked, reply.events).findings:
+            found.setdefault(f.requirement, f"{name}: expected {f.expected}; observed {f.observed}")
+        if enough and enough <= found.keys():
+            break
+    return found
+
+
+def test_reference_framework_is_not_failed() -> None:
+    assert failing(ReferenceAdapter) == {}
+
+
+@pytest.mark.parametrize("variant", variants_of(POLICIES).values(), ids=variants_of(POLICIES).keys())
+def test_conformant_framework_is_not_failed(variant: Variant) -> None:
+    assert failing(variant.adapter, variant.readings) == {}
+
+
+@pytest.mark.parametrize("mutant", mutants_of(POLICIES).values(), ids=mutants_of(POLICIES).keys())
+def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
+    found = failing(mutant.adapter, mutant.readings, frozenset(mutant.requirements))
+    missed = set(mutant.requirements) - set(found)
+    spilled = {k: v for k, v in found.items() if k not in mutant.requirements and k not in mutant.also}
+    assert not missed, f"{mutant.name} survives {missed}; it fails {found}"
+    assert not spilled, f"{mutant.name} also fails {spilled}"
