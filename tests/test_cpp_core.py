@@ -367,7 +367,7 @@ def test_calls_that_fail_under_stress(builds: Builds) -> None:
 
 def test_callers_that_do_not_come_back_from_stress(builds: Builds) -> None:
     steps = (s.AddComponent("P"), s.GetPortElement("P", "p", "p"), s.GetPortElement("P", "hangs", "h"))
-    scenario = s.Scenario({"P": s.Declaration(("p",))}, (*steps, s.Stress(("p", "h"), 5), s.Invoke("p", 5)), 200)
+    scenario = s.Scenario({"P": s.Declaration(("p",))}, (*steps, s.Stress(("p", "h"), 200), s.Invoke("p", 5)), 500)
     (traced,), _, _ = talk(builds.program("patchbay"), m.Run(1, scenario))
     assert isinstance(traced, m.Traced)
     assert traced.stuck == ("stress 1",)
