@@ -10,7 +10,6 @@ import msgspec
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from random_scenarios import scenarios
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -20,6 +19,7 @@ from ucm_cts.adapters.python.engine import ContractBroken, Performance
 from ucm_cts.adapters.python.recorder import Recorder
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.exploring.writer import scenarios
 from ucm_cts.harness.running.disguise import Disguise
 from ucm_cts.harness.running.integrity import contradiction
 from ucm_cts.harness.scenarios.scripts import read_scripts, to_scenario
