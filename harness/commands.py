@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import click
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 import ucm_cts
 from ucm_cts.harness.catalogue import in_the_making, load_life_cycle
@@ -27,10 +26,11 @@ from ucm_cts.harness.running.campaign import Campaign
 from ucm_cts.harness.running.driver import Driver, Limits
 from ucm_cts.harness.scenarios.purposes import PROFILES, select
 from ucm_cts.harness.scenarios.scripts import TestPurpose, read_scripts, to_scenario
+from ucm_cts.harness.selftest.command import selftest
 from ucm_cts.harness.stating.applicability import purposes_for
 from ucm_cts.harness.stating.files import check_subject, stated_by
 from ucm_cts.harness.stating.writing import write_statement
-from ucm_cts.harness.terminal import Output, ends_like_interrupts
+from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.reference_models.judgement import Judge
 
 CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
@@ -168,7 +168,7 @@ def run(
 
 
 def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output) -> None:
-    with _progress(console) as progress:
+    with progress_of(console) as progress:
         task = progress.add_task("checking", total=len(purposes))
         failing = 0
         for checked in campaign.check(purposes):
@@ -258,6 +258,9 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
     _leave(console, NOT_CONFORMANT if failed else CONFORMANT)
 
 
+cli.add_command(selftest)
+
+
 def main() -> None:
     """The console entry point: turns what goes wrong into one clear line and an exit status."""
     try:
@@ -280,14 +283,3 @@ def main() -> None:
 
 def _short(text: str) -> str:
     return text if len(text) <= 50 else text[:47] + "..."
-
-
-def _progress(console: Output) -> Progress:
-    return Progress(
-        TextColumn("{task.description}", markup=False),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        console=console,
-        transient=True,
-    )

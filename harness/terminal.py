@@ -12,6 +12,7 @@ from types import FrameType
 from typing import IO, NoReturn, cast
 
 from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 _PLAIN = {
     ord(fine): plain
@@ -98,3 +99,15 @@ def ends_like_interrupts() -> Iterator[None]:
     finally:
         for number in ours:
             signal.signal(number, before[number])
+
+
+def progress_of(console: Output) -> Progress:
+    """What is done and how much there is; gone when all is done."""
+    return Progress(
+        TextColumn("{task.description}", markup=False),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+    )

@@ -160,8 +160,12 @@ def test_pytest_command_is_the_one_that_test_pytest_plugin_runs() -> None:
     assert commands("pytest --pyargs") == ["pytest --pyargs ucm_cts.suite --iut ADAPTER"]
 
 
-def test_readme_has_every_option_and_no_other() -> None:
-    shown = {option.split()[0] for option in column("README.md", "`(-.+?)`")}
+def test_every_option_is_told_and_no_other() -> None:
+    pages = [
+        "README.md",
+        *(f"docs/{name}.md" for name in ("detection", "explore") if (ROOT / f"docs/{name}.md").is_file()),
+    ]
+    shown = {option.split()[0] for page in pages for option in column(page, "`(-.+?)`")}
     there = {o for c in cli.commands.values() for p in c.params if isinstance(p, click.Option) for o in p.opts}
     assert shown == there
 

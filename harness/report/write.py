@@ -55,21 +55,21 @@ def write_report(
     folder.mkdir(parents=True, exist_ok=True)
     names = set()
     for name, content in all_files(report):
-        _write(out / name, msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n")
+        write_whole(out / name, msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n")
         names.add(out / name)
     if cleaned.statement.source:
         text = to_toml(cleaned.statement, one_line(cleaned.adapter), STATEMENT)
-        _write(out / STATEMENT, text.encode())
+        write_whole(out / STATEMENT, text.encode())
     else:
         (out / STATEMENT).unlink(missing_ok=True)
-    _write(out / "report.json", to_json(cleaned, catalogue))
-    _write(out / "junit.xml", to_junit(cleaned, catalogue))
-    _write(out / "report.html", to_html(cleaned, catalogue, table, interpretations).encode())
+    write_whole(out / "report.json", to_json(cleaned, catalogue))
+    write_whole(out / "junit.xml", to_junit(cleaned, catalogue))
+    write_whole(out / "report.html", to_html(cleaned, catalogue, table, interpretations).encode())
     for stale in set(folder.glob("*.json")) - names:
         stale.unlink(missing_ok=True)
 
 
-def _write(path: Path, content: bytes) -> None:
+def write_whole(path: Path, content: bytes) -> None:
     """Put ``content`` into place at once: readers see the old file or the new one."""
     handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
     try:

@@ -1,0 +1,96 @@
+"""Conducts a self-test: all mutants and conformant variants, several at a time, each in the ordinary pipeline."""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass, field
+
+import ucm_cts
+from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.harness.selftest.killing import (
+    Subject,
+    Thoroughness,
+    examine_mutant,
+    examine_variant,
+)
+from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult
+from ucm_cts.reference_models.ledger import RULES
+
+Result = MutantResult | VariantResult
+
+
+@dataclass
+class Conduct:
+    """A self-test under way; ``matrix`` tells what is known at any time, also after an interrupt."""
+
+    mutants: Sequence[Subject]
+    variants: Sequence[Subject]
+    how: Thoroughness
+    jobs: int
+    _done: dict[str, Result] = field(default_factory=dict)
+    _began: float = field(default_factory=time.monotonic)
+
+    def run(self, tell: Callable[[Result], None]) -> None:
+        """Examine everybody; ``tell`` hears each result as it is known."""
+        context = multiprocessing.get_context("spawn")
+        with ProcessPoolExecutor(self.jobs, context, initializer=_leave_interrupts_to_the_parent) as pool:
+            due: set[Future[Result]] = set()
+            owners: dict[Future[Result], Subject] = {}
+            for subject in (*self.mutants, *self.variants):
+                future: Future[Result] = pool.submit(_examine, subject, self.how)
+                owners[future] = subject
+                due.add(future)
+            try:
+                while due:
+                    done, due = wait(due, return_when=FIRST_COMPLETED)
+                    for future in done:
+                        result = _result(future, owners[future])
+                        self._done[result.name] = result
+                        tell(result)
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
+
+    @property
+    def matrix(self) -> Matrix:
+        """What is known by now, in the order of the register."""
+        results = [self._done[s.name] for s in (*self.mutants, *self.variants) if s.name in self._done]
+        return Matrix(
+            ucm_cts.__version__,
+            self.how.seed,
+            round(time.monotonic() - self._began, 1),
+            testable(),
+            tuple(r for r in results if isinstance(r, MutantResult)),
+            tuple(r for r in results if isinstance(r, VariantResult)),
+            self.how.whole,
+        )
+
+
+def testable() -> tuple[str, ...]:
+    """The requirements that rules stand for and that can be broken: nothing breaks a permission."""
+    return tuple(r.id for r in load_requirements() if r.level != "may" and any(rule in RULES for rule in r.rules))
+
+
+def _examine(subject: Subject, how: Thoroughness) -> Result:
+    return examine_mutant(subject, how) if subject.breaks else examine_variant(subject, how)
+
+
+def _result(future: Future[Result], subject: Subject) -> Result:
+    try:
+        return future.result()
+    except BrokenProcessPool:
+        trouble = "the process that examined it, or another one, died"
+    except Exception as problem:  # noqa: BLE001 - one subject's trouble is not the others'
+        trouble = f"the harness failed: {type(problem).__name__}: {problem}"
+    if not subject.breaks:
+        return VariantResult(subject.name, (), (), 0, 0.0, trouble)
+    return MutantResult(subject.name, subject.lie, "", subject.breaks, subject.also, (), (), 0, 0.0, trouble)
+
+
+def _leave_interrupts_to_the_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

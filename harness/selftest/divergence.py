@@ -1,0 +1,81 @@
+"""Where the trace of a mutant parts from that of the framework it was made from: what a finding has to be about.
+
+Both have run the same scenario. Ids, times and threads are each framework's own affair; all else is compared.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Event, Return, Trace
+from ucm_cts.reference_models.findings import Finding
+
+_OWN_AFFAIR = ("n", "t", "thread", "detail")
+
+
+@dataclass(frozen=True)
+class Divergence:
+    """``events`` are the ``n`` of the mutant's events that the other trace has not, or not there; ``steps`` are the steps of
+    the scenario during which something is there, or is missing.
+    """
+
+    events: frozenset[int]
+    steps: frozenset[int]
+    step_of: tuple[int, ...]
+
+    def explains(self, finding: Finding) -> bool:
+        """Does ``finding`` name one of these events, or the step in which one is missing?"""
+        steps = {self.step_of[n - 1] for n in finding.events if 0 < n <= len(self.step_of)}
+        if finding.step is not None:
+            steps.add(finding.step)
+        return bool(self.events & set(finding.events) or self.steps & steps)
+
+
+def divergence(scenario: Scenario, right: Trace, wrong: Trace) -> Divergence:
+    """Where ``wrong`` parts from ``right``; both are in the scenario's own names."""
+    step_of = _steps(wrong)
+    events: set[int] = set()
+    steps: set[int] = set()
+    compared = difflib.SequenceMatcher(None, _told(scenario, right), _told(scenario, wrong), autojunk=False)
+    for kind, _, _, begin, end in compared.get_opcodes():
+        if kind == "equal":
+            continue
+        events.update(event.n for event in wrong[begin:end])
+        around = range(max(begin - 1, 0), min(end + 1, len(wrong)))
+        steps.update(step_of[place] for place in around)
+    return Divergence(frozenset(events), frozenset(steps), step_of)
+
+
+def _steps(trace: Trace) -> tuple[int, ...]:
+    """For each event the step that began or ended last, -1 before the first."""
+    steps = []
+    latest = -1
+    for event in trace:
+        latest = getattr(event, "step", latest)
+        steps.append(latest)
+    return tuple(steps)
+
+
+def _told(scenario: Scenario, trace: Trace) -> Sequence[bytes]:
+    """Each event without what is the framework's own affair; ids by the order in which they were given out."""
+    ids: dict[int, int] = {}
+    return [_plain(scenario, event, ids) for event in trace]
+
+
+def _plain(scenario: Scenario, event: Event, ids: dict[int, int]) -> bytes:
+    told = msgspec.to_builtins(event)
+    for field in _OWN_AFFAIR:
+        told.pop(field, None)
+    if isinstance(event, Return) and 0 <= event.step < len(scenario.steps):
+        step = scenario.steps[event.step]
+        if isinstance(event.value, int) and isinstance(step, s.AddComponent | s.Connect):
+            told["value"] = ids.setdefault(event.value, len(ids))
+        elif isinstance(event.value, tuple):
+            told["value"] = sorted(ids.get(each, -1) for each in event.value)
+    return msgspec.json.encode(told)

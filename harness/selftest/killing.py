@@ -1,0 +1,217 @@
+"""Runs one mutant, or one conformant variant, through the ordinary pipeline and tells what became of it."""
+
+from __future__ import annotations
+
+import functools
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import msgspec
+
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Trace
+from ucm_cts.adapters.derived import CONTAINER, MUTANTS, VARIANTS
+from ucm_cts.harness.hosting.hosts import HostUnavailable
+from ucm_cts.harness.hosting.locate import WrongUse, locate
+from ucm_cts.harness.report.failures import length
+from ucm_cts.harness.results import Execution
+from ucm_cts.harness.running.campaign import Campaign
+from ucm_cts.harness.running.driver import Driver
+from ucm_cts.harness.scenarios.scripts import TestPurpose
+from ucm_cts.harness.selftest.divergence import divergence
+from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
+from ucm_cts.harness.stating.applicability import purposes_for
+from ucm_cts.harness.stating.statement import Statement, default_statement
+from ucm_cts.reference_models.findings import Finding
+
+PATIENCE = 500
+"""Milliseconds, as a vendor would declare them: mutants often never do what is waited for, and their machine is this one."""
+
+LOOKS = 25
+"""So many findings for one requirement are compared with what the right framework does, those of short scenarios first."""
+
+Shown = tuple[Finding, Execution]
+
+
+@dataclass(frozen=True)
+class Subject:
+    """Somebody whose verdicts are known: ``adapter`` names it, ``model`` the framework it was made from.
+
+    ``breaks`` are the requirements it must fail, none for a conformant variant; ``also`` those that it may fail, too.
+    """
+
+    name: str
+    lie: str
+    adapter: str
+    model: str
+    clauses: tuple[str, ...]
+    breaks: tuple[str, ...] = ()
+    also: tuple[str, ...] = ()
+    readings: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Thoroughness:
+    """How much is run: ``whole`` profiles instead of the subject's own clauses; ``quick`` ends when a mutant is killed."""
+
+    seed: int = 1
+    whole: bool = False
+    quick: bool = False
+
+
+def all_mutants() -> dict[str, Subject]:
+    """Every mutant there is, by name."""
+    home = "ucm_cts.adapters.derived"
+    return {
+        m.name: Subject(
+            m.name, m.lie, f"{home}:{m.name}", "reference-py", m.clauses, m.requirements, m.also, m.readings
+        )
+        for m in MUTANTS.values()
+    }
+
+
+def all_variants() -> dict[str, Subject]:
+    """Every conformant variant there is, by name."""
+    home = "ucm_cts.adapters.derived"
+    return {
+        v.name: Subject(v.name, "", f"{home}:{v.name}", "reference-py", v.clauses, readings=v.readings)
+        for v in VARIANTS.values()
+    }
+
+
+def examine_mutant(subject: Subject, how: Thoroughness) -> MutantResult:
+    """Is ``subject`` found out, for the right reason?"""
+    ran = _run(subject, how)
+    kills = tuple(ran.kill(subject, requirement) for requirement in sorted(ran.shown))
+    return MutantResult(
+        subject.name,
+        subject.lie,
+        subject.breaks[0].removeprefix("R-").rpartition("-")[0],
+        subject.breaks,
+        subject.also,
+        kills,
+        ran.incidents,
+        ran.scenarios,
+        ran.seconds,
+        ran.trouble,
+    )
+
+
+def examine_variant(subject: Subject, how: Thoroughness) -> VariantResult:
+    """Is nothing held against ``subject``?"""
+    ran = _run(subject, how)
+    failed = tuple(ran.kill(subject, requirement) for requirement in sorted(ran.shown))
+    return VariantResult(subject.name, failed, ran.incidents, ran.scenarios, ran.seconds, ran.trouble)
+
+
+@dataclass
+class _Ran:
+    """What the ordinary pipeline showed of one subject."""
+
+    seed: int
+    shown: dict[str, list[Shown]] = field(default_factory=dict)
+    right: dict[str, Kill] = field(default_factory=dict)
+    incidents: tuple[str, ...] = ()
+    scenarios: int = 0
+    seconds: float = 0.0
+    trouble: str = ""
+
+    def kill(self, subject: Subject, requirement: str) -> Kill:
+        """The finding that tells best why ``requirement`` failed."""
+        known = self.right.get(requirement)
+        if known is not None:
+            return known
+        by_length = sorted(self.shown[requirement], key=lambda shown: length(shown[1]))[:LOOKS]
+        for number, (finding, execution) in enumerate(by_length, 1):
+            if _names_the_place(subject, self.seed, finding, execution):
+                self.right[requirement] = _kill(finding, execution, True, number)
+                return self.right[requirement]
+        return _kill(*by_length[0], False, len(by_length))
+
+
+def _run(subject: Subject, how: Thoroughness) -> _Ran:
+    ran = _Ran(how.seed)
+    began = time.monotonic()
+    profile = "core" if how.whole or subject.clauses != CONTAINER else "container"
+    statement = _statement(subject.readings)
+    try:
+        with Driver(locate(subject.adapter), how.seed) as driver:
+            campaign = Campaign(driver, profile, (), statement)
+            for checked in campaign.check(_purposes(subject, how, profile, statement)):
+                for finding, execution in checked.failures:
+                    if finding is not None:
+                        ran.shown.setdefault(finding.requirement, []).append((finding, execution))
+                ran.scenarios += checked.executions
+                if how.quick and subject.breaks and _is_enough(ran, subject):
+                    break
+            ran.incidents = _told(campaign)
+    except (HostUnavailable, WrongUse) as problem:
+        ran.trouble = str(problem)
+    ran.seconds = round(time.monotonic() - began, 3)
+    return ran
+
+
+def _is_enough(ran: _Ran, subject: Subject) -> bool:
+    return all(
+        requirement in ran.shown and ran.kill(subject, requirement).names_the_place for requirement in subject.breaks
+    )
+
+
+def _told(campaign: Campaign) -> tuple[str, ...]:
+    incidents = (item.incident for item in campaign.report().incidents)
+    return tuple(dict.fromkeys(f"{incident.kind}: {incident.detail.splitlines()[0]}" for incident in incidents))
+
+
+def _purposes(subject: Subject, how: Thoroughness, profile: str, statement: Statement) -> Sequence[TestPurpose]:
+    purposes = purposes_for(statement, profile)
+    return purposes if how.whole else [p for p in purposes if p.clause.startswith(subject.clauses)]
+
+
+def _statement(readings: Mapping[str, str]) -> Statement:
+    usual = default_statement()
+    ixit = {**usual.ixit, "patience": PATIENCE}
+    return msgspec.structs.replace(usual, readings={**usual.readings, **readings}, ixit=ixit)
+
+
+def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_at: int) -> Kill:
+    told = finding.expected, finding.observed, finding.events
+    return Kill(finding.requirement, execution.name, finding.rule, *told, names_the_place, looked_at)
+
+
+def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: Execution) -> bool:
+    """A framework that dies or hangs is named by that alone."""
+    if execution.incident is not None:
+        return True
+    right = _right_traces(subject.model, seed).of(execution.scenario)
+    return divergence(execution.scenario, right, execution.trace).explains(finding)
+
+
+class _RightTraces:
+    """What the framework from which mutants were made does with a scenario."""
+
+    def __init__(self, adapter: str, seed: int) -> None:
+        self._driver = Driver(locate(adapter), seed)
+        self._known: dict[bytes, Trace] = {}
+
+    def of(self, scenario: Scenario) -> Trace:
+        """The trace, in the scenario's own names; empty if the framework did not come back."""
+        key = msgspec.json.encode(scenario)
+        if key not in self._known:
+            (answer,) = self._driver.run([("right", scenario)])
+            self._known[key] = self._driver.revealed(answer).trace
+        return self._known[key]
+
+
+@functools.cache
+def _right_traces(adapter: str, seed: int) -> _RightTraces:
+    """One for each process; its host ends with the process."""
+    return _RightTraces(adapter, seed)
+
+
+def names(subjects: Mapping[str, Subject], wanted: Sequence[str]) -> Iterator[Subject]:
+    """The ``wanted`` ones of ``subjects``, all if none is named. Raises ``WrongUse``."""
+    for name in wanted:
+        if name not in subjects:
+            raise WrongUse(f"there is no mutant or variant '{name}'; 'ucm-cts selftest --list' names them all")
+    yield from (subject for name, subject in subjects.items() if not wanted or name in wanted)

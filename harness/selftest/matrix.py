@@ -1,0 +1,124 @@
+"""The kill matrix: which mutant fails which requirement, and whether for the right reason."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+
+from ucm_cts.adapters.contract.value import Value
+
+
+class Kill(Value, frozen=True):
+    """A requirement that a mutant failed, and the finding that tells it best.
+
+    ``names_the_place`` says whether the finding is about events in which the mutant parts from the framework it was made
+    from; ``looked_at`` is the number of findings for this requirement that were compared.
+    """
+
+    requirement: str
+    scenario: str
+    rule: str
+    expected: str
+    observed: str
+    events: tuple[int, ...]
+    names_the_place: bool
+    looked_at: int
+
+
+class MutantResult(Value, frozen=True):
+    """What became of one mutant: ``breaks`` are the requirements it must fail, ``also`` those that the same defect breaks, too.
+
+    ``trouble`` is what kept it from being judged (a host that could not be had, for instance), empty if nothing did.
+    """
+
+    name: str
+    lie: str
+    clause: str
+    breaks: tuple[str, ...]
+    also: tuple[str, ...]
+    kills: tuple[Kill, ...]
+    incidents: tuple[str, ...]
+    scenarios: int
+    seconds: float
+    trouble: str = ""
+
+    @property
+    def survives(self) -> tuple[str, ...]:
+        """The requirements that it was to fail, and did not fail for the right reason."""
+        told = {kill.requirement for kill in self.kills if kill.names_the_place}
+        return tuple(requirement for requirement in self.breaks if requirement not in told)
+
+    @property
+    def is_killed(self) -> bool:
+        """Did each requirement it violates fail, with a finding that names the right events?"""
+        return not self.trouble and not self.survives
+
+    @property
+    def spills(self) -> tuple[Kill, ...]:
+        """What it fails although its defect does not break it."""
+        return tuple(kill for kill in self.kills if kill.requirement not in (*self.breaks, *self.also))
+
+
+class VariantResult(Value, frozen=True):
+    """What became of one conformant variant: ``failed`` are the requirements it was failed for, and should not have been."""
+
+    name: str
+    failed: tuple[Kill, ...]
+    incidents: tuple[str, ...]
+    scenarios: int
+    seconds: float
+    trouble: str = ""
+
+    @property
+    def is_spared(self) -> bool:
+        """Was nothing held against it?"""
+        return not (self.failed or self.incidents or self.trouble)
+
+
+class Matrix(Value, frozen=True):
+    """All that one self-test says. ``testable`` are the requirements that rules stand for and that can be broken at all."""
+
+    suite_version: str
+    seed: int
+    seconds: float
+    testable: tuple[str, ...]
+    mutants: tuple[MutantResult, ...]
+    variants: tuple[VariantResult, ...]
+    whole: bool
+
+    @property
+    def survivors(self) -> tuple[MutantResult, ...]:
+        """The mutants that were not killed."""
+        return tuple(mutant for mutant in self.mutants if not mutant.is_killed)
+
+    @property
+    def spilling(self) -> tuple[MutantResult, ...]:
+        """The mutants that fail requirements which they do not break."""
+        return tuple(mutant for mutant in self.mutants if mutant.spills)
+
+    @property
+    def wronged(self) -> tuple[VariantResult, ...]:
+        """The conformant variants that something was held against."""
+        return tuple(variant for variant in self.variants if not variant.is_spared)
+
+    @property
+    def killers(self) -> Mapping[str, Sequence[str]]:
+        """For each testable requirement the mutants that failed it as they should."""
+        found: dict[str, list[str]] = {requirement: [] for requirement in self.testable}
+        for mutant in self.mutants:
+            for requirement in set(mutant.breaks) - set(mutant.survives):
+                found.setdefault(requirement, []).append(mutant.name)
+        return found
+
+    @property
+    def is_proved(self) -> bool:
+        """Are all mutants killed without spills, and all variants spared?"""
+        return not (self.survivors or self.spilling or self.wronged)
+
+
+def by_clause(mutants: Iterable[MutantResult]) -> dict[str, list[MutantResult]]:
+    """The mutants by the clause of the requirement that each breaks first."""
+    sorted_out: dict[str, list[MutantResult]] = defaultdict(list)
+    for mutant in mutants:
+        sorted_out[mutant.clause].append(mutant)
+    return dict(sorted_out)

@@ -1,0 +1,126 @@
+"""``matrix.html`` and ``matrix.json``: the kill matrix as a picture, with every survivor, spill and wronged variant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import jinja2
+import msgspec
+from markupsafe import Markup, escape
+
+from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.report.order import clause_key
+from ucm_cts.harness.report.write import prepare_folder, write_whole
+from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, by_clause
+
+CELL = 4
+"""Pixels of one mutant against one requirement."""
+
+LEFT, TOP = 70, 18
+
+_TEMPLATES = Path(__file__).parents[1] / "report" / "templates"
+
+
+@dataclass(frozen=True)
+class ClauseRow:
+    """One clause's line of the summary."""
+
+    clause: str
+    mutants: tuple[MutantResult, ...]
+    requirements: int
+    covered: int
+
+    @property
+    def killed(self) -> int:
+        """Mutants that are killed."""
+        return sum(mutant.is_killed for mutant in self.mutants)
+
+
+def write_matrix(matrix: Matrix, out: Path) -> None:
+    """Write both files into the folder ``out``, made if needed. Raises ``WrongUse`` if that cannot be done."""
+    prepare_folder(out)
+    write_whole(out / "matrix.json", msgspec.json.format(msgspec.json.encode(matrix), indent=1) + b"\n")
+    write_whole(out / "matrix.html", to_html(matrix).encode())
+
+
+def to_html(matrix: Matrix) -> str:
+    """The whole page."""
+    loader = jinja2.FileSystemLoader(_TEMPLATES)
+    environment = jinja2.Environment(
+        loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
+    environment.filters["one_line"] = one_line
+    style = Markup((_TEMPLATES / "report.css").read_text(encoding="utf-8"))
+    killers = matrix.killers
+    page = environment.get_template("matrix.html.jinja")
+    covered = sum(bool(killers[requirement]) for requirement in matrix.testable)
+    return page.render(
+        matrix=matrix, style=style, rows=rows(matrix), killers=killers, covered=covered, picture=picture(matrix)
+    )
+
+
+def rows(matrix: Matrix) -> list[ClauseRow]:
+    """The summary, clause by clause."""
+    groups, killers = by_clause(matrix.mutants), matrix.killers
+    clauses = sorted({*groups, *map(_clause, matrix.testable)}, key=clause_key)
+    due = {clause: [r for r in matrix.testable if _clause(r) == clause] for clause in clauses}
+    return [ClauseRow(c, tuple(groups.get(c, ())), len(due[c]), sum(bool(killers[r]) for r in due[c])) for c in clauses]
+
+
+def picture(matrix: Matrix) -> Markup:
+    """All mutants, a line each, against all requirements, a column each."""
+    failed = {kill.requirement for mutant in matrix.mutants for kill in mutant.kills}
+    named = {requirement for mutant in matrix.mutants for requirement in mutant.breaks}
+    columns = sorted({*matrix.testable, *failed, *named}, key=clause_key)
+    column_of = {requirement: place for place, requirement in enumerate(columns)}
+    mutants = sorted(matrix.mutants, key=lambda m: (clause_key(m.clause), clause_key(m.breaks[0]), m.name))
+    width, height = LEFT + CELL * len(columns) + 4, TOP + CELL * len(mutants) + 4
+    marks = [mark for line, mutant in enumerate(mutants) for mark in _marks(line, mutant, column_of)]
+    label = f"{len(mutants)} mutants against {len(columns)} requirements"
+    head = f'<svg class="matrix" viewBox="0 0 {width} {height}" width="{width}" role="img" aria-label="{label}">'
+    return Markup("".join([head, *_bands(columns, mutants, width, height), *marks, "</svg>"]))
+
+
+def _marks(line: int, mutant: MutantResult, column_of: dict[str, int]) -> Iterator[str]:
+    for kill in mutant.kills:
+        if kill.requirement in mutant.breaks:
+            kind = "killed" if kill.names_the_place else "misplaced"
+        else:
+            kind = "also" if kill.requirement in mutant.also else "spill"
+        yield _mark(line, column_of[kill.requirement], kind, f"{mutant.name}, {kill.requirement}: {kill.observed}")
+    shown = {kill.requirement for kill in mutant.kills}
+    for requirement in mutant.breaks:
+        if requirement not in shown:
+            yield _mark(line, column_of[requirement], "missed", f"{mutant.name} does not fail {requirement}")
+
+
+def _mark(line: int, column: int, kind: str, told: str) -> str:
+    x, y = LEFT + CELL * column, TOP + CELL * line
+    title = escape(one_line(told, 200))
+    return f'<rect class="{kind}" x="{x}" y="{y}" width="{CELL - 1}" height="{CELL - 1}"><title>{title}</title></rect>'
+
+
+def _bands(columns: list[str], mutants: list[MutantResult], width: int, height: int) -> Iterator[str]:
+    """A line where another clause begins, and its number where there is room."""
+    room = -100
+    for place, requirement in enumerate(columns):
+        if place == 0 or _clause(requirement) != _clause(columns[place - 1]):
+            x = LEFT + CELL * place
+            yield f'<line x1="{x}" y1="{TOP - 4}" x2="{x}" y2="{height}"/>'
+            if x - room > 50:
+                yield f'<text x="{x + 1}" y="{TOP - 6}">{escape(_clause(requirement))}</text>'
+                room = x
+    room = -100
+    for place, mutant in enumerate(mutants):
+        if place == 0 or mutant.clause != mutants[place - 1].clause:
+            y = TOP + CELL * place
+            yield f'<line x1="{LEFT - 4}" y1="{y}" x2="{width}" y2="{y}"/>'
+            if y - room > 11:
+                yield f'<text x="{LEFT - 6}" y="{y + 9}" text-anchor="end">{escape(mutant.clause)}</text>'
+                room = y
+
+
+def _clause(requirement: str) -> str:
+    return requirement.removeprefix("R-").rpartition("-")[0]
