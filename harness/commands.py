@@ -174,6 +174,8 @@ def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output)
         for checked in campaign.check(purposes):
             failing += bool(checked.failures)
             progress.update(task, advance=1, description=f"{failing} failing, {_short(checked.purpose.id)}")
+        progress.update(task, description="taking second looks")
+        campaign.look_again()
         if failing:
             progress.update(task, description="looking for the shortest scenarios")
             for _ in campaign.shorten():

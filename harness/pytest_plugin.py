@@ -156,6 +156,7 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
         except (WrongUse, DocumentError, HostUnavailable) as error:
             pytest.exit(f"ucm-cts: {error}", returncode=2)
         yield running
+        running.look_again()
         if out:
             for _ in running.shorten():
                 pass

@@ -63,13 +63,16 @@ class Execution(Value, frozen=True):
 class FailedExecution(Value, frozen=True):
     """A finding with the shortest execution that shows it, and how many executions of the run showed the same cause.
 
-    There is no ``execution`` where models or the vendor's statement show it and nothing was run.
+    There is no ``execution`` where models or the vendor's statement show it and nothing was run. ``unstable`` says why it is
+    not held against the framework: a second look did not show it. ``steady`` is what that look saw instead.
     """
 
     finding: Finding
     execution: Execution | None
     occurrences: int = 1
     waived: str = ""
+    unstable: str = ""
+    steady: Execution | None = None
 
 
 class RequirementResult(Value, frozen=True):

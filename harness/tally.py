@@ -101,11 +101,23 @@ class Tally:
         self.exercised[finding.requirement] += 1
         self.add_failure(finding, None)
 
+    def doubt(self, finding: Finding, execution: Execution | None, reason: str, steady: Execution | None) -> None:
+        """``finding`` does not stand: ``steady`` is another run of the same scenario, which does not show it.
+
+        Other executions that show the same count less than this doubt, until one of them stands.
+        """
+        known = self.failures.get(cause_of(finding))
+        if known is None or known.execution == execution:
+            occurrences = known.occurrences if known is not None else 1
+            doubted = FailedExecution(finding, execution, occurrences, "", reason, steady)
+            self.failures[cause_of(finding)] = doubted
+
     def add_failure(self, finding: Finding, execution: Execution | None) -> None:
         """One more execution that shows ``finding``, or something else that does."""
         known = self.failures.get(cause_of(finding))
-        if known is None:
-            self.failures[cause_of(finding)] = FailedExecution(finding, execution)
+        if known is None or known.unstable:
+            occurrences = known.occurrences + 1 if known is not None else 1
+            self.failures[cause_of(finding)] = FailedExecution(finding, execution, occurrences)
             return
         best = known if length(known.execution) <= length(execution) else FailedExecution(finding, execution)
         self.failures[cause_of(finding)] = msgspec.structs.replace(best, occurrences=known.occurrences + 1)
@@ -162,12 +174,24 @@ class Tally:
         self, requirement: Requirement, failures: list[FailedExecution], known_failures: Sequence[KnownFailure]
     ) -> RequirementResult:
         exercised = self.exercised[requirement.id]
+        by_length = sorted(failures, key=lambda f: length(f.execution))
         waived = tuple(
             msgspec.structs.replace(f, waived=waiver_for(f.finding, known_failures))
-            for f in sorted(failures, key=lambda f: length(f.execution))
+            for f in by_length
+            if not f.unstable
         )
         if waived:
             return RequirementResult(requirement.id, requirement.clause, requirement.title, "fail", exercised, waived)
+        if by_length:
+            return RequirementResult(
+                requirement.id,
+                requirement.clause,
+                requirement.title,
+                "inconclusive",
+                exercised,
+                tuple(by_length),
+                by_length[0].unstable,
+            )
         if requirement.id in self._settled:
             verdict, reason = self._settled[requirement.id]
             return RequirementResult(

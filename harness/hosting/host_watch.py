@@ -74,6 +74,9 @@ class Host(Protocol):
     def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
         """End the host because of what it said: raises ``HostIncident``."""
 
+    def keep_to_one_core(self) -> None:
+        """Let the threads that it will start take turns on one core, where the host is this machine's to schedule."""
+
     def close(self) -> None:
         """Let the host go."""
 
@@ -147,6 +150,11 @@ class WatchedHost:
         text = self._stderr.decode(errors="replace")
         self._close(orderly=False)
         raise HostIncident(Incident(kind, detail, text))
+
+    def keep_to_one_core(self) -> None:
+        if self._channel.pid is not None:
+            with suppress(OSError, AttributeError):  # it is gone, or this system has no such thing
+                os.sched_setaffinity(self._channel.pid, {min(os.sched_getaffinity(0))})
 
     def close(self) -> None:
         self._close(orderly=True)
@@ -265,6 +273,9 @@ class InProcessHost:
 
     def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
         raise HostIncident(Incident(kind, detail))
+
+    def keep_to_one_core(self) -> None:
+        """The cores are the harness's own."""
 
     def close(self) -> None:
         self._questions.clear()

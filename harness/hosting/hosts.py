@@ -16,6 +16,7 @@ from __future__ import annotations
 import itertools
 from collections import deque
 from collections.abc import Generator, Iterable
+from contextlib import suppress
 from types import TracebackType
 from typing import Self
 
@@ -129,13 +130,18 @@ class Hosts:
             if waiting:  # nobody waits for these answers any more
                 self.discard()
 
-    def look_again(self, run: Run) -> Answer:
-        """Run one scenario alone on a host of its own that sends each event as it happens.
+    def look_again(self, run: Run, one_core: bool = False) -> Answer:
+        """Run one scenario alone on a host of its own that sends each event as it happens, perhaps on ``one_core`` only.
 
         May be called between two answers of a ``run`` in progress, which goes on with a fresh host.
         """
         self.discard()
         try:
+            if one_core:
+                with suppress(HostUnavailable):  # whoever runs on it will be told
+                    self._open()
+                    assert self._host
+                    self._host.keep_to_one_core()
             (answer,) = self.run([msgspec.structs.replace(run, stream=True)])
         finally:
             self.discard()

@@ -58,11 +58,12 @@ class Evidence:
     observed: Markup = NOTHING
     expected: Markup = NOTHING
     text: str = ""
+    steady: Markup = NOTHING
 
     @property
     def size(self) -> int:
         """Bytes it adds to the page."""
-        return sum(len(part.encode()) for part in (self.scenario, self.observed, self.expected, self.text))
+        return sum(len(part.encode()) for part in (self.scenario, self.observed, self.expected, self.text, self.steady))
 
 
 @dataclass(frozen=True)
@@ -179,6 +180,9 @@ def _evidence(failed: FailedExecution, file: str, report: Report, drawn: bool) -
         sequence_svg.to_svg(both.observed, f"Observed: {one_line(failed.finding.observed)}"),
         sequence_svg.to_svg(both.expected, f"Expected: {one_line(failed.finding.expected)}"),
         failure_text(failed.finding, execution),
+        NOTHING
+        if failed.steady is None
+        else sequence_svg.to_svg(excerpt(failed.steady), "Another run of the scenario"),
     )
 
 

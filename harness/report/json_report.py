@@ -35,7 +35,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class FindingEntry(Entry, frozen=True):
     """One cause of failure: what was expected and observed, in which scenario, and the file that replays it.
 
-    ``scenario`` and ``replay`` are empty where models or the vendor's statement show it and nothing was run.
+    ``scenario`` and ``replay`` are empty where models or the vendor's statement show it and nothing was run. ``unstable`` says
+    why it is not held against the framework, and is empty if it is.
     """
 
     rule: str
@@ -43,6 +44,7 @@ class FindingEntry(Entry, frozen=True):
     observed: str
     occurrences: int
     waived: str
+    unstable: str
     scenario: str
     events: tuple[Event, ...]
     replay: str
@@ -179,6 +181,7 @@ def _finding(failed: FailedExecution, replay: str) -> FindingEntry:
         observed=failed.finding.observed,
         occurrences=failed.occurrences,
         waived=failed.waived,
+        unstable=failed.unstable,
         scenario=execution.name if execution is not None else "",
         events=events[:EVENTS],
         replay=replay if execution is not None else "",

@@ -65,7 +65,8 @@ def _verdict(case: etree._Element, result: RequirementResult, report: Report) ->
             _child(case, "failure", message, "fail", _story(result, report))
         case "inconclusive":
             reason = result.reason or "never exercised"
-            _child(case, "failure", f"inconclusive: {reason}", "inconclusive", f"clause {result.clause}\n{reason}")
+            told = _story(result, report) if result.findings else f"clause {result.clause}"
+            _child(case, "failure", f"inconclusive: {reason}", "inconclusive", f"{told}\n{reason}")
         case "not applicable":
             _child(case, "skipped", f"not applicable: {result.reason}".rstrip(": "))
         case "error":
@@ -86,6 +87,8 @@ def _story(result: RequirementResult, report: Report) -> str:
         if failed.execution is not None:
             parts[-1] += f"replay:   {replay_command(file_name(result.id, number), report)}\n\n"
             parts[-1] += failure_text(finding, failed.execution)
+        if failed.steady is not None:
+            parts.append(f"not shown when it was run again:\n\n{to_text(excerpt(failed.steady))}")
     if len(shortest) > FINDINGS:
         parts.append(f"{len(shortest) - FINDINGS} more causes: see report.html")
     return "\n\n".join(parts)

@@ -13,7 +13,7 @@ from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.known_failures import KnownFailure
 from ucm_cts.harness.results import Effort, Execution, IncidentKind, Report
 from ucm_cts.harness.running import shrink, smaller_values
-from ucm_cts.harness.running.doubts import Doubts
+from ucm_cts.harness.running.doubts import TIMED, Doubt, Doubts
 from ucm_cts.harness.running.driver import Answer, Driver
 from ucm_cts.harness.running.incidents import finding_of_incident
 from ucm_cts.harness.scenarios.payloads import Payloads
@@ -28,6 +28,9 @@ from ucm_cts.reference_models.judgement import Judge
 _QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
 """Incidents whose scenarios are shortened; each try of another one would cost its whole deadline."""
 
+
+SECONDS_FOR_SECOND_LOOKS = 60
+"""How long second looks may take in all; what was not looked at again stands."""
 
 SECONDS_FOR_SHORTER_CRASHES = 20
 """How long shorter scenarios of crashes are looked for; each try takes two hosts."""
@@ -72,6 +75,7 @@ class Campaign:
         check_statement(self.statement, profile, self._requirements, self._tally)
         self._doubts = Doubts(driver, self._judge)
         self._payloads = Payloads(driver.seed)
+        self._timed: dict[str, tuple[str, Scenario]] = {}
         self._spent: dict[str, float] = {}
         self._began = time.monotonic()
         self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
@@ -115,22 +119,56 @@ class Campaign:
         ledger = self._judge.judge(answer.disguised, answer.trace)
         if not ledger.findings:
             self._tally.add(Execution(answer.name, answer.scenario, answer.trace), ledger, ())
+            for requirement in TIMED.intersection(ledger.exercises).difference(self._timed):
+                self._timed[requirement] = answer.name, answer.scenario
             return
         execution = self._driver.revealed(answer)
         stand, doubted = self._doubts.sort(answer, ledger.findings)
-        for finding, reason in doubted:
-            self._tally.settle(finding.requirement, "inconclusive", reason)
         findings = [self._driver.reveal(finding) for finding in stand]
         self._tally.add(execution, ledger, findings)
+        self._doubt(execution, doubted)
         for finding in findings:
             yield finding, execution
+
+    def look_again(self) -> None:
+        """Take a second look at each failure that was seen once, and at each requirement that was kept and depends on time.
+
+        They are run with another timeout and another schedule. What flips is unstable, and no verdict.
+        """
+        began = time.monotonic()
+        last = began + SECONDS_FOR_SECOND_LOOKS
+        for failure in list(self._tally.failures.values()):
+            execution = failure.execution
+            if execution is None or execution.incident is not None or failure.unstable:
+                continue
+            if failure.occurrences > 1 or time.monotonic() > last:  # seen again already, or no time for that
+                continue
+            doubt = self._doubts.of_failure(failure.finding, execution)
+            if doubt is not None:
+                self._doubt(execution, [doubt])
+        failed = {requirement for requirement, _, _ in self._tally.failures}
+        kept = [case for requirement, case in self._timed.items() if requirement not in failed]
+        for name, scenario in {name: scenario for name, scenario in kept}.items():
+            if time.monotonic() > last:
+                break
+            answer, stand, doubted = self._doubts.of_pass(name, scenario)
+            execution = self._driver.revealed(answer)
+            for finding in stand:
+                self._tally.add_failure(self._driver.reveal(finding), execution)
+            self._doubt(execution, doubted)
+        self._spent["second looks"] = self._spent.get("second looks", 0.0) + time.monotonic() - began
+
+    def _doubt(self, execution: Execution, doubts: Iterable[Doubt]) -> None:
+        for doubt in doubts:
+            steady = self._driver.revealed(doubt.steady) if doubt.steady is not None else None
+            self._tally.doubt(self._driver.reveal(doubt.finding), execution, doubt.reason, steady)
 
     def shorten(self) -> Iterator[Cause]:
         """Look for the shortest scenario of each failure; yields each cause when it is done."""
         until = time.monotonic() + SECONDS_FOR_SHORTER_CRASHES
         last = time.monotonic() + SECONDS_FOR_ALL_SHORTER
         for cause, failure in list(self._tally.failures.items()):
-            if failure.execution is None:
+            if failure.execution is None or failure.unstable:
                 continue
             incident = failure.execution.incident
             ends = min(time.monotonic() + SECONDS_FOR_SHORTER, last)

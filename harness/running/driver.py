@@ -24,7 +24,7 @@ from ucm_cts.harness.running.disguise import Disguise
 from ucm_cts.harness.running.incidents import Patience
 from ucm_cts.harness.running.integrity import believable, contradiction
 
-__all__ = ["Answer", "Driver", "Limits"]
+__all__ = ["Answer", "Circumstances", "Driver", "Limits"]
 
 T = TypeVar("T")
 
@@ -40,6 +40,14 @@ class Answer:
     disguised: Scenario
     trace: Trace
     incident: Incident | None = None
+
+
+@dataclass(frozen=True)
+class Circumstances:
+    """How a scenario is run again: so many times as patient, and perhaps with all threads of the host on one core."""
+
+    patience: float = 1
+    one_core: bool = False
 
 
 class Driver:
@@ -123,16 +131,17 @@ class Driver:
         name, scenario = case
         return _Case(name, scenario, Run(next(self._numbers), self.disguise.scenario(scenario)))
 
-    def again(self, answer: Answer, patience: int) -> tuple[Scenario, Trace]:
-        """The same scenario, in disguise, run once more on a host of its own with other ``patience`` (milliseconds).
+    def again(self, name: str, scenario: Scenario, circumstances: Circumstances) -> Answer:
+        """The same scenario run once more, on a host of its own, in other ``circumstances``.
 
         The trace is empty if there is none that can be believed. May be called between two answers of a ``run``.
         """
-        scenario = msgspec.structs.replace(answer.disguised, patience=patience)
-        reply = self._hosts.look_again(Run(next(self._numbers), scenario)).reply
-        if not isinstance(reply, Traced) or contradiction(scenario, reply.events, bool(reply.stuck)) is not None:
-            return scenario, ()
-        return scenario, reply.events
+        asked = msgspec.structs.replace(scenario, patience=round(scenario.patience * circumstances.patience))
+        disguised = self.disguise.scenario(asked)
+        reply = self._hosts.look_again(Run(next(self._numbers), disguised), circumstances.one_core).reply
+        if not isinstance(reply, Traced) or contradiction(disguised, reply.events, bool(reply.stuck)) is not None:
+            return Answer(name, asked, disguised, ())
+        return Answer(name, asked, disguised, reply.events)
 
     def reveal(self, value: T) -> T:
         """``value`` in the script's own names."""
