@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 import click
 
 import ucm_cts
+from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue import in_the_making, load_life_cycle
 from ucm_cts.harness.documents import DocumentError
 from ucm_cts.harness.explanation import explanation, overview
@@ -22,8 +23,10 @@ from ucm_cts.harness.report.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import prepare_folder, save_report
+from ucm_cts.harness.results import Report
 from ucm_cts.harness.running.campaign import Campaign
 from ucm_cts.harness.running.driver import Driver, Limits
+from ucm_cts.harness.running.repeating import looking, repeated
 from ucm_cts.harness.scenarios.purposes import PROFILES, select
 from ucm_cts.harness.scenarios.scripts import TestPurpose, read_scripts, to_scenario
 from ucm_cts.harness.selftest.command import selftest
@@ -95,6 +98,7 @@ def cli() -> None:
 )
 @click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
 @ics_option
+@click.option("--repeat", type=click.IntRange(min=1), default=1, show_default=True, help="Runs, with a seed each.")
 @in_process_option
 @timeout_option
 @click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
@@ -113,6 +117,7 @@ def run(
     out: Path,
     known_failures: Path | None,
     ics: Path | None,
+    repeat: int,
     in_process: bool,
     timeout: float,
     memory: int,
@@ -134,24 +139,27 @@ def run(
             raise WrongUse(f"no test purpose matches -k '{expression}'; try a requirement, a clause or an operation")
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
     limits = Limits(timeout, memory, incident_seconds=incident_time)
+    door = locate(adapter, in_process)
+    reports: list[Report] = []
+    interrupted = False
     with ends_like_interrupts():
-        with Driver(locate(adapter, in_process), drawn, limits) as driver:
-            identity = driver.identity
-            check_subject(statement, identity, profile)
-            campaign = Campaign(driver, profile, known, statement)
-            name = one_line(f"{identity.product} {identity.version}", 80)
-            console.print(
-                f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}, seed {drawn}",
-                markup=False,
-                soft_wrap=True,
-            )
-            prepare_folder(out)
-            interrupted = False
-            try:
-                _check(campaign, purposes, console)
-            except KeyboardInterrupt:
-                interrupted = True
-            report = campaign.report()
+        for number in range(repeat):
+            with Driver(door, drawn + number, limits) as driver:
+                identity = driver.identity
+                if number == 0:
+                    check_subject(statement, identity, profile)
+                    _tell_who(identity, profile, drawn, console)
+                    prepare_folder(out)
+                campaign = Campaign(driver, profile, known, statement)
+                try:
+                    _check(campaign, purposes, console, f"run {number + 1} of {repeat}: " if repeat > 1 else "")
+                except KeyboardInterrupt:
+                    interrupted = True
+                if not (interrupted and reports):  # what is half done would look unstable
+                    reports.append(campaign.report())
+            if interrupted:
+                break
+        report = repeated(reports, looking(door, limits, statement.claims))
         save_report(report, out)
     console.print(summary(report, out))
     outdated = stale(known, report.requirements) if not expression and not interrupted else []
@@ -167,13 +175,19 @@ def run(
     _leave(console, status, f"; the report is in {out}")
 
 
-def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output) -> None:
+def _tell_who(identity: Welcome, profile: str, seed: int, console: Output) -> None:
+    name = one_line(f"{identity.product} {identity.version}", 80)
+    told = f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}, seed {seed}"
+    console.print(told, markup=False, soft_wrap=True)
+
+
+def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output, which: str = "") -> None:
     with progress_of(console) as progress:
-        task = progress.add_task("checking", total=len(purposes))
+        task = progress.add_task(f"{which}checking", total=len(purposes))
         failing = 0
         for checked in campaign.check(purposes):
             failing += bool(checked.failures)
-            progress.update(task, advance=1, description=f"{failing} failing, {_short(checked.purpose.id)}")
+            progress.update(task, advance=1, description=f"{which}{failing} failing, {_short(checked.purpose.id)}")
         progress.update(task, description="taking second looks")
         campaign.look_again()
         if failing:

@@ -132,3 +132,4 @@ class Report(Value, frozen=True):
     statement: Statement
     readings: dict[str, tuple[str, ...]]
     effort: Effort = Effort()
+    runs: int = 1

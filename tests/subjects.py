@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract.programming_model import Implementation, PortConn
 from ucm_cts.adapters.derived import MUTANTS
 from ucm_cts.adapters.derived.registry import Base, bind
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.adapters.reference_py.framework import ContainerManager, Member
+from ucm_cts.adapters.reference_py.framework import ContainerManager, Failures, Member
 
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:
@@ -81,3 +81,14 @@ class _Parrot(Base):
 
 
 Parrot = bind("Parrot", _Parrot, _Parrot.__doc__)
+
+
+class _Moody(Base):
+    """Forgets to tell a body that it is removed, if the body's name begins with a letter of the alphabet's first half."""
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        if member.implementation.name >= "n":
+            super()._remove(member, failures)
+
+
+Moody = bind("Moody", _Moody, _Moody.__doc__)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import select
 import shlex
 import signal
@@ -205,6 +206,28 @@ def test_a_seed_repeats_a_run(here: Path, monkeypatch: pytest.MonkeyPatch) -> No
     assert other_report == report
     assert names
     assert not names & other_names
+
+
+def test_verdict_that_flips_between_runs_is_unstable(here: Path) -> None:
+    def run(*options: str) -> dict[str, Any]:
+        ucm_cts("run", "subjects:Moody", "-k", "self-connection", "--out", "out", *options)
+        return report_of(here / "out")
+
+    def removal(report: dict[str, Any]) -> dict[str, Any]:
+        (result,) = (r for r in report["requirements"] if r["id"] == "R-11.2.1.2-06")
+        return result
+
+    alone = [removal(run("--seed", str(seed)))["verdict"] for seed in range(1, 9)]
+    assert set(alone) == {"pass", "fail"}, "its mood changes with the names that it sees"
+    flips = next(seed for seed in range(1, 8) if alone[seed - 1] != alone[seed])
+    report = run("--seed", str(flips), "--repeat", "2")
+    assert (report["verdict"], report["runs"]) == ("inconclusive", 2)
+    assert removal(report)["verdict"] == "inconclusive"
+    assert sorted(re.findall(r"(\w+) in 1", removal(report)["reason"])) == ["fail", "pass"]
+    assert [finding["unstable"] for finding in removal(report)["findings"]] == [removal(report)["reason"]]
+    assert "What happened when the same scenario was run again" in (here / "out" / "report.html").read_text()
+    steady = next(seed for seed in range(1, 8) if alone[seed - 1] == alone[seed])
+    assert removal(run("--seed", str(steady), "--repeat", "2"))["verdict"] == alone[steady]
 
 
 def test_selection_checks_only_what_matches(here: Path) -> None:

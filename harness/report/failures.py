@@ -53,7 +53,8 @@ def repeat_command(report: Report) -> str:
     adapter, profile = shlex.quote(one_line(report.adapter)), shlex.quote(one_line(report.profile))
     source = report.statement.source
     statement = f" --ics {shlex.quote(one_line(source))}" if source else ""
-    return f"ucm-cts run {adapter} --profile {profile} --seed {report.seed}{statement}"
+    runs = f" --repeat {report.runs}" if report.runs > 1 else ""
+    return f"ucm-cts run {adapter} --profile {profile} --seed {report.seed}{runs}{statement}"
 
 
 def saved(execution: Execution, exercises: tuple[str, ...]) -> dict[str, Any]:

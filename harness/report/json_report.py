@@ -117,6 +117,7 @@ class ReportEntry(Entry, frozen=True):
     readings: dict[str, tuple[str, ...]]
     measures: dict[str, int]
     seconds_by_clause: dict[str, float]
+    runs: int
 
 
 def to_json(report: Report, catalogue: Sequence[Requirement]) -> bytes:
@@ -143,6 +144,7 @@ def to_json(report: Report, catalogue: Sequence[Requirement]) -> bytes:
         readings=report.readings,
         measures=report.effort.measures,
         seconds_by_clause=report.effort.seconds,
+        runs=report.runs,
     )
     return msgspec.json.format(msgspec.json.encode(entry), indent=2) + b"\n"
 
