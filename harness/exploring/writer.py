@@ -16,6 +16,7 @@ from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Scenar
 
 Choose = Callable[[Sequence[Any]], Any]
 
+_NAMES = ("ann", "bob", "cyd", "dan")
 _GATE = "gate"
 _HOOKS: tuple[Hook, ...] = ("on_init", "on_startup", "on_shutdown", "on_remove", "on_connect", "on_disconnect")
 _OPERATIONS = (
@@ -55,22 +56,57 @@ class Writer:
         self.workers = 0
 
     def scenario(self) -> Scenario:
-        """The scenario."""
+        """A new scenario."""
         failing = self.choose((False, False, False, True))
         self.threaded = self.choose((False,) * 7 + (True,))
         self.holding = self.threaded and self.choose((False, True))
-        for name in ("ann", "bob", "cyd", "dan")[: self.choose((2, 3, 4, 1))]:
-            self.components[name] = self.declaration(failing)
+        for _ in range(self.choose((2, 3, 4, 1))):
+            self.recruit(failing)
         if self.choose((False, True)):
             self.assemble()
-        for _ in range(self.choose((6, 10, 14, 20, 28))):
+        self.go_on(self.choose((6, 10, 14, 20, 28)))
+        return self.written()
+
+    def resume(self, scenario: Scenario) -> None:
+        """Take ``scenario``, or the beginning of one, as written so far."""
+        self.components = dict(scenario.components)
+        self.steps = list(scenario.steps)
+        for step in scenario.steps:
+            match step:
+                case s.AddComponent():
+                    self.members[step.bind or step.component] = (step.component, step.container)
+                case s.GetPortElement():
+                    self.references[step.bind] = step.port[:2]
+                case s.Connect():
+                    self.connections[step.bind] = step.container
+                case s.CreateContainer():
+                    self.boxes.append(step.bind)
+        self.workers = sum(step.thread is not None for step in scenario.steps)
+
+    def go_on(self, operations: int) -> None:
+        """Write so many operations more."""
+        for _ in range(operations):
             getattr(self, self.choose(_OPERATIONS))()
+
+    def written(self) -> Scenario:
+        """What is written by now."""
         return Scenario(self.components, tuple(self.steps), patience=20)
+
+    def recruit(self, failing: bool) -> None:
+        """One more component, as long as there are names for it."""
+        name = next((name for name in _NAMES if name not in self.components), None)
+        if name is not None:
+            self.components[name] = self.declaration(failing)
 
     def declaration(self, failing: bool) -> Declaration:
         level = self.choose((0, 0, 1, 1, 2))
         provides = [f"p{level}.{e}" for e in self.choose(("x", "xy", ""))]
         requires = [f"r{level}.{e}" for e in self.choose(("", "x", "xy"))]
+        return self.body(tuple(provides), tuple(requires), failing)
+
+    def body(self, provides: tuple[str, ...], requires: tuple[str, ...], failing: bool) -> Declaration:
+        """A component with these port elements; it may raise if it is ``failing``."""
+        level = int(requires[0][1]) if requires else 0
         fragment = self.choose((False, False, True))
         plan: dict[Hook, tuple[Action, ...]] = {}
         if level and requires:
@@ -87,9 +123,7 @@ class Writer:
             hook = self.choose((*_HOOKS, "exchange", "set_container_interface"))
             plan[hook] = (*plan.get(hook, ()), s.RaiseError())
         attributes = self.choose(({}, {}, {"size": "7"}, {"size": "7", "hue": ""}))
-        return Declaration(
-            tuple(provides), tuple(requires), attributes, self.choose((True, True, False)), fragment, plan
-        )
+        return Declaration(provides, requires, attributes, self.choose((True, True, False)), fragment, plan)
 
     def call(self, ports: Sequence[str]) -> Action:
         return s.CallPort(self.choose(ports), self.value())

@@ -51,6 +51,15 @@ def write_report(
     Failures that an earlier run left in ``out`` are removed.
     """
     cleaned = clean_report(report)
+    write_failures(report, out)
+    write_whole(out / "report.json", to_json(cleaned, catalogue))
+    write_whole(out / "junit.xml", to_junit(cleaned, catalogue))
+    write_whole(out / "report.html", to_html(cleaned, catalogue, table, interpretations).encode())
+
+
+def write_failures(report: Report, out: Path) -> None:
+    """Write ``failures/*.json`` into ``out``, and the statement that replays need; failures of an earlier run are removed."""
+    cleaned = clean_report(report)
     folder = out / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
     names = set()
@@ -62,9 +71,6 @@ def write_report(
         write_whole(out / STATEMENT, text.encode())
     else:
         (out / STATEMENT).unlink(missing_ok=True)
-    write_whole(out / "report.json", to_json(cleaned, catalogue))
-    write_whole(out / "junit.xml", to_junit(cleaned, catalogue))
-    write_whole(out / "report.html", to_html(cleaned, catalogue, table, interpretations).encode())
     for stale in set(folder.glob("*.json")) - names:
         stale.unlink(missing_ok=True)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import datetime
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import ucm_cts
@@ -24,6 +24,7 @@ from ucm_cts.harness.stating.statement import Statement, default_statement
 from ucm_cts.harness.tally import Cause, Tally, cause_of, overall
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.reference_models.ledger import Ledger
 
 _QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
 """Incidents whose scenarios are shortened; each try of another one would cost its whole deadline."""
@@ -63,8 +64,11 @@ class Campaign:
         profile: str,
         known_failures: Sequence[KnownFailure] = (),
         statement: Statement | None = None,
+        watch: Callable[[Answer, Ledger], None] | None = None,
     ) -> None:
+        """``watch`` is told of each answer that is a trace, and of what the judge says of it."""
         self._driver = driver
+        self._watch = watch
         self._profile = profile
         self.known = known_failures
         self.statement = statement or default_statement()
@@ -117,6 +121,8 @@ class Campaign:
             yield finding_of_incident(execution), execution
             return
         ledger = self._judge.judge(answer.disguised, answer.trace)
+        if self._watch is not None:
+            self._watch(answer, ledger)
         if not ledger.findings:
             self._tally.add(Execution(answer.name, answer.scenario, answer.trace), ledger, ())
             for requirement in TIMED.intersection(ledger.exercises).difference(self._timed):

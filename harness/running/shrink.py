@@ -37,9 +37,9 @@ def _halves(scenario: Scenario) -> Iterator[Scenario]:
             for index in range(len(steps) - 1, -1, -1):
                 step = steps[index]
                 if isinstance(step, s.AddComponent) and step.component not in kept:
-                    steps = _without(steps, index)
+                    steps = without_step(steps, index)
             if not any(overlaps(steps)):
-                yield _tidy(scenario, steps)
+                yield tidied(scenario, steps)
 
 
 def _shorter(scenario: Scenario) -> Iterator[Scenario]:
@@ -51,15 +51,17 @@ def _with_less(scenario: Scenario) -> Iterator[Scenario]:
     steps = scenario.steps
     for half in (steps[: len(steps) // 2], steps[: -len(steps) // 4 or None]):
         if 0 < len(half) < len(steps):
-            yield _tidy(scenario, half)
+            yield tidied(scenario, half)
     for index in range(len(steps) - 1, -1, -1):
-        yield _tidy(scenario, _without(steps, index))
+        yield tidied(scenario, without_step(steps, index))
     for name, declaration in scenario.components.items():
         for hook in declaration.plan:
             without = {h: a for h, a in declaration.plan.items() if h != hook}
             for plan in (without, *(declaration.plan | {hook: fewer} for fewer in _fewer(declaration.plan[hook]))):
                 simpler = msgspec.structs.replace(declaration, plan=plan)
-                yield _tidy(msgspec.structs.replace(scenario, components={**scenario.components, name: simpler}), steps)
+                yield tidied(
+                    msgspec.structs.replace(scenario, components={**scenario.components, name: simpler}), steps
+                )
         if declaration.connectable:
             simpler = msgspec.structs.replace(declaration, connectable=False)
             yield msgspec.structs.replace(scenario, components={**scenario.components, name: simpler})
@@ -72,7 +74,7 @@ def _fewer(actions: tuple[Action, ...]) -> Iterator[tuple[Action, ...]]:
         yield from (actions[:middle], actions[middle:])
 
 
-def _without(steps: tuple[Step, ...], index: int) -> tuple[Step, ...]:
+def without_step(steps: tuple[Step, ...], index: int) -> tuple[Step, ...]:
     """``steps`` without one of them, and without those that need what it binds."""
     lost = set(bound_by(steps[index]))
     kept = list(steps[:index])
@@ -85,7 +87,7 @@ def _without(steps: tuple[Step, ...], index: int) -> tuple[Step, ...]:
     return tuple(kept)
 
 
-def _tidy(scenario: Scenario, steps: tuple[Step, ...]) -> Scenario:
+def tidied(scenario: Scenario, steps: tuple[Step, ...]) -> Scenario:
     """The scenario with these steps, less waits for nothing, gates that hold nobody and components that nobody adds."""
     workers = {step.thread for step in steps if step.thread}
     steps = tuple(x for x in steps if not isinstance(x, s.Join | s.Settle) or x.worker in workers)

@@ -1,0 +1,132 @@
+"""Failures that are remembered: one scenario for each cause, in databases of hypothesis, the user's own and shared ones.
+
+What is kept is the scenario itself and not how it was drawn, so that it outlives versions of hypothesis and of the writer.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import re
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import msgspec
+from hypothesis.database import (
+    DirectoryBasedExampleDatabase,
+    ExampleDatabase,
+    MultiplexedDatabase,
+    ReadOnlyDatabase,
+)
+
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.tally import Cause
+
+READ_ONLY = "readonly:"
+FORMS = f"a folder, {READ_ONLY}folder, or package.module:NAME of a hypothesis ExampleDatabase"
+
+_OBJECT = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*")
+
+
+class Remembered(Value, frozen=True):
+    """A failure: its cause, what was observed, and the scenario that showed it."""
+
+    requirement: str
+    rule: str
+    cause: str
+    observed: str
+    scenario: Scenario
+
+    @property
+    def identity(self) -> Cause:
+        """What makes two failures the same."""
+        return self.requirement, self.rule, self.cause
+
+
+class Memory:
+    """The failures of one ``product`` under one ``profile``, in ``database``."""
+
+    def __init__(self, database: ExampleDatabase, product: str, profile: str) -> None:
+        self._database = database
+        self._key = f"ucm-cts explore 1: {profile}, {product}".encode()
+        self.unreadable = 0
+
+    def recall(self) -> list[Remembered]:
+        """What is remembered, the shortest scenario of each cause, in the order of requirements.
+
+        What cannot be read, of another version perhaps, stays where it is and is counted as ``unreadable``.
+        """
+        entries = self._entries()
+        self.unreadable = sum(entry is None for _, entry in entries)
+        shortest: dict[Cause, Remembered] = {}
+        for _, entry in sorted(entries, key=lambda item: (len(item[0]), item[0])):
+            if entry is not None:
+                shortest.setdefault(entry.identity, entry)
+        return [shortest[cause] for cause in sorted(shortest)]
+
+    def remember(self, failure: Remembered) -> None:
+        """Keep ``failure`` instead of longer ones of the same cause."""
+        value = msgspec.json.encode(failure)
+        self._database.save(self._key, value)
+        for known, entry in self._entries():
+            if entry is not None and entry.identity == failure.identity and known != value:
+                self._database.delete(self._key, known)
+
+    def forget(self, cause: Cause) -> None:
+        """Nothing shows ``cause`` any more. What is in databases that are only read stays there."""
+        for known, entry in self._entries():
+            if entry is not None and entry.identity == cause:
+                self._database.delete(self._key, known)
+
+    def _entries(self) -> list[tuple[bytes, Remembered | None]]:
+        return [(value, _read(value)) for value in set(self._database.fetch(self._key))]
+
+
+def _read(value: bytes) -> Remembered | None:
+    try:
+        return msgspec.json.decode(value, type=Remembered)
+    except (msgspec.DecodeError, ValueError):
+        return None
+
+
+def open_databases(texts: Sequence[str]) -> ExampleDatabase:
+    """The databases that ``texts`` name, as one: what is found is written to all that can be written.
+
+    Raises ``WrongUse`` if one of them is none, or cannot be used.
+    """
+    databases = [_open(text) for text in texts]
+    return databases[0] if len(databases) == 1 else MultiplexedDatabase(*databases)
+
+
+def _open(text: str) -> ExampleDatabase:
+    if text.startswith(READ_ONLY):
+        folder = Path(text.removeprefix(READ_ONLY))
+        if not folder.is_dir():
+            raise WrongUse(f"there is no folder '{folder}' to read failures from; a database is {FORMS}")
+        return ReadOnlyDatabase(DirectoryBasedExampleDatabase(folder))
+    if _OBJECT.fullmatch(text):
+        return _load(text)
+    folder = Path(text)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise WrongUse(f"failures cannot be kept in '{text}': {error.strerror}; a database is {FORMS}") from None
+    if not os.access(folder, os.R_OK | os.W_OK | os.X_OK):
+        raise WrongUse(f"failures cannot be kept in '{text}': Permission denied; write {READ_ONLY}{text} to only read it")
+    return DirectoryBasedExampleDatabase(folder)
+
+
+def _load(text: str) -> ExampleDatabase:
+    module, _, name = text.partition(":")
+    if os.getcwd() not in sys.path:
+        sys.path.insert(0, os.getcwd())
+    try:
+        found = getattr(importlib.import_module(module), name)
+    except Exception as error:  # noqa: BLE001 - whatever a user's module does when it is imported
+        raise WrongUse(f"the database '{text}' cannot be loaded: {type(error).__name__}: {error}") from None
+    if not isinstance(found, ExampleDatabase):
+        raise WrongUse(f"'{text}' is a {type(found).__name__} and no hypothesis ExampleDatabase; a database is {FORMS}")
+    return found

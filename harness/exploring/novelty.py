@@ -1,0 +1,64 @@
+"""What is new: which of several scenarios is worth its time, and which have shown what nobody had seen before."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from itertools import pairwise
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Call, Event, Raise, Return, Trace
+from ucm_cts.harness.exploring.foresight import Transition, transitions
+from ucm_cts.reference_models.life_cycle import LifeCycleTable
+
+Kind = tuple[str, ...]
+"""What is told of an event: its type, the operation or hook, how it ended."""
+
+
+class Guide:
+    """Prefers scenarios with transitions that few before them took."""
+
+    def __init__(self, table: LifeCycleTable) -> None:
+        self._table = table
+        self._taken: Counter[Transition] = Counter()
+
+    @property
+    def transitions(self) -> int:
+        """How many transitions have been chosen so far."""
+        return len(self._taken)
+
+    def choose(self, candidates: Sequence[Scenario]) -> Scenario:
+        """The one that promises most for its length; its transitions count as taken from now on."""
+        foreseen = [transitions(self._table, candidate) for candidate in candidates]
+        worth = [self._worth(f, c) for f, c in zip(foreseen, candidates, strict=True)]
+        best = worth.index(max(worth))
+        self._taken.update(foreseen[best])
+        return candidates[best]
+
+    def _worth(self, foreseen: frozenset[Transition], scenario: Scenario) -> float:
+        return sum(1 / (1 + self._taken[one]) for one in foreseen) / (5 + len(scenario.steps)) ** 0.5
+
+
+class Events:
+    """Which kinds of events have been seen to follow each other."""
+
+    def __init__(self) -> None:
+        self._seen: set[tuple[Kind, Kind]] = set()
+
+    def __len__(self) -> int:
+        return len(self._seen)
+
+    def are_new(self, scenario: Scenario, trace: Trace) -> bool:
+        """Does ``trace`` of ``scenario`` show two events in an order not seen before? From now on they are known."""
+        pairs = set(pairwise(_kind(scenario, event) for event in trace)) - self._seen
+        self._seen |= pairs
+        return bool(pairs)
+
+
+def _kind(scenario: Scenario, event: Event) -> Kind:
+    told = [type(event).__name__]
+    if isinstance(event, Call | Return | Raise):
+        told.append(s.operation(scenario.steps[event.step]))
+    told += [str(getattr(event, field, "")) for field in ("hook", "error", "raised", "exception")]
+    return tuple(told)
