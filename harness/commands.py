@@ -29,6 +29,7 @@ from ucm_cts.harness.running.driver import Driver, Limits
 from ucm_cts.harness.running.repeating import looking, repeated
 from ucm_cts.harness.scenarios.purposes import PROFILES, select
 from ucm_cts.harness.scenarios.scripts import TestPurpose, read_scripts, to_scenario
+from ucm_cts.harness.scenarios.systematic import MOST_EXTRA
 from ucm_cts.harness.selftest.command import selftest
 from ucm_cts.harness.stating.applicability import purposes_for
 from ucm_cts.harness.stating.files import check_subject, stated_by
@@ -109,6 +110,13 @@ def cli() -> None:
     show_default=True,
     help="Seconds that crashes and hangs may take in all before scenarios that would meet more of them are left out.",
 )
+@click.option(
+    "--systematic",
+    type=click.IntRange(0, MOST_EXTRA),
+    default=0,
+    show_default=True,
+    help="Systematic suites find out frameworks with so many states more than the life-cycle table gives them.",
+)
 def run(
     adapter: str,
     profile: str,
@@ -122,6 +130,7 @@ def run(
     timeout: float,
     memory: int,
     incident_time: float,
+    systematic: int,
 ) -> None:
     """Run a profile on ADAPTER and write report.html, report.json and junit.xml.
 
@@ -132,7 +141,7 @@ def run(
     console = Output()
     known = known_today(known_failures)
     statement = stated_by(ics, adapter)
-    purposes = purposes_for(statement, profile)
+    purposes = purposes_for(statement, profile, systematic)
     if expression:
         purposes = select(purposes, expression)
         if not purposes:

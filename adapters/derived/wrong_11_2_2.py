@@ -84,7 +84,7 @@ class refuses_to_connect_across(Base):
         foreign = [
             m.body.get_portElement(p) for c in elsewhere for m in c.members.values() for p in m.implementation.provides
         ]
-        if to_port is not None and to_port in foreign and to_port not in own:
+        if instance in self.members and to_port is not None and to_port in foreign and to_port not in own:
             raise BadParameter("foreign")
         return super().connect(instance, port_name, to_port)
 

@@ -82,7 +82,7 @@ class announces_the_first_port(Base):
         self.manager.connections[connection.id] = connection
 
 
-@breaks("R-11.2.1.3-05")
+@breaks("R-11.2.1.3-05", also=("R-11.1.3-04",))
 class tells_providers_too(Base):
     """on_disconnect also comes to the component that provided, if it is Connectable."""
 
@@ -176,7 +176,7 @@ class drops_both_connections(appends_connections):
                 del self.manager.connections[other.id]
 
 
-@breaks("R-11.2.3-06", also=("R-11.2.2.1-10", "R-11.2.3-10"))
+@breaks("R-11.2.3-06", also=("R-11.2.1.3-05", "R-11.2.2.1-10", "R-11.2.3-10"))
 class loses_connections_when_idle(Base):
     """stop of a container that is not started loses the connections of its members, and tells nobody."""
 

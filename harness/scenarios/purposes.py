@@ -16,6 +16,7 @@ from ucm_cts.harness.scenarios.schedules import overlap_purposes
 from ucm_cts.harness.scenarios.scripts import TestPurpose, load_scripts, to_scenario
 from ucm_cts.harness.scenarios.services import service_purposes
 from ucm_cts.harness.scenarios.stress import stress_purposes
+from ucm_cts.harness.scenarios.systematic import systematic_purposes
 
 PROFILES = ("container", "core")
 """What a run can choose: profiles that are complete."""
@@ -35,14 +36,16 @@ _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
 
 
 @functools.cache
-def load_purposes(profile: str, *readings: str) -> tuple[TestPurpose, ...]:
+def load_purposes(profile: str, *readings: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
     """All test purposes of ``profile``: scripts first, because they read best when they fail.
 
     Those for other ``readings`` (``option=value``) are left out; of an option that is not declared the first value holds.
+    Systematic suites are those for so many ``extra_states``.
     """
     known = _readings(readings)
     data = data_purposes(known) if "core" in PARTS[profile] else []
-    return tuple(purpose for purpose in (*_all_purposes(profile), *data) if _is_for(purpose, known))
+    systematic = systematic_purposes(known, extra_states)
+    return tuple(purpose for purpose in (*_all_purposes(profile), *systematic, *data) if _is_for(purpose, known))
 
 
 def _is_for(purpose: TestPurpose, readings: dict[str, str]) -> bool:

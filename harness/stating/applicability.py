@@ -23,9 +23,11 @@ Cases = tuple[tuple[str, Scenario], ...]
 Draw = Callable[[int, Mapping[str, str]], Cases]
 
 
-def purposes_for(statement: Statement, profile: str) -> tuple[TestPurpose, ...]:
-    """The test purposes of ``profile``, with those scenarios that ask for nothing that is not claimed."""
-    reduced = (_reduced(purpose, statement) for purpose in _all_purposes(statement, profile))
+def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
+    """The test purposes of ``profile``, with those scenarios that ask for nothing that is not claimed; systematic suites are
+    those for so many ``extra_states``.
+    """
+    reduced = (_reduced(purpose, statement) for purpose in _all_purposes(statement, profile, extra_states))
     return tuple(purpose for purpose in reduced if purpose.scenarios)
 
 
@@ -87,9 +89,10 @@ def _parts() -> frozenset[str]:
     return frozenset(capability.id for capability in load_capabilities().capabilities)
 
 
-def _all_purposes(statement: Statement, profile: str) -> tuple[TestPurpose, ...]:
+def _all_purposes(statement: Statement, profile: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
     default = default_statement().declared
-    return load_purposes(profile, *(reading for reading in statement.declared if reading not in default))
+    declared = (reading for reading in statement.declared if reading not in default)
+    return load_purposes(profile, *declared, extra_states=extra_states)
 
 
 def _reduced(purpose: TestPurpose, statement: Statement) -> TestPurpose:
