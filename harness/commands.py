@@ -2,23 +2,37 @@
 
 from __future__ import annotations
 
-import math
 import random
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NoReturn
 
 import click
 
 import ucm_cts
 from ucm_cts.adapters.contract.messages import Welcome
-from ucm_cts.harness.catalogue import in_the_making, load_life_cycle
+from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.documents import DocumentError
 from ucm_cts.harness.explanation import explanation, overview
+from ucm_cts.harness.exploring.command import explore
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.known_failures import known_today, stale, succeeded
+from ucm_cts.harness.options import (
+    CONFORMANT,
+    HARNESS_FAILED,
+    NOT_CONFORMANT,
+    WRONG_USE,
+    Folder,
+    Seconds,
+    adapter_argument,
+    ics_option,
+    in_process_option,
+    leave,
+    profile_option,
+    seed_option,
+    timeout_option,
+)
 from ucm_cts.harness.report.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.summary import summary
@@ -27,7 +41,7 @@ from ucm_cts.harness.results import Report
 from ucm_cts.harness.running.campaign import Campaign
 from ucm_cts.harness.running.driver import Driver, Limits
 from ucm_cts.harness.running.repeating import looking, repeated
-from ucm_cts.harness.scenarios.purposes import PROFILES, select
+from ucm_cts.harness.scenarios.purposes import select
 from ucm_cts.harness.scenarios.scripts import TestPurpose, read_scripts, to_scenario
 from ucm_cts.harness.scenarios.systematic import MOST_EXTRA
 from ucm_cts.harness.selftest.command import selftest
@@ -36,48 +50,6 @@ from ucm_cts.harness.stating.files import check_subject, stated_by
 from ucm_cts.harness.stating.writing import write_statement
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.reference_models.judgement import Judge
-
-CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
-DEFAULT_ADAPTER = "reference-cpp"
-
-adapter_argument = click.argument("adapter", default=DEFAULT_ADAPTER, required=False)
-in_process_option = click.option("--in-process", is_flag=True, help="No host process: for debuggers and sanitizers.")
-seed_option = click.option("--seed", type=int, help="Repeat a run: names and payloads are drawn from it.")
-
-
-class _Seconds(click.FloatRange):
-    """A time that passes."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        seconds = super().convert(value, param, ctx)
-        if not math.isfinite(seconds):
-            self.fail(f"'{value}' is no number of seconds.", param, ctx)
-        return seconds
-
-
-class _Folder(click.Path):
-    """A folder that has a name."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        if value == "":
-            self.fail("name a folder for the report.", param, ctx)
-        return super().convert(value, param, ctx)
-
-
-class _Profile(click.Choice):  # type: ignore[type-arg] # generic since click 8.2
-    """What a run can check."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        unfinished = in_the_making(value)
-        if unfinished:
-            self.fail(f"{unfinished}; there is {', '.join(self.choices)}.", param, ctx)
-        return super().convert(value, param, ctx)
-
-
-ics_option = click.option("--ics", type=click.Path(dir_okay=False, path_type=Path), help="The vendor's statement.")
-timeout_option = click.option(
-    "--timeout", type=_Seconds(min=0.1), default=Limits.seconds, show_default=True, help="Seconds a scenario may take."
-)
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
@@ -88,12 +60,12 @@ def cli() -> None:
 
 @cli.command()
 @adapter_argument
-@click.option("--profile", type=_Profile(PROFILES), default="container", show_default=True)
+@profile_option
 @click.option("-k", "expression", default="", help="Only test purposes whose id, clause or requirement contains this.")
 @seed_option
 @click.option(
     "--out",
-    type=_Folder(file_okay=False, path_type=Path),
+    type=Folder(file_okay=False, path_type=Path),
     default=Path("ucm-cts-report"),
     show_default=True,
 )
@@ -105,7 +77,7 @@ def cli() -> None:
 @click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
 @click.option(
     "--incident-time",
-    type=_Seconds(min=0),
+    type=Seconds(min=0),
     default=Limits.incident_seconds,
     show_default=True,
     help="Seconds that crashes and hangs may take in all before scenarios that would meet more of them are left out.",
@@ -181,7 +153,7 @@ def run(
     if interrupted:
         console.print("interrupted: the report holds what was measured so far")
     status = NOT_CONFORMANT if outdated or interrupted or not succeeded(report) else CONFORMANT
-    _leave(console, status, f"; the report is in {out}")
+    leave(console, status, f"; the report is in {out}")
 
 
 def _tell_who(identity: Welcome, profile: str, seed: int, console: Output) -> None:
@@ -205,15 +177,6 @@ def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output,
                 pass
 
 
-def _leave(console: Output, status: int, remainder: str = "") -> NoReturn:
-    """End with ``status``, unless something of what was to be read is lost."""
-    console.file.flush()
-    if console.error:
-        click.echo(f"ucm-cts: standard output cannot be written: {console.error}{remainder}", err=True)
-        sys.exit(HARNESS_FAILED)
-    sys.exit(status)
-
-
 @cli.command()
 @adapter_argument
 @click.option(
@@ -231,7 +194,7 @@ def ics(adapter: str, out: Path, force: bool) -> None:
     write_statement(out, identity, adapter, force)
     console = Output()
     console.print(f"{out} is written; edit it, then: ucm-cts run {adapter} --ics {out}", markup=False, soft_wrap=True)
-    _leave(console, CONFORMANT)
+    leave(console, CONFORMANT)
 
 
 @cli.command()
@@ -243,7 +206,7 @@ def explain(requirement: str) -> None:
         console.print(overview())
     else:
         console.print(explanation(requirement))
-    _leave(console, CONFORMANT)
+    leave(console, CONFORMANT)
 
 
 @cli.command()
@@ -280,10 +243,11 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
             console.out(
                 "\nno rule was broken" if not findings else f"\n{len(findings)} rule(s) broken", highlight=False
             )
-    _leave(console, NOT_CONFORMANT if failed else CONFORMANT)
+    leave(console, NOT_CONFORMANT if failed else CONFORMANT)
 
 
 cli.add_command(selftest)
+cli.add_command(explore)
 
 
 def main() -> None:

@@ -11,19 +11,17 @@ import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
-from hypothesis.database import (
-    DirectoryBasedExampleDatabase,
-    ExampleDatabase,
-    MultiplexedDatabase,
-    ReadOnlyDatabase,
-)
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.tally import Cause
+
+if TYPE_CHECKING:
+    from hypothesis.database import ExampleDatabase
 
 READ_ONLY = "readonly:"
 FORMS = f"a folder, {READ_ONLY}folder, or package.module:NAME of a hypothesis ExampleDatabase"
@@ -97,11 +95,15 @@ def open_databases(texts: Sequence[str]) -> ExampleDatabase:
 
     Raises ``WrongUse`` if one of them is none, or cannot be used.
     """
+    from hypothesis.database import MultiplexedDatabase
+
     databases = [_open(text) for text in texts]
     return databases[0] if len(databases) == 1 else MultiplexedDatabase(*databases)
 
 
 def _open(text: str) -> ExampleDatabase:
+    from hypothesis.database import DirectoryBasedExampleDatabase, ReadOnlyDatabase
+
     if text.startswith(READ_ONLY):
         folder = Path(text.removeprefix(READ_ONLY))
         if not folder.is_dir():
@@ -115,11 +117,15 @@ def _open(text: str) -> ExampleDatabase:
     except OSError as error:
         raise WrongUse(f"failures cannot be kept in '{text}': {error.strerror}; a database is {FORMS}") from None
     if not os.access(folder, os.R_OK | os.W_OK | os.X_OK):
-        raise WrongUse(f"failures cannot be kept in '{text}': Permission denied; write {READ_ONLY}{text} to only read it")
+        raise WrongUse(
+            f"failures cannot be kept in '{text}': Permission denied; write {READ_ONLY}{text} to only read it"
+        )
     return DirectoryBasedExampleDatabase(folder)
 
 
 def _load(text: str) -> ExampleDatabase:
+    from hypothesis.database import ExampleDatabase
+
     module, _, name = text.partition(":")
     if os.getcwd() not in sys.path:
         sys.path.insert(0, os.getcwd())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Sequence
 from itertools import pairwise
@@ -37,7 +38,7 @@ class Guide:
         return candidates[best]
 
     def _worth(self, foreseen: frozenset[Transition], scenario: Scenario) -> float:
-        return sum(1 / (1 + self._taken[one]) for one in foreseen) / (5 + len(scenario.steps)) ** 0.5
+        return sum(1 / (1 + self._taken[one]) for one in foreseen) / math.sqrt(5 + len(scenario.steps))
 
 
 class Events:

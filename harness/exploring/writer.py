@@ -7,12 +7,13 @@ Calls go down only (port elements ``p2`` are provided by components that call ``
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
-
-from hypothesis import strategies as st
+from typing import TYPE_CHECKING, Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Scenario, Step
+
+if TYPE_CHECKING:
+    from hypothesis.strategies import SearchStrategy
 
 Choose = Callable[[Sequence[Any]], Any]
 
@@ -34,10 +35,11 @@ _OPERATIONS = (
 )
 
 
-@st.composite
-def scenarios(draw: st.DrawFn) -> Scenario:
-    """Scenarios for hypothesis."""
-    return Writer(lambda options: draw(st.sampled_from(options))).scenario()
+def scenarios() -> SearchStrategy[Scenario]:
+    """Scenarios for hypothesis, which is not loaded by those who do without."""
+    from hypothesis import strategies as st
+
+    return st.composite(lambda draw: Writer(lambda options: draw(st.sampled_from(options))).scenario())()
 
 
 class Writer:
@@ -129,7 +131,8 @@ class Writer:
         return s.CallPort(self.choose(ports), self.value())
 
     def value(self) -> int:
-        return self.choose((1, 2, 3, 0, 2**31 - 1))
+        value: int = self.choose((1, 2, 3, 0, 2**31 - 1))
+        return value
 
     def rarely(self, usual: Any, *others: Any) -> Any:
         """``usual``, or one of ``others`` now and then."""
@@ -138,10 +141,12 @@ class Writer:
     def name(self, kind: str, taken: Sequence[str]) -> str:
         """A variable for one more thing of a kind: mostly a new one."""
         fresh = f"{kind}{len(taken) + 1}"
-        return self.choose((*[fresh] * 12, *taken[:1]))
+        name: str = self.choose((*[fresh] * 12, *taken[:1]))
+        return name
 
     def container(self) -> str:
-        return self.choose((s.MANAGER, s.MANAGER, *self.boxes))
+        container: str = self.choose((s.MANAGER, s.MANAGER, *self.boxes))
+        return container
 
     def thread(self) -> str | None:
         """Now and then a step is done by a worker, and waited for."""

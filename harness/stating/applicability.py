@@ -97,14 +97,15 @@ def _all_purposes(statement: Statement, profile: str, extra_states: int = 0) -> 
 
 def _reduced(purpose: TestPurpose, statement: Statement) -> TestPurpose:
     draw = functools.partial(_drawn, purpose.draw, statement) if purpose.draw is not None else None
-    return replace(purpose, scenarios=_fitting(purpose.scenarios, statement), draw=draw)
+    return replace(purpose, scenarios=fitting(purpose.scenarios, statement), draw=draw)
 
 
 def _drawn(draw: Draw, statement: Statement, seed: int, readings: Mapping[str, str]) -> Cases:
-    return _fitting(draw(seed, readings), statement)
+    return fitting(draw(seed, readings), statement)
 
 
-def _fitting(cases: Cases, statement: Statement) -> Cases:
+def fitting(cases: Cases, statement: Statement) -> Cases:
+    """Those of ``cases`` that ask for nothing that is not claimed, with the patience that is declared."""
     return tuple(
         (name, _fitted(scenario, statement))
         for name, scenario in cases

@@ -1,0 +1,148 @@
+"""Exploration: scenarios nobody wrote, drawn one after the other, sent many at a time through the ordinary pipeline.
+
+Of a few candidates the one is sent whose transitions of the life-cycle model are the rarest so far. What shows events in an
+order not seen before is changed and becomes a candidate again.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import count
+
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.exploring.changing import changed
+from ucm_cts.harness.exploring.memory import Memory, Remembered
+from ucm_cts.harness.exploring.novelty import Events, Guide
+from ucm_cts.harness.exploring.writer import Writer
+from ucm_cts.harness.results import Report
+from ucm_cts.harness.running.campaign import Campaign, Checked
+from ucm_cts.harness.running.driver import Answer, Driver
+from ucm_cts.harness.scenarios.scripts import TestPurpose
+from ucm_cts.harness.stating.statement import Statement
+from ucm_cts.harness.tally import Cause, cause_of
+from ucm_cts.reference_models.ledger import Ledger
+
+CANDIDATES = 4
+"""So many scenarios are compared for one that is sent."""
+
+CHANGED = 0.15
+"""So often a candidate is one that showed something new, changed."""
+
+LAG = 128
+"""So many scenarios later what was new is taken up: more than are on their way at a time, so that a seed repeats all."""
+
+TRIES = 3
+"""So often a remembered failure is looked for before it is told to be gone."""
+
+IN_VAIN = 64
+"""After so many scenarios in a row that were not tried, because of what incidents took, no more are drawn."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far an exploration has come: scenarios run, rows of the life-cycle table visited of all, pairs of events seen one
+    after the other, and different causes of failure.
+    """
+
+    scenarios: int
+    rows: int
+    of: int
+    events: int
+    failures: int
+
+
+@dataclass(frozen=True)
+class Replayed:
+    """A failure that was remembered: is it still there?"""
+
+    remembered: Remembered
+    is_there: bool
+
+
+class Exploration:
+    """Looks for failures of the driver's implementation. Use ``replay``, ``explore`` and ``finish`` in this order."""
+
+    def __init__(self, driver: Driver, profile: str, statement: Statement, memory: Memory) -> None:
+        self._profile = profile
+        self._statement = statement
+        self._memory = memory
+        self._campaign = Campaign(driver, profile, (), statement, self._watch)
+        self._random = random.Random(f"exploration {driver.seed}")
+        self._all_rows = load_life_cycle().rows
+        self._guide = Guide(load_life_cycle())
+        self._events = Events()
+        self._rows: set[str] = set()
+        self._new: list[tuple[int, Scenario]] = []
+        self._causes: set[Cause] = set()
+        self._incidents = 0
+        self._run = 0
+
+    def replay(self) -> list[Replayed]:
+        """Run what is remembered. What is not shown any more is forgotten."""
+        remembered = self._memory.recall()
+        missing = list(remembered)
+        for _ in range(TRIES if remembered else 0):
+            for _ in self._check(_purpose(f"known {n}", one.scenario) for n, one in enumerate(missing, 1)):
+                pass
+            missing = [one for one in missing if one.identity not in self._causes]
+        for one in missing:
+            self._memory.forget(one.identity)
+        return [Replayed(one, one not in missing) for one in remembered]
+
+    def explore(self, is_over: Callable[[], bool]) -> Iterator[Progress]:
+        """Draw and run scenarios until it ``is_over``; yields after each. Ends by itself if nothing more can be tried."""
+        in_vain = 0
+        for checked in self._check(self._purposes()):
+            self._run += 1
+            yield Progress(
+                self._run, len(self._rows), len(self._all_rows), len(self._events), len(self._causes) + self._incidents
+            )
+            kinds = {execution.incident.kind for _, execution in checked.failures if execution.incident}
+            in_vain = in_vain + 1 if "untried" in kinds else 0
+            if is_over() or in_vain >= IN_VAIN or "unreachable" in kinds:
+                return
+
+    def finish(self) -> None:
+        """Take a second look at what was found, and shorten what stands."""
+        self._campaign.look_again()
+        for _ in self._campaign.shorten():
+            pass
+
+    def report(self) -> Report:
+        """All that was found."""
+        return self._campaign.report()
+
+    def _check(self, purposes: Iterator[TestPurpose]) -> Iterator[Checked]:
+        for checked in self._campaign.check(purposes):
+            self._campaign.checked.clear()  # there is no end to them
+            for finding, execution in checked.failures:
+                if finding is not None:
+                    self._causes.add(cause_of(finding))
+                elif execution.incident is not None:
+                    self._incidents += execution.incident.kind != "untried"
+            yield checked
+
+    def _purposes(self) -> Iterator[TestPurpose]:
+        for number in count(1):
+            known = [scenario for found, scenario in self._new if found <= number - LAG]
+            yield _purpose(f"explored {number}", self._guide.choose([self._draw(known) for _ in range(CANDIDATES)]))
+
+    def _draw(self, known: list[Scenario]) -> Scenario:
+        choose = self._random.choice
+        if known and self._random.random() < CHANGED:
+            scenario = changed(choose(known), choose)
+        else:
+            scenario = Writer(choose).scenario()
+        return scenario
+
+    def _watch(self, answer: Answer, ledger: Ledger) -> None:
+        self._rows |= ledger.rows.keys()
+        if self._events.are_new(answer.disguised, answer.trace):
+            self._new.append((self._run, answer.scenario))
+
+
+def _purpose(name: str, scenario: Scenario) -> TestPurpose:
+    return TestPurpose(name, "explored", "Nobody knows beforehand what this shows.", (), ((name, scenario),))
