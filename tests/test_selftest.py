@@ -1,0 +1,172 @@
+"""The self-test tells mutants that are killed for the right reason from those that are not, and right from wrong variants."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import msgspec
+import pytest
+from command_line import ucm_cts, within
+from performing import answer, scenario
+
+from ucm_cts.adapters.contract.messages import Traced
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Enter, Trace
+from ucm_cts.adapters.derived import MUTANTS
+from ucm_cts.harness.selftest.conducting import Conduct
+from ucm_cts.harness.selftest.divergence import divergence
+from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, examine_mutant, examine_variant
+from ucm_cts.harness.selftest.matrix import Matrix
+from ucm_cts.harness.selftest.page import to_html
+from ucm_cts.reference_models.findings import Finding
+
+ASKED = scenario(
+    {"server": {"provides": ["in.api"]}, "client": {"requires": ["out.api"]}},
+    [
+        "add_component component=server",
+        "add_component component=client",
+        "get_port_element id=server port=in.api bind=api",
+        "connect id=client port=out.api to=api bind=link",
+        "start",
+        "get_components",
+        "stop",
+        "remove_component id=client",
+    ],
+)
+START, STOP = 4, 6
+QUICK = Thoroughness(quick=True)
+
+
+def trace_of(adapter: str = "", asked: Scenario = ASKED) -> Trace:
+    replied = answer(asked, MUTANTS[adapter].adapter) if adapter else answer(asked)
+    assert isinstance(replied, Traced)
+    return replied.events
+
+
+def finding(*events: int, step: int | None = None) -> Finding:
+    return Finding("R-1", "rule", "cause", "this", "that", events, step)
+
+
+# where traces part
+
+
+def test_ids_times_and_threads_are_no_divergence() -> None:
+    right = trace_of()
+    other = tuple(msgspec.structs.replace(event, t=event.t + 5, thread=event.thread + 1) for event in right)
+    parted = divergence(ASKED, right, other)
+    assert (parted.events, parted.steps) == (frozenset(), frozenset())
+    assert not parted.explains(finding(1, 2, step=START))
+
+
+def test_what_is_missing_is_explained_by_its_step_only() -> None:
+    right = trace_of()
+    shutdown = next(e for e in right if isinstance(e, Enter) and e.hook == "on_shutdown")
+    lost = {shutdown.n, shutdown.n + 1}
+    kept = [event for event in right if event.n not in lost]
+    wrong = tuple(msgspec.structs.replace(event, n=number) for number, event in enumerate(kept, 1))
+    parted = divergence(ASKED, right, wrong)
+    assert parted.events == frozenset()
+    assert parted.steps == {STOP}
+    assert parted.explains(finding(step=STOP))
+    assert parted.explains(finding(shutdown.n))
+    assert not parted.explains(finding(step=START))
+    assert not parted.explains(finding(1, 2))
+
+
+def test_what_is_there_besides_is_explained_by_itself() -> None:
+    right = trace_of()
+    wrong = trace_of("initialises_at_stop")
+    parted = divergence(ASKED, right, wrong)
+    again = [e.n for e in wrong if isinstance(e, Enter) and e.hook == "on_init"][2:]
+    assert parted.events >= set(again)
+    assert parted.explains(finding(again[0]))
+    assert not parted.explains(finding(step=START))
+
+
+# mutants and variants
+
+
+def test_mutant_is_killed() -> None:
+    result = examine_mutant(all_mutants()["initialises_at_stop"], QUICK)
+    assert (result.is_killed, result.survives, result.spills, result.trouble) == (True, (), (), "")
+    (kill,) = result.kills
+    assert kill.names_the_place
+    assert (kill.requirement, result.clause) == ("R-11.2.1.2-04", "11.2.1.2")
+
+
+def test_failure_of_another_requirement_kills_nobody_and_spills() -> None:
+    mutant = replace(all_mutants()["initialises_at_stop"], breaks=("R-11.2.1.2-01",), clauses=("11.2.1.2",))
+    result = examine_mutant(mutant, QUICK)
+    assert (result.is_killed, result.survives) == (False, ("R-11.2.1.2-01",))
+    assert [kill.requirement for kill in result.spills] == ["R-11.2.1.2-04"]
+    excused = examine_mutant(replace(mutant, also=("R-11.2.1.2-04",)), QUICK)
+    assert (excused.is_killed, excused.spills) == (False, ())
+
+
+def test_finding_about_other_events_does_not_kill(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ucm_cts.harness.selftest.divergence.Divergence.explains", lambda *_: False)
+    result = examine_mutant(replace(all_mutants()["initialises_at_stop"], clauses=("11.2.1.2",)), QUICK)
+    assert not result.is_killed
+    assert [kill.names_the_place for kill in result.kills] == [False]
+
+
+def test_wrong_framework_is_no_conformant_variant() -> None:
+    mutant = all_mutants()["initialises_at_stop"]
+    result = examine_variant(replace(mutant, breaks=(), clauses=("11.2.1.2",)), QUICK)
+    assert not result.is_spared
+    assert [kill.requirement for kill in result.failed] == ["R-11.2.1.2-04"]
+
+
+def test_subject_that_cannot_be_had_is_not_killed_and_no_others_suffer() -> None:
+    there, gone = all_mutants()["initialises_at_stop"], replace(all_mutants()["delivers_twice"], adapter="no.such:One")
+    conduct = Conduct([gone, replace(there, clauses=("11.2.1.2",))], [], QUICK, jobs=2)
+    heard: list[str] = []
+    conduct.run(lambda result: heard.append(result.name))
+    assert sorted(heard) == ["delivers_twice", "initialises_at_stop"]
+    assert [mutant.name for mutant in conduct.matrix.survivors] == ["delivers_twice"]
+    assert "no.such:One" in conduct.matrix.survivors[0].trouble
+    assert not conduct.matrix.is_proved
+
+
+# the command
+
+
+def test_command_writes_the_matrix(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    within(tmp_path, monkeypatch)
+    named = ["initialises_at_stop", "attributes_after_init", "sorts_its_list"]
+    outcome = ucm_cts("selftest", *named, "--quick", "--out", "out", "--jobs", "1")
+    assert (outcome.status, outcome.err) == (0, "")
+    assert "0 of 0 conformant variants spared" in outcome.out, "the quick self-test leaves them out"
+    matrix = msgspec.json.decode(Path("out/matrix.json").read_bytes(), type=Matrix)
+    assert [mutant.name for mutant in matrix.mutants if mutant.is_killed] == named[:2]
+    page = Path("out/matrix.html").read_text()
+    assert "2 of 2 mutants killed" in page
+    assert len(re.findall(r'<rect class="killed"[^>]*><title>initialises_at_stop, R-11.2.1.2-04: ', page)) == 1
+    assert json.loads(Path("out/matrix.json").read_text())["testable"]
+
+
+def test_page_names_what_is_not_as_it_should_be() -> None:
+    mutant = replace(all_mutants()["initialises_at_stop"], breaks=("R-11.2.1.2-01",), clauses=("11.2.1.2",))
+    result = examine_mutant(mutant, QUICK)
+    wronged = examine_variant(replace(mutant, breaks=(), name="<b>"), QUICK)
+    matrix = Matrix("1", 1, 1.0, ("R-11.2.1.2-01",), (result,), (wronged,), False)
+    page = to_html(matrix)
+    assert "0 of 1 mutants killed" in page
+    assert "survives (R-11.2.1.2-01)" in page
+    assert "also fails R-11.2.1.2-04" in page
+    assert "<code>&lt;b&gt;</code> is conformant; fails R-11.2.1.2-04" in page
+    assert page.count('class="missed"') == page.count('class="spill"') == 2  # one of each is the key's
+
+
+def test_names_are_listed_and_wrong_ones_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    within(tmp_path, monkeypatch)
+    listed = ucm_cts("selftest", "--list")
+    assert listed.status == 0
+    assert all(name in listed.out for name in MUTANTS)
+    wrong = ucm_cts("selftest", "nobody")
+    assert wrong.status == 2
+    assert "'nobody'" in wrong.err
+    assert not list(tmp_path.iterdir())
