@@ -54,7 +54,8 @@ def callbacks(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Ra
     for member, row in window.roles:
         component, instance, listener = _listener(runtime, window, member)
         events = _observed(window, component, instance) if window.callbacks else []
-        if events and row.operation == "start":  # a late on_init or on_connect is configuration_first's matter
+        own = member is not None and member.container is window.container
+        if events and own and row.operation == "start":  # a late on_init or on_connect is configuration_first's matter
             events = [e for e in events if e.hook not in ("on_init", "on_connect")]
         heard = tuple([e.hook for e in events]) if events else ()
         fit = ledger.duties.fit(row, answer, listener, heard)

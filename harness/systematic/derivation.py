@@ -9,14 +9,14 @@ from collections.abc import Mapping
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.harness.systematic.machine import Machine, Move, Observation, Permitted
+from ucm_cts.harness.systematic.machine import LISTS, Machine, Move, Observation, Permitted
 from ucm_cts.harness.systematic.settings import Input, Setting
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.duties import Listener, pattern
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, Outcome, Row
 from ucm_cts.reference_models.prediction import Prediction, Way
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
-from ucm_cts.reference_models.situations import undone_by
+from ucm_cts.reference_models.situations import Situations, undone_by
 
 State = tuple[object, ...]
 """What of a runtime decides its further behaviour: phases, members, connections."""
@@ -29,7 +29,7 @@ def derive(table: LifeCycleTable, setting: Setting, readings: Mapping[str, str])
     Where an operation may fail half-way and leave a state that nobody can know, that is permitted, and the machine goes on
     as if it had not been so.
     """
-    return _Derivation(_declared(table, Claims(readings)), setting).machine()
+    return _Derivation(table, Claims(readings), setting).machine()
 
 
 def _declared(table: LifeCycleTable, claims: Claims) -> LifeCycleTable:
@@ -47,9 +47,10 @@ def _declared(table: LifeCycleTable, claims: Claims) -> LifeCycleTable:
 
 
 class _Derivation:
-    def __init__(self, table: LifeCycleTable, setting: Setting) -> None:
+    def __init__(self, table: LifeCycleTable, claims: Claims, setting: Setting) -> None:
         self.setting = setting
-        self.first = Prediction(table, dict(setting.components))
+        self.first = Prediction(_declared(table, claims), dict(setting.components))
+        self.undeclared = Situations(table)
         self.outputs: dict[Permitted, int] = {}
 
     def machine(self) -> Machine:
@@ -72,6 +73,8 @@ class _Derivation:
                 if reached not in numbers:
                     numbers[reached] = len(numbers)
                     waiting.append((reached, then))
+                if _reaches_below(window):  # where the judge lets nobody be bound by what is declared
+                    window = self.undeclared.open(now.runtime, 0, asked.step)
                 output = self.outputs.setdefault(permitted(now.runtime, window), len(self.outputs))
                 moves[-1][number] = Move(numbers[reached], output)
         return Machine(tuple(i.name for i in self.setting.inputs), tuple(self.outputs), tuple(moves))
@@ -80,6 +83,8 @@ class _Derivation:
         """The one known state that ``asked`` leads to, and the model in that state; None unless there is just one."""
         reached: dict[State, Prediction] = {}
         for way in now.ways(window):
+            if window.forgiving and way.answer == "UCM_ERROR":
+                return None  # perhaps for a reason that the table does not know: the judge loses track
             if _changes_nothing(asked.step, way):
                 reached.setdefault(state, now)
                 continue
@@ -121,6 +126,12 @@ def is_defined(now: Prediction, window: Window) -> bool:
         if container is not None and not container.removed:
             return False
     return window.judged
+
+
+def _reaches_below(window: Window) -> bool:
+    """A start or stop of the manager, while there are members in sub-containers."""
+    below = any(member is not None and member.container is not window.container for member, _ in window.roles)
+    return below and window.operation in ("start", "stop")
 
 
 def _changes_nothing(step: s.ContainerCall, way: Way) -> bool:
@@ -174,7 +185,7 @@ def _shown(runtime: Runtime, window: Window, answer: str) -> list[str]:
     listings = [own]
     if window.container.name == s.MANAGER:
         listings.append(sorted(m.name for c in runtime.containers.values() for m in c.live_members()))
-    return list(dict.fromkeys(" ".join(("return", *listing)) for listing in listings))
+    return list(dict.fromkeys(" ".join((LISTS, *listing)) for listing in listings))
 
 
 def _heard(window: Window, member: Member | None, row: Row, answer: str) -> list[tuple[str, tuple[str, ...]]]:

@@ -13,8 +13,10 @@ from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import get_args
 
-from ucm_cts.harness.systematic.machine import Machine, Observation, Word
+from ucm_cts.adapters.contract.trace import DeclaredError
+from ucm_cts.harness.systematic.machine import LISTS, Machine, Observation, Word
 
 Where = tuple[int, int]
 """A state of the implementation, and an input."""
@@ -96,8 +98,10 @@ class Subject:
         """The wrong observations of one transition."""
         permitted = self.machine.outputs[self.machine.moves[state][asked].output]
         usual = self._usual[state, asked][1]
-        candidates = dict.fromkeys((*self._alphabet, *_altered(usual)))
-        yield from (seen for seen in candidates if not permitted.permits(seen))
+        returns = LISTS if usual.answer.startswith(LISTS) else "return"
+        for seen in dict.fromkeys((*self._alphabet, *_altered(usual))):
+            if not permitted.permits(seen) and seen.answer.split()[0] in (returns, *get_args(DeclaredError)):
+                yield seen
 
     @cached_property
     def _alphabet(self) -> tuple[Observation, ...]:

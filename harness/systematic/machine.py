@@ -17,6 +17,10 @@ Word = tuple[int, ...]
 """Inputs, one after the other."""
 
 
+LISTS = "lists"
+"""How an answer begins that returns a list; what is listed follows."""
+
+
 class Observation(NamedTuple):
     """What is seen of one input: how the operation ended, and which instance heard which callbacks meanwhile."""
 
