@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Action, Scenario, Step
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Scenario, Step
 from ucm_cts.harness.scenarios.scripts import bound_by, overlaps, used_by
 
-ROUNDS = 12
+ROUNDS = 40
 """How often the candidates of a shorter scenario are tried; each round leaves out at least one thing."""
 
 
@@ -62,9 +62,57 @@ def _with_less(scenario: Scenario) -> Iterator[Scenario]:
                 yield tidied(
                     msgspec.structs.replace(scenario, components={**scenario.components, name: simpler}), steps
                 )
-        if declaration.connectable:
-            simpler = msgspec.structs.replace(declaration, connectable=False)
+        for simpler in _plainer(declaration):
             yield msgspec.structs.replace(scenario, components={**scenario.components, name: simpler})
+        for port in (*declaration.requires, *declaration.provides):
+            yield from _without_port(scenario, name, port)
+    for container in {step.bind for step in steps if isinstance(step, s.CreateContainer)}:
+        yield _in_one_container(scenario, container)
+
+
+def _plainer(declaration: Declaration) -> Iterator[Declaration]:
+    """The same component, and it knows less of the framework or is configured less."""
+    if declaration.connectable:
+        yield msgspec.structs.replace(declaration, connectable=False)
+    if declaration.fragment:
+        yield msgspec.structs.replace(declaration, fragment=False)
+    if declaration.attributes:
+        yield msgspec.structs.replace(declaration, attributes={})
+
+
+def _without_port(scenario: Scenario, component: str, port: str) -> Iterator[Scenario]:
+    """The component without that port element, unless its plan or a policy names it, and the steps without those for it."""
+    declaration = scenario.components[component]
+    if port in msgspec.json.encode((declaration.plan, declaration.policies)).decode():
+        return
+    simpler = msgspec.structs.replace(
+        declaration,
+        provides=tuple(p for p in declaration.provides if p != port),
+        requires=tuple(p for p in declaration.requires if p != port),
+        ports={p: interface for p, interface in declaration.ports.items() if p != port},
+    )
+    steps = scenario.steps
+    its = {step.bind or component for step in steps if isinstance(step, s.AddComponent) and step.component == component}
+    for index in range(len(steps) - 1, -1, -1):
+        step = steps[index]
+        if (
+            isinstance(step, s.Connect | s.GetPortElement | s.Attach | s.Detach)
+            and step.port == port
+            and step.id in its
+        ):
+            steps = without_step(steps, index)
+    yield tidied(msgspec.structs.replace(scenario, components={**scenario.components, component: simpler}), steps)
+
+
+def _in_one_container(scenario: Scenario, container: str) -> Scenario:
+    """What is in ``container`` is in the root container instead, and nobody makes it."""
+    steps = tuple(
+        msgspec.structs.replace(step, container=s.MANAGER) if getattr(step, "container", "") == container else step
+        for step in scenario.steps
+        if not (isinstance(step, s.CreateContainer) and step.bind == container)
+        and not (isinstance(step, s.RemoveContainer) and step.container == container)
+    )
+    return tidied(scenario, steps)
 
 
 def _fewer(actions: tuple[Action, ...]) -> Iterator[tuple[Action, ...]]:
