@@ -1,0 +1,16 @@
+package org.ucmcts;
+
+import java.util.List;
+
+/** What a fragment implements beside {@link Body} (11.2.1.4). */
+public interface Fragment {
+    /** Gives the fragment access to the container that holds it. */
+    void setContainerInterface(ContainerInterface container);
+
+    /** The least a fragment gets to see of its container. */
+    @FunctionalInterface
+    interface ContainerInterface {
+        /** Ids of the container's members. */
+        List<Integer> getComponents() throws Exception;
+    }
+}

@@ -1,0 +1,34 @@
+package org.ucmcts;
+
+import java.util.concurrent.atomic.AtomicLong;
+
+/** Who is inside one body while it is stressed. */
+final class Occupancy {
+    // In every other slot visitors stay for a moment, which finds locks that are missing now and then; in the others
+    // they leave at once, which finds locks that are checked first and taken afterwards. In nanoseconds.
+    private static final long SLOT = 10_000_000;
+
+    private final AtomicLong overlaps = new AtomicLong();
+    private volatile Object inside;
+
+    /** Goes in, stays, looks whether somebody else came, and leaves. */
+    void visit() {
+        Object own = new Object();
+        boolean met = inside != null;
+        inside = own;
+        if (System.nanoTime() / SLOT % 2 == 0) {
+            Thread.yield();
+        } else {
+            Thread.onSpinWait();
+        }
+        if (met || inside != own) {
+            overlaps.incrementAndGet();
+        }
+        inside = null;
+    }
+
+    /** How often somebody was met. */
+    long overlaps() {
+        return overlaps.get();
+    }
+}

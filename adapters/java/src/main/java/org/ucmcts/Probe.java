@@ -1,0 +1,313 @@
+package org.ucmcts;
+
+import java.util.ArrayList;
+import java.util.Collections;
+import java.util.HashMap;
+import java.util.LinkedHashMap;
+import java.util.List;
+import java.util.Map;
+
+/**
+ * A component body that records what a framework does to it and acts as its plan says. Silent, and without a plan,
+ * once the recording has stopped.
+ */
+class Probe implements Body {
+    private static final String SELF_EXECUTING = "protected_self-executing_component";
+    private static final String SELF_EXECUTION_API = "self-execution_api";
+
+    final Stage stage;
+    private final String component;
+    private final int instance;
+    private final Node plan;
+    private final Map<String, Port> ports = new HashMap<>();
+    private final Runnable execution;
+    private final Map<String, String> attributes = Collections.synchronizedMap(new LinkedHashMap<>());
+    private final Actions actions;
+
+    private Probe(Stage stage, String component, Node declaration) {
+        this.stage = stage;
+        this.component = component;
+        instance = stage.count(component);
+        plan = declaration.node("plan");
+        actions = new Actions(this);
+        for (String port : declaration.texts("provides")) {
+            ports.put(port, new Port(this, port));
+        }
+        boolean executesItself =
+                declaration.nodes("policies").stream().anyMatch(p -> p.text("definition").equals(SELF_EXECUTING));
+        execution = executesItself ? this::run : null;
+    }
+
+    /** The next body for {@code component}. */
+    static Probe make(Stage stage, String component, Node declaration, boolean connectable, boolean fragment) {
+        if (connectable) {
+            return fragment
+                    ? new ConnectableFragment(stage, component, declaration)
+                    : new ConnectableOnly(stage, component, declaration);
+        }
+        return fragment ? new FragmentOnly(stage, component, declaration) : new Probe(stage, component, declaration);
+    }
+
+    /** A provided port element of a probe. */
+    record Port(Probe probe, String name) implements PortElement {
+        @Override
+        public int exchange(int value) {
+            return probe.exchange(name, value);
+        }
+
+        @Override
+        public List<Object> call(String method, List<Object> arguments) {
+            return probe.call(name, method, arguments);
+        }
+
+        @Override
+        public boolean equals(Object other) {
+            return this == other;
+        }
+
+        @Override
+        public int hashCode() {
+            return System.identityHashCode(this);
+        }
+
+        /** What the trace calls it. */
+        Map<String, Object> identity() {
+            return Map.of("component", probe.component, "instance", probe.instance, "port", name);
+        }
+    }
+
+    /** What a probe throws when its plan says {@code raise}: an exception no interface declares. */
+    static final class PlannedFailure extends RuntimeException {
+        private static final long serialVersionUID = 1;
+
+        private PlannedFailure(String component, String hook) {
+            super(component + " fails in " + hook + ", as planned");
+        }
+    }
+
+    @Override
+    public void setAttribute(String name, String value) {
+        if (isGiven("set_attribute", name) && isGiven("set_attribute", value)) {
+            attributes.put(name, value);
+        }
+    }
+
+    @Override
+    public void onInit() {
+        synchronized (attributes) {
+            visit("on_init", null, "attributes", Map.copyOf(attributes));
+        }
+    }
+
+    @Override
+    public void onStartup(List<PortConnection> dependencies) {
+        List<Object> told = new ArrayList<>();
+        Map<String, List<PortElement>> references = new HashMap<>();
+        if (isGiven("on_startup", dependencies)) {
+            for (PortConnection connection : dependencies) {
+                if (!isGiven("on_startup", connection)
+                        || !isGiven("on_startup", connection.fromPort())
+                        || !isGiven("on_startup", connection.toPort())) {
+                    continue;
+                }
+                List<Object> recognised = new ArrayList<>();
+                for (PortElement reference : connection.toPort()) {
+                    recognised.add(stage.recognise(reference));
+                    if (reference != null) {
+                        references.computeIfAbsent(connection.fromPort(), any -> new ArrayList<>()).add(reference);
+                    }
+                }
+                told.add(Map.of("port", connection.fromPort(), "references", recognised));
+            }
+        }
+        actions.references = references;
+        visit("on_startup", null, "dependencies", told);
+    }
+
+    @Override
+    public void onShutdown() {
+        try {
+            visit("on_shutdown", null);
+        } finally {
+            actions.references = Map.of();
+        }
+    }
+
+    @Override
+    public void onRemove() {
+        try {
+            visit("on_remove", null);
+        } finally {
+            actions.container = null;
+        }
+    }
+
+    @Override
+    public PortElement getPortElement(String provided) {
+        return ports.get(provided);
+    }
+
+    @Override
+    public Runnable getPolicyElement(String policy, String element) {
+        return SELF_EXECUTING.equals(policy) && SELF_EXECUTION_API.equals(element) ? execution : null;
+    }
+
+    private void run() {
+        if (!stage.isStressed(this)) {
+            visit("run", null);
+        }
+    }
+
+    private int exchange(String port, int value) {
+        return stage.isStressed(this) ? ~value : visit("exchange", ~value, "port", port, "value", value);
+    }
+
+    private List<Object> call(String port, String method, List<Object> arguments) {
+        if (!stage.recorder.isRecording()) {
+            return List.of();
+        }
+        if (!Data.isData(arguments)) {
+            stage.recorder.complain(method + " was called with " + arguments + ", which are no values");
+            return List.of();
+        }
+        if (actions("method").stream().anyMatch(action -> action.text("do").equals("count"))) {
+            stage.messages.add(component, instance, ((Number) arguments.get(0)).longValue());
+            return List.of("ok");
+        }
+        List<Object> given = Data.copy(arguments);
+        record("enter", "hook", "method", "port", port, "method", method, "arguments", given);
+        Node answer = null;
+        for (Node action : actions("method")) {
+            if (action.text("do").equals("raise")) {
+                record("exit", "hook", "method", "raised", true);
+                throw new PlannedFailure(component, method);
+            }
+            if (!action.text("do").equals("answer")) {
+                actions.act(action);
+            } else if (action.text("method").equals(method)) {
+                answer = action;
+            }
+        }
+        List<Object> results = answer == null ? List.of() : answer.list("results");
+        results = Data.copy(results == null ? given : results);
+        String exception = answer == null ? null : answer.text("exception");
+        record("exit", "hook", "method", "results", Data.copy(results), "exception", exception);
+        if (answer != null && answer.flag("overwrite")) {
+            Data.overwrite(arguments);
+        }
+        if (exception != null) {
+            throw new DeclaredException(exception, results);
+        }
+        return results;
+    }
+
+    /** Records {@code enter}, carries out the plan, records {@code exit}; returns what the hook returns. */
+    private Integer visit(String hook, Integer result, Object... arguments) {
+        if (!stage.recorder.isRecording()) {
+            return result;
+        }
+        List<Object> entered = new ArrayList<>(List.of("hook", hook));
+        Collections.addAll(entered, arguments);
+        record("enter", entered.toArray());
+        Integer returned = result;
+        for (Node action : actions(hook)) {
+            switch (action.text("do")) {
+                case "raise" -> {
+                    record("exit", "hook", hook, "raised", true);
+                    throw new PlannedFailure(component, hook);
+                }
+                case "return" -> {
+                    if (hook.equals("exchange")) {
+                        returned = (int) action.number("value");
+                    }
+                }
+                default -> actions.act(action);
+            }
+        }
+        record("exit", "hook", hook, "value", returned);
+        return returned;
+    }
+
+    private List<Node> actions(String hook) {
+        return plan.get(hook) == null ? List.of() : plan.nodes(hook);
+    }
+
+    /** Records an event inside this body. */
+    final void record(String kind, Object... fields) {
+        List<Object> all = new ArrayList<>(List.of("component", component, "instance", instance));
+        Collections.addAll(all, fields);
+        stage.recorder.record(kind, all.toArray());
+    }
+
+    private boolean isGiven(String where, Object value) {
+        if (value == null) {
+            stage.recorder.complain(where + " was given null where a value is due");
+        }
+        return value != null;
+    }
+
+    final void connected(String portName, PortElement required) {
+        if (isGiven("on_connect", portName)) {
+            visit("on_connect", null, "port", portName, "reference", stage.recognise(required));
+        }
+    }
+
+    final void disconnected(String portName) {
+        if (isGiven("on_disconnect", portName)) {
+            visit("on_disconnect", null, "port", portName);
+        }
+    }
+
+    final void contained(Fragment.ContainerInterface container) {
+        actions.container = container;
+        visit("set_container_interface", null);
+    }
+
+    private static final class ConnectableOnly extends Probe implements Connectable {
+        private ConnectableOnly(Stage stage, String component, Node declaration) {
+            super(stage, component, declaration);
+        }
+
+        @Override
+        public void onConnect(String portName, PortElement required) {
+            connected(portName, required);
+        }
+
+        @Override
+        public void onDisconnect(String portName) {
+            disconnected(portName);
+        }
+    }
+
+    private static final class FragmentOnly extends Probe implements Fragment {
+        private FragmentOnly(Stage stage, String component, Node declaration) {
+            super(stage, component, declaration);
+        }
+
+        @Override
+        public void setContainerInterface(ContainerInterface container) {
+            contained(container);
+        }
+    }
+
+    private static final class ConnectableFragment extends Probe implements Connectable, Fragment {
+        private ConnectableFragment(Stage stage, String component, Node declaration) {
+            super(stage, component, declaration);
+        }
+
+        @Override
+        public void onConnect(String portName, PortElement required) {
+            connected(portName, required);
+        }
+
+        @Override
+        public void onDisconnect(String portName) {
+            disconnected(portName);
+        }
+
+        @Override
+        public void setContainerInterface(ContainerInterface container) {
+            contained(container);
+        }
+    }
+}

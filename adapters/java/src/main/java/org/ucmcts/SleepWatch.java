@@ -1,0 +1,67 @@
+package org.ucmcts;
+
+import java.io.IOException;
+import java.nio.file.Files;
+import java.nio.file.Path;
+import java.util.regex.Matcher;
+import java.util.regex.Pattern;
+
+/**
+ * Watches one thread. It is blocked when several looks in a row find that both the virtual machine and the operating
+ * system have it waiting and that it has not been awake in between: a thread that only waits for the machine to go on
+ * is not. Elsewhere than on Linux nobody is ever seen to be blocked.
+ */
+final class SleepWatch {
+    /** Nanoseconds between two looks. */
+    static final long PAUSE = 500_000;
+
+    private static final int LOOKS = 5;
+    private static final Pattern SLEEPS =
+            Pattern.compile("^State:\\s+S.*^voluntary_ctxt_switches:\\s+(\\d+)", Pattern.MULTILINE | Pattern.DOTALL);
+
+    private final Thread thread;
+    private final Path status;
+    private String before;
+    private int looks;
+
+    /** Watches {@code thread}, which the operating system tells of in {@code status}; null if it does not. */
+    SleepWatch(Thread thread, Path status) {
+        this.thread = thread;
+        this.status = status;
+    }
+
+    /** Where the operating system tells of the calling thread; null if it does not. */
+    static Path statusOfThisThread() {
+        try {
+            Path own = Files.readSymbolicLink(Path.of("/proc/thread-self")); // PID/task/NUMBER
+            return Path.of("/proc/self/task").resolve(own.getFileName()).resolve("status");
+        } catch (IOException error) {
+            return null;
+        }
+    }
+
+    /** One more look. */
+    boolean isSeenAgain() {
+        String sleeps = sleeps();
+        looks = sleeps != null && sleeps.equals(before) ? looks + 1 : 1;
+        before = sleeps;
+        return sleeps != null && looks >= LOOKS;
+    }
+
+    // how often it has gone to sleep, as text, if it sleeps now
+    private String sleeps() {
+        boolean waits = switch (thread.getState()) {
+            case BLOCKED, WAITING, TIMED_WAITING -> true;
+            default -> false;
+        };
+        if (status == null || !waits) {
+            return null;
+        }
+        try {
+            Matcher found = SLEEPS.matcher(Files.readString(status));
+            return found.find() ? found.group(1) : null;
+        } catch (IOException error) {
+            return null;
+        }
+    }
+}

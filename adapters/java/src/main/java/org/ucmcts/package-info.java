@@ -1,0 +1,8 @@
+/**
+ * The Java SDK of UCM-CTS: extend {@link org.ucmcts.Adapter} and give it to {@link org.ucmcts.Host}.
+ *
+ * <p>An adapter implements {@code Adapter} and handles what frameworks see of the suite's component bodies: {@code
+ * Body}, {@code Connectable}, {@code Fragment}, {@code PortElement}, {@code PortConnection}, {@code Implementation}.
+ * Everything else carries out scenarios as docs/design.md says.
+ */
+package org.ucmcts;

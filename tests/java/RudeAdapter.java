@@ -1,0 +1,100 @@
+import java.util.List;
+import java.util.Map;
+import org.ucmcts.Adapter;
+import org.ucmcts.Host;
+import org.ucmcts.Implementation;
+import org.ucmcts.PortElement;
+import org.ucmcts.Product;
+import org.ucmcts.UcmException.BadParameter;
+import org.ucmcts.UcmException.NotFound;
+import org.ucmcts.UcmException.UcmError;
+
+/** Does something bad, which the name of the component to add chooses. */
+public final class RudeAdapter extends Adapter<String> {
+    private List<Implementation> all;
+
+    public static void main(String[] arguments) {
+        Host.serve(arguments, new Product("rude", "0", "{port}.{element}"), RudeAdapter::new);
+    }
+
+    @Override
+    public String createRuntime(List<Implementation> implementations) {
+        all = implementations;
+        if (!all.isEmpty() && all.get(0).name().equals("refuse")) {
+            throw new IllegalStateException("no licence");
+        }
+        return "root";
+    }
+
+    @Override
+    public int addComponent(String container, String what, Map<String, String> attributes) throws Exception {
+        switch (what) {
+            case "print" -> System.out.println("{\"type\":\"welcome\"}");
+            case "exit" -> System.exit(3);
+            case "halt" -> Runtime.getRuntime().halt(4);
+            case "hang" -> new java.util.concurrent.CountDownLatch(1).await();
+            case "spin" -> {
+                while (true) {
+                    Thread.onSpinWait();
+                }
+            }
+            case "interrupt" -> Thread.currentThread().interrupt();
+            case "throw long" -> throw new java.io.IOException("x".repeat(300));
+            case "throw error" -> throw new StackOverflowError();
+            case "throw text" -> throw new NotFound("\"quoted\" ä \ud800");
+            default -> { }
+        }
+        return Integer.MAX_VALUE;
+    }
+
+    @Override
+    public void removeComponent(String container, int id) {
+        throw new BadParameter(String.valueOf(id));
+    }
+
+    @Override
+    public PortElement getPortElement(String container, int id, String port) {
+        return port.equals("none") ? null : value -> Math.toIntExact(1L << 40);
+    }
+
+    @Override
+    public int connect(String container, int id, String port, PortElement toPort) {
+        return 0;
+    }
+
+    @Override
+    public void disconnect(String container, int connection) {}
+
+    @Override
+    public void start(String container) {
+        all.forEach(one -> one.policies().forEach(policy -> {
+            Runnable run = one.create().get().getPolicyElement(policy.definition(), "self-execution_api");
+            if (run != null) {
+                run.run();
+            }
+        }));
+    }
+
+    @Override
+    public void stop(String container) {
+        all.get(0).create().get().onStartup(null);
+    }
+
+    @Override
+    public List<Integer> getComponents(String container) {
+        return container.equals("sub") ? null : List.of(Integer.MAX_VALUE - 1);
+    }
+
+    @Override
+    public String createContainer(String manager) {
+        return "sub";
+    }
+
+    @Override
+    public void removeContainer(String manager, String container) {}
+
+    @Override
+    public void destroy(String manager) {
+        throw new UcmError("never");
+    }
+}
