@@ -2,56 +2,26 @@
 
 from __future__ import annotations
 
-import functools
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import pytest
-from core_mutations import Mutation, mutations, spoilt
 from lxml import etree
 
 from ucm_cts.adapters.reference_cpp import STATEMENT
 from ucm_cts.harness.documents import DocumentError
 from ucm_cts.harness.models import core_models
-from ucm_cts.harness.models.core_models import CORE, Declaration, ModelResult, compare
+from ucm_cts.harness.models.core_models import CORE, Declaration, compare
+from ucm_cts.harness.selftest.spoilt_models import declarations, element_of, repeating, spoilt_results
 from ucm_cts.harness.stating.files import read_statement
 
-DECLARATIONS = {d.requirement: d for d in core_models._catalogue().declarations}
-STATEMENTS = core_models._catalogue().statements
+DECLARATIONS = declarations()
 each_declaration = pytest.mark.parametrize("declaration", DECLARATIONS.values(), ids=DECLARATIONS.keys())
 
 
 def having(status: str, path: Path, claims: Mapping[str, str] = {}) -> set[str]:
     return {r.requirement for r in compare([path], claims).results if r.status == status}
-
-
-def repeating(requirement: str) -> set[str]:
-    """The statements that say again what ``requirement`` says."""
-    return {s.requirement for s in STATEMENTS if requirement in s.of}
-
-
-@functools.cache
-def tree_of(file: str) -> etree._ElementTree:
-    return etree.parse(CORE / file)
-
-
-def element_of(declaration: Declaration) -> etree._Element:
-    (element,) = tree_of(declaration.file).xpath(declaration.place)
-    return element
-
-
-@functools.cache
-def spoilt_results(requirement: str) -> list[tuple[Mutation, dict[str, ModelResult]]]:
-    """Every way to spoil a declaration, and what comes of it."""
-    declaration = DECLARATIONS[requirement]
-    outcomes = []
-    with TemporaryDirectory() as folder:
-        for mutation in mutations(element_of(declaration), requirement):
-            path = spoilt(Path(folder), declaration.file, declaration.place, mutation.change)
-            outcomes.append((mutation, {r.requirement: r for r in compare([path]).results}))
-    return outcomes
 
 
 def test_our_own_models_keep_everything() -> None:

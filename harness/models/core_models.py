@@ -58,7 +58,9 @@ class Statement(Value, frozen=True):
     of: dict[str, tuple[str, ...]] = {}
 
 
-class _Catalogue(Value, frozen=True):
+class Catalogue(Value, frozen=True):
+    """The declarations of clause 10.1, and the statements that repeat them."""
+
     declarations: tuple[Declaration, ...]
     statements: tuple[Statement, ...]
 
@@ -84,7 +86,7 @@ def compare(paths: Sequence[Path], claims: Mapping[str, str] = {}) -> Comparison
 
 def checked() -> dict[str, frozenset[str]]:
     """The requirements that each check stands for."""
-    catalogue = _catalogue()
+    catalogue = core_catalogue()
     stands_for: dict[str, set[str]] = {name: set() for name in CHECKS}
     stands_for["core_declarations"] |= {d.requirement for d in catalogue.declarations}
     for statement in catalogue.statements:
@@ -93,8 +95,9 @@ def checked() -> dict[str, frozenset[str]]:
 
 
 @functools.cache
-def _catalogue() -> _Catalogue:
-    return read(CORE / "declarations.yaml", _Catalogue)
+def core_catalogue() -> Catalogue:
+    """What ``declarations.yaml`` says of our own models."""
+    return read(CORE / "declarations.yaml", Catalogue)
 
 
 @functools.cache
@@ -109,7 +112,7 @@ def _ours() -> tuple[Element, dict[Element, Declaration]]:
     by_source = {e.source: e for e in root.walk()}
     trees = {element.where.partition(":")[0]: element.source for element in root.children}
     declarations = {}
-    for declaration in _catalogue().declarations:
+    for declaration in core_catalogue().declarations:
         source = trees[declaration.file]
         found: Any = source.getroottree().xpath(declaration.place) if source is not None else []
         if len(found) != 1:
@@ -119,7 +122,7 @@ def _ours() -> tuple[Element, dict[Element, Declaration]]:
 
 
 def _results(facts: Mapping[str, Mapping[str, Fact]]) -> Iterator[ModelResult]:
-    catalogue = _catalogue()
+    catalogue = core_catalogue()
     for declaration in catalogue.declarations:
         own = facts.get(declaration.requirement, {})
         yield _result(declaration.requirement, "core_declarations", list(own.values()))

@@ -15,6 +15,7 @@ from ucm_cts.harness.selftest.conducting import Conduct, Result
 from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, all_variants, names
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, by_clause
 from ucm_cts.harness.selftest.page import write_matrix
+from ucm_cts.harness.selftest.spoilt_models import declarations
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
 
 LISTED = 40
@@ -56,6 +57,7 @@ def selftest(
         [subject for subject in chosen if not subject.breaks and not quick],
         Thoroughness(seed, whole, quick),
         jobs,
+        [] if names_wanted else list(declarations()),
     )
     interrupted = _conduct(conduct, console)
     write_matrix(conduct.matrix, out)
@@ -71,7 +73,7 @@ def _conduct(conduct: Conduct, console: Output) -> bool:
     """Run everybody; True if interrupted."""
     wrong = 0
     with ends_like_interrupts(), progress_of(console) as progress:
-        task = progress.add_task("examining", total=len(conduct.mutants) + len(conduct.variants))
+        task = progress.add_task("examining", total=len(conduct.mutants) + len(conduct.variants) + len(conduct.models))
 
         def tell(result: Result) -> None:
             nonlocal wrong

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import ucm_cts
 from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.selftest.killing import (
     Subject,
     Thoroughness,
@@ -19,9 +20,13 @@ from ucm_cts.harness.selftest.killing import (
     examine_variant,
 )
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult
+from ucm_cts.harness.selftest.models_killing import examine_models
 from ucm_cts.reference_models.ledger import RULES
 
 Result = MutantResult | VariantResult
+
+ALL_CHECKS = RULES.keys() | CHECKS.keys()
+"""Rules, which watch traces, and checks of core models."""
 
 
 @dataclass
@@ -32,11 +37,16 @@ class Conduct:
     variants: Sequence[Subject]
     how: Thoroughness
     jobs: int
+    models: Sequence[str] = ()
     _done: dict[str, Result] = field(default_factory=dict)
     _began: float = field(default_factory=time.monotonic)
 
     def run(self, tell: Callable[[Result], None]) -> None:
         """Examine everybody; ``tell`` hears each result as it is known."""
+        for requirement in self.models:
+            spoilt = examine_models(requirement)
+            self._done[spoilt.name] = spoilt
+            tell(spoilt)
         context = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(self.jobs, context, initializer=_leave_interrupts_to_the_parent) as pool:
             due: set[Future[Result]] = set()
@@ -58,22 +68,26 @@ class Conduct:
 
     @property
     def matrix(self) -> Matrix:
-        """What is known by now, in the order of the register."""
-        results = [self._done[s.name] for s in (*self.mutants, *self.variants) if s.name in self._done]
+        """What is known by now."""
+        results = list(self._done.values())
         return Matrix(
             ucm_cts.__version__,
             self.how.seed,
             round(time.monotonic() - self._began, 1),
             testable(),
-            tuple(r for r in results if isinstance(r, MutantResult)),
-            tuple(r for r in results if isinstance(r, VariantResult)),
+            tuple(sorted((r for r in results if isinstance(r, MutantResult)), key=_by_name)),
+            tuple(sorted((r for r in results if isinstance(r, VariantResult)), key=_by_name)),
             self.how.whole,
         )
 
 
+def _by_name(result: Result) -> str:
+    return result.name
+
+
 def testable() -> tuple[str, ...]:
     """The requirements that rules stand for and that can be broken: nothing breaks a permission."""
-    return tuple(r.id for r in load_requirements() if r.level != "may" and any(rule in RULES for rule in r.rules))
+    return tuple(r.id for r in load_requirements() if r.level != "may" and any(rule in ALL_CHECKS for rule in r.rules))
 
 
 def _examine(subject: Subject, how: Thoroughness) -> Result:

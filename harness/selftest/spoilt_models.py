@@ -1,15 +1,20 @@
-"""Every way to spoil one element of our own core models: what is changed, and whose requirement that is."""
+"""Mutants of core models: every way to spoil one element of our own, and whose requirement that is."""
 
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterator
+import functools
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
 
 from lxml import etree
 
-from ucm_cts.harness.models.core_models import CORE
+from ucm_cts.harness.models.comparing import Declaration
+from ucm_cts.harness.models.core_models import CORE, ModelResult, compare, core_catalogue
 
 PRINTED = {
     "kind": "BYTE SHORT LONG ULONG PROVIDED REQUIRED",
@@ -77,27 +82,38 @@ def mutations(element: etree._Element, requirement: str) -> Iterator[Mutation]:
         yield Mutation("dropped", requirement, drop)
         yield Mutation("Union", requirement, lambda e: setattr(e, "tag", "Union"))
         yield Mutation("Oddity", requirement, lambda e: setattr(e, "tag", "Oddity"), clear=False)
-    for attribute in element.attrib:
+    for attribute in map(str, element.attrib):
         if attribute == "name" and element.get("name") == "log_severity_enumerator_t":
             continue
         values = PRINTED.get(attribute, "nothing_such ::clock_api::clock").split()
         for value in (None, *values):
             same = value == element.get(attribute) or (requirement, attribute, value) in ALLOWED
             if not same:
-                yield Mutation(f"{attribute}={value}", requirement, lambda e, a=attribute, v=value: put(e, a, v))
+                yield Mutation(f"{attribute}={value}", requirement, partial(put, attribute=attribute, value=value))
         if attribute in ("kind", "direction", "nature", "applicability", "multiplicity"):
-            odd = lambda e, a=attribute: put(e, a, "oddity")
+            odd = partial(put, attribute=attribute, value="oddity")
             yield Mutation(f"{attribute}=oddity", requirement, odd, clear=False)
     for tag in CHILDREN.get(str(element.tag), "").split():
-        owner = IN_PARTICULAR.get((element.get("name", ""), tag)) or IN_GENERAL.get(tag, "R-10.1-03")
-        yield Mutation(f"with {tag}", owner, lambda e, t=tag: e.append(etree.Element(t, name="more")))
+        owner = IN_PARTICULAR.get((str(element.get("name", "")), tag)) or IN_GENERAL.get(tag, "R-10.1-03")
+        yield Mutation(f"with {tag}", owner, partial(add, tag=tag))
     if element.tag in ("Interface", "TechnicalPolicyDefinition"):
         yield Mutation("extends", "R-10.1-03", lambda e: e.set("extends", "::more"))
-    ordered = [e for e in element if e.tag in ("StructureField", "Enumerator") or e.get("direction") == "IN"]
-    if len(ordered) > 1:
-        yield Mutation("turned round", requirement, lambda e: e.append(e.find(ordered[0].tag)))
+    if len(_ordered(element)) > 1:
+        yield Mutation("turned round", requirement, turn_round)
     if element.getparent() is not None and element.tag == "Method":
         yield Mutation("twice", requirement, twice)
+
+
+def _ordered(element: etree._Element) -> list[etree._Element]:
+    return [e for e in element if e.tag in ("StructureField", "Enumerator") or e.get("direction") == "IN"]
+
+
+def add(element: etree._Element, tag: str) -> None:
+    element.append(etree.Element(tag, name="more"))
+
+
+def turn_round(element: etree._Element) -> None:
+    element.append(_ordered(element)[0])
 
 
 def drop(element: etree._Element) -> None:
@@ -127,7 +143,46 @@ def spoilt(folder: Path, file: str, place: str, change: Callable[[etree._Element
     for path in CORE.glob("*.xml"):
         tree = etree.parse(path)
         if path.name == file:
-            (element,) = tree.xpath(place)
-            change(element)
+            change(_at(tree, place))
         tree.write(folder / path.name)
     return folder
+
+
+@functools.cache
+def declarations() -> Mapping[str, Declaration]:
+    """The declarations of clause 10.1, by the requirements that speak of them."""
+    return {declaration.requirement: declaration for declaration in core_catalogue().declarations}
+
+
+def element_of(declaration: Declaration) -> etree._Element:
+    """Where it stands in our own models."""
+    return _at(_tree_of(declaration.file), declaration.place)
+
+
+def repeating(requirement: str) -> set[str]:
+    """The statements that say again what ``requirement`` says."""
+    return {statement.requirement for statement in core_catalogue().statements if requirement in statement.of}
+
+
+@functools.cache
+def spoilt_results(requirement: str) -> Sequence[tuple[Mutation, Mapping[str, ModelResult]]]:
+    """Every way to spoil the declaration of ``requirement``, and what comes of it."""
+    declaration = declarations()[requirement]
+    outcomes = []
+    with TemporaryDirectory() as folder:
+        for mutation in mutations(element_of(declaration), requirement):
+            path = spoilt(Path(folder), declaration.file, declaration.place, mutation.change)
+            outcomes.append((mutation, {r.requirement: r for r in compare([path]).results}))
+    return outcomes
+
+
+def _at(tree: etree._ElementTree, place: str) -> etree._Element:
+    found: Any = tree.xpath(place)
+    (element,) = found
+    assert isinstance(element, etree._Element)
+    return element
+
+
+@functools.cache
+def _tree_of(file: str) -> etree._ElementTree:
+    return etree.parse(CORE / file)
