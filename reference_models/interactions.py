@@ -214,6 +214,11 @@ class Interactions:
                 operation.end = end
                 return
 
+    @property
+    def is_joining(self) -> bool:
+        """Is somebody just being made an end of a connector, or does somebody stop being one?"""
+        return any(o.end is None and isinstance(o.step, s.Attach | s.Detach) for o in self.operations)
+
     def has_left(self, delivery: Delivery) -> bool:
         """Had who was entered been detached from the link, or removed, before this was called, or anything like it?"""
         member, link, arguments = delivery.receiver, delivery.link, delivery.enter.arguments

@@ -204,6 +204,8 @@ def whole_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: E
     if window is None:
         if member is None or member.suspended or member.gone:
             return
+        if event.hook in CONNECTABLE_HOOKS and runtime.interactions is not None and runtime.interactions.is_joining:
+            return  # whoever is joined by a connector is connected, too
         member.suspended = True
         ledger.violated(
             requirement,
