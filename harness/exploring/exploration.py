@@ -7,20 +7,24 @@ order not seen before is changed and becomes a candidate again.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import count
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.exploring.changing import changed
+from ucm_cts.harness.exploring.core_writer import CoreWriter
 from ucm_cts.harness.exploring.memory import Memory, Remembered
 from ucm_cts.harness.exploring.novelty import Events, Guide
 from ucm_cts.harness.exploring.writer import Writer
 from ucm_cts.harness.results import Report
 from ucm_cts.harness.running.campaign import Campaign, Checked
 from ucm_cts.harness.running.driver import Answer, Driver
+from ucm_cts.harness.scenarios.purposes import PARTS
 from ucm_cts.harness.scenarios.scripts import TestPurpose
+from ucm_cts.harness.stating.applicability import fitting
 from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.harness.tally import Cause, cause_of
 from ucm_cts.reference_models.ledger import Ledger
@@ -128,19 +132,27 @@ class Exploration:
     def _purposes(self) -> Iterator[TestPurpose]:
         for number in count(1):
             known = [scenario for found, scenario in self._new if found <= number - LAG]
-            yield _purpose(f"explored {number}", self._guide.choose([self._draw(known) for _ in range(CANDIDATES)]))
+            of_core = "core" in PARTS[self._profile] and number % 2 == 0
+            draw = self._draw_core if of_core else partial(self._draw, known)
+            yield _purpose(f"explored {number}", self._guide.choose([draw() for _ in range(CANDIDATES)]))
 
-    def _draw(self, known: list[Scenario]) -> Scenario:
+    def _draw(self, known: Sequence[Scenario]) -> Scenario:
         choose = self._random.choice
         if known and self._random.random() < CHANGED:
-            scenario = changed(choose(known), choose)
-        else:
-            scenario = Writer(choose).scenario()
-        return scenario
+            return changed(choose(known), choose)
+        return Writer(choose).scenario()
+
+    def _draw_core(self) -> Scenario:
+        """One that asks for nothing that the vendor does not claim."""
+        for _ in range(TRIES):
+            drawn = fitting([("", CoreWriter(self._random.choice).scenario())], self._statement)
+            if drawn:
+                return drawn[0][1]
+        return self._draw(())
 
     def _watch(self, answer: Answer, ledger: Ledger) -> None:
         self._rows |= ledger.rows.keys()
-        if self._events.are_new(answer.disguised, answer.trace):
+        if self._events.are_new(answer.disguised, answer.trace) and not answer.scenario.interfaces:
             self._new.append((self._run, answer.scenario))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 
 import msgspec
@@ -104,7 +104,7 @@ def _drawn(draw: Draw, statement: Statement, seed: int, readings: Mapping[str, s
     return fitting(draw(seed, readings), statement)
 
 
-def fitting(cases: Cases, statement: Statement) -> Cases:
+def fitting(cases: Iterable[tuple[str, Scenario]], statement: Statement) -> Cases:
     """Those of ``cases`` that ask for nothing that is not claimed, with the patience that is declared."""
     return tuple(
         (name, _fitted(scenario, statement))
