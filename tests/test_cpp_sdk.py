@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import copy
-import json
 import platform
 import re
 import signal
 import socket
 import subprocess
 import time
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-import msgspec
 import pytest
 from cpp_builds import LIFE, PAIR, Builds, Host, concurrent_scenarios, events, talk
+from wrong_messages import check_refusals, mutated_lines
 
-from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
@@ -39,104 +34,11 @@ def test_welcome_and_trace(builds: Builds) -> None:
     assert ~7 in results
 
 
-def mutations(value: Any) -> Iterator[Any]:
-    """``value`` with one thing changed, in every place."""
-    wrong: list[Any] = [None, True, 3, 1.5, "other", [], {}, [None]]
-    yield from (w for w in wrong if type(w) is not type(value))
-    if isinstance(value, dict):
-        yield {**value, "surprise": 1}
-        for name, member in value.items():
-            yield {k: v for k, v in value.items() if k != name}
-            yield {("other" if k == name else k): v for k, v in value.items()}
-            yield from ({**value, name: changed} for changed in mutations(member))
-    if isinstance(value, list):
-        for n, element in enumerate(value):
-            yield from ([*value[:n], changed, *value[n + 1 :]] for changed in mutations(element))
-
-
 def test_host_and_harness_agree_on_what_is_a_message(builds: Builds) -> None:
-    plan: dict[s.Hook, tuple[s.Action, ...]] = {
-        "exchange": (s.ReturnValue(1), s.CallPort("r_e", 2), s.HoldAtGate("g"), s.QuerySiblings(), s.RaiseError()),
-        "run": (s.RaiseError(),),
-        "method": (
-            s.CallMethod("r_e", "m", ([1, ["x"]], True)),
-            s.Answer("m", (1,), "wrong", overwrite=True),
-            s.Burst("r_e", 1, 2),
-            s.CountMessages(),
-        ),
-    }
-    policies = (s.Policy(s.ACTIVE, "p_e", {"period": "2"}), s.Policy(s.CLOCK, element="c.clock_api"))
-    declared = s.Declaration(("p_e",), ("r_e",), {"a": "b"}, True, True, plan, policies, {"p_e": "i"})
-    steps = (
-        s.AddComponent("A", bind="x"),
-        s.RemoveComponent("nobody"),
-        s.GetPortElement("nobody", "p_e", "ref"),
-        s.Connect("nobody", "r_e", "nil", "k"),
-        s.Disconnect("nobody"),
-        s.Start(container="nowhere"),
-        s.CreateContainer("sub"),
-        s.RemoveContainer("sub"),
-        s.Invoke("nil", 5),
-        s.OpenGate("g"),
-        s.Settle("w", thread="u"),
-        s.Join("w", thread="v"),
-        s.Link("simple_service_connector", "i", "l"),
-        s.Attach("l", "client", "nobody", "r_e", container="nowhere"),
-        s.Detach("l", "nobody", "r_e", container="nowhere"),
-        s.Break("l", "inside"),
-        s.Mend("l"),
-        s.ReadLog(),
-        s.Pause(0),
-        s.AwaitMessages("A", 0, 2),
-        s.Stress(("nobody",), 1),
-        s.Destroy(),
-    )
-    every_type = d.Structure(
-        "s",
-        {
-            "e": d.Enumeration("colour", "BYTE", {"red": 1}),
-            "u": d.Union(
-                "u",
-                d.Enumeration("colour", "LONG", {"red": 1}),
-                (d.UnionCase("c", d.Boolean(), ("red",)), d.UnionCase("o", d.Char("CHAR8"), default=True)),
-            ),
-            "a": d.Array(d.Alias("name", d.String("CHAR32", 4)), (2, 3)),
-            "q": d.Sequence(d.Float("FLOAT"), 4),
-            "n": d.Integer("ULONG"),
-        },
-    )
-    method = d.Method((d.Parameter("p", "INOUT", every_type),), (d.Structure("wrong", {}),))
-    interfaces = {"i": d.Interface({"m": method}, ("j",))}
-    asked = s.Scenario({"A": declared}, steps, 50, interfaces, ("w",))
-    message = json.loads(m.encode(m.Run(1, asked, stream=False)))
-    message["scenario"]["patience"] = 50
-    reach = json.loads(m.encode(m.Run(1, s.Scenario({}, (s.ReachGate("g", 1, 2),), patience=0))))
-    changed = (*mutations(copy.deepcopy(message)), *(r for r in mutations(reach) if "patience" in str(r)))
-    lines = [json.dumps(one).encode() for one in changed]
-    lines += [
-        b"x",
-        b"{}",
-        b"[]",
-        b'{"type":"hello","protocol":1}x',
-        b'{"type":"hello","protocol":"1"}',
-        b'{"type":"run"',
-    ]
-    lines += [b'\xff{"type":"hello","protocol":1}', b'{"type":"hello","protocol":2}', b"[" * 100_000]
-    lines = [line for line in lines if b'"stream": true' not in line]
-    assert len(lines) > 500
+    lines = mutated_lines()
     answers, _, status = talk(builds.program("patchbay"), b"".join(line + b"\n" for line in lines), m.Hello(m.PROTOCOL))
     assert status == 0
-    assert len(answers) == len(lines) + 1
-    decoder = m.to_host_decoder()
-    for line, answer in zip(lines, answers, strict=False):
-        try:
-            meant = decoder.decode(line)
-        except (msgspec.MsgspecError, RecursionError):
-            assert isinstance(answer, m.Refused), line
-        else:
-            wrong_version = isinstance(meant, m.Hello) and meant.protocol != m.PROTOCOL
-            nowhere = isinstance(answer, m.Refused) and "there is no interface" in answer.reason
-            assert isinstance(answer, m.Refused) == wrong_version or nowhere, (line, answer)
+    check_refusals(lines, answers[:-1])
     assert isinstance(answers[-1], m.Welcome)
 
 

@@ -1,7 +1,7 @@
 package org.ucmcts;
 
 import java.util.ArrayList;
-import java.util.HashMap;
+import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Objects;
@@ -178,7 +178,7 @@ final class Operations<C> {
     private Operation addComponent(Node step) throws Unbound {
         C container = container(step);
         String component = step.text("component");
-        Map<String, String> attributes = new HashMap<>();
+        Map<String, String> attributes = new LinkedHashMap<>();
         if (scenario.node("components").get(component) instanceof Node declaration) {
             declaration.node("attributes").fields().forEach((name, value) -> attributes.put(name, (String) value));
         }

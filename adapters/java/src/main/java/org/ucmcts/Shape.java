@@ -32,13 +32,10 @@ interface Shape {
     Shape INT64 = integer(Long.MIN_VALUE, Long.MAX_VALUE);
     Shape ANY_INTEGER = (value, place) -> isInteger(value) ? value : wrong(value, "int", place);
 
-    /** A value of a UCM type as it travels. */
+    /** A value of a UCM type as it travels; what is in a list is not looked at. */
     Shape DATUM = (value, place) -> {
-        if (value instanceof List) {
-            return list(Shape.DATUM).read(value, place);
-        }
         boolean plain = value instanceof String || value instanceof Boolean || isInteger(value);
-        return plain ? value : wrong(value, "bool | int | str | array", place);
+        return plain || value instanceof List ? value : wrong(value, "bool | int | str | array", place);
     };
 
     private static Shape integer(long least, long greatest) {
