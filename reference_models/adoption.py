@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
@@ -16,8 +16,11 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
     if window.lost:
         _lose_track(window)
     if window.callbacks:
-        for member in runtime.everyone:
-            if window.operation in ("remove_component", "remove_container") and _in_doubt(window, member):
+        for component, instance in window.by_body:
+            member = runtime.bodies.get((component, instance or 0))
+            if member is None:
+                continue
+            if window.operation in ("remove_component", "remove_container") and _in_doubt(member):
                 member.suspended = True
             if member.suspended:
                 _follow(window, member)
@@ -25,7 +28,8 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
 
 def received(window: Window, member: Member, hook: s.Hook) -> list[Enter]:
     """The ``hook`` callbacks that ``member``'s body received during the window."""
-    return [c for c in window.by_body.get((member.component, member.instance), ()) if c.hook == hook]
+    heard = window.by_body.get((member.component, member.instance)) if window.callbacks else None
+    return [c for c in heard if c.hook == hook] if heard is not None else []
 
 
 def _added(runtime: Runtime, window: Window, step: s.AddComponent, end: Return | Raise) -> None:
@@ -51,17 +55,15 @@ def _added(runtime: Runtime, window: Window, step: s.AddComponent, end: Return |
     )
     twins = [m for m in window.container.live_members() if m.id == value]
     for twin in twins:
-        twin.gone = twin.leaving  # its id is free, so the removal that failed did remove it
-        for connection in twin.connections if twin.gone else ():
-            connection.live = False
+        if twin.leaving:  # its id is free, so the removal that failed did remove it
+            twin.leave()
+            for connection in twin.connections:
+                connection.live = False
     twins = [m for m in twins if not m.gone]
     for unsure in (member, *twins) if twins or declaration is None else ():
-        unsure.suspended = unsure.doubtful = True
-    window.container.members.append(member)
-    runtime.members[member.name] = member
-    runtime.everyone.append(member)
-    if member.instance is not None:
-        runtime.bodies[(member.component, member.instance)] = member
+        unsure.suspended = True
+        unsure.doubt()
+    runtime.enrol(member)
     if received(window, member, "on_startup"):
         member.operational = True
         member.startups = 1
@@ -116,6 +118,7 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
     if connection.stale:
         member.suspended = True
     member.connections.append(connection)
+    member.forget_repetitions()
     member.once_connected.add(step.port)
     runtime.connections[step.bind] = connection
     if received(window, member, "on_startup"):
@@ -191,23 +194,25 @@ def _destroyed(runtime: Runtime, window: Window, step: s.Destroy, end: Return | 
     runtime.destroyed = True
     for container in runtime.containers.values():
         for member in container.members:
-            member.gone = member.gone or isinstance(end, Return)
             member.operational = False
+            if isinstance(end, Return):
+                member.leave()
 
 
-def _perhaps_removed(runtime: Runtime, members: list[Member]) -> None:
+def _perhaps_removed(runtime: Runtime, members: Sequence[Member]) -> None:
     """The removal failed, but part of it happened: nobody knows what is left."""
     for client, used in runtime.clients_of(members):
         client.suspended = True
         for connection in used:
             connection.live = None
     for member in members:
-        member.suspended = member.doubtful = member.leaving = True
+        member.suspended = member.leaving = True
+        member.doubt()
         for connection in member.live_connections():
             connection.live = None
 
 
-def _removed(runtime: Runtime, window: Window, removed: list[Member]) -> None:
+def _removed(runtime: Runtime, window: Window, removed: Sequence[Member]) -> None:
     for client, used in runtime.clients_of(removed):
         told = len(received(window, client, "on_disconnect"))
         for connection in used:
@@ -217,11 +222,11 @@ def _removed(runtime: Runtime, window: Window, removed: list[Member]) -> None:
         if told < len(used) or not client.operational:
             client.suspended = client.suspended or told < len(used)
     for member in removed:
-        member.gone = True
         member.operational = False
         _forget_start(member)
         for connection in member.connections:
             connection.live = False
+        runtime.let_go(member)
 
 
 def _started(runtime: Runtime, window: Window, step: s.Start, end: Return | Raise) -> None:
@@ -293,10 +298,10 @@ def _resolve(member: Member, startup: Enter) -> None:
     for dependency in startup.dependencies or ():
         given.setdefault(dependency.port, []).extend(r for r in dependency.references if r is not None)
     for connection in member.connections:
-        of_port = [c for c in member.connections if c.port == connection.port and c.live is not False]
-        references = given.get(connection.port, [])
         if connection.live is not None:
             continue
+        of_port = [c for c in member.connections if c.port == connection.port and c.live is not False]
+        references = given.get(connection.port, [])
         if len(references) == len(of_port):
             connection.live = True
         elif not references:
@@ -315,10 +320,9 @@ def _reached_unseen(runtime: Runtime, container: Container) -> None:
                 other.started = None
 
 
-def _in_doubt(window: Window, member: Member) -> bool:
-    """Was it told something, and may it be of a connection of which nobody knows whether it stood?"""
-    heard = (member.component, member.instance) in window.by_body
-    return heard and not member.gone and any(c.live is None for c in member.connections)
+def _in_doubt(member: Member) -> bool:
+    """May what it was told be of a connection of which nobody knows whether it stood?"""
+    return not member.gone and any(c.live is None for c in member.connections)
 
 
 def _follow(window: Window, member: Member) -> None:

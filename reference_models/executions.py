@@ -14,7 +14,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Enter, Exit, Held, Opened, Request, Settled
 from ucm_cts.reference_models.claims import Claims
-from ucm_cts.reference_models.runtime import Connection, Member, Runtime
+from ucm_cts.reference_models.runtime import Behind, Connection, Member, Runtime
 
 Protection = Literal["", "self-executing", "active", "passive", "unprotected"]
 
@@ -42,7 +42,6 @@ CALL_EXCLUSIONS = tuple(requirement for requirement in EXCLUSIONS if requirement
 _PROMISES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
 
 
-@dataclass(slots=True, eq=False)
 class BusinessCall:
     """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
 
@@ -51,17 +50,34 @@ class BusinessCall:
     called; ``possible`` says that all who could be called were operational when the call was made.
     """
 
-    value: int
-    n: int
-    request: Request | None = None
-    step: s.Invoke | None = None
-    caller_hook: str = ""
-    entries: list[tuple[Enter, Exit | None]] = field(default_factory=list)
-    callee: Member | None = None
-    port: str | None = None
-    possible: bool = False
-    caller: Execution | None = None
-    waited: bool = False
+    __slots__ = (
+        "callee",
+        "caller",
+        "caller_hook",
+        "entries",
+        "n",
+        "port",
+        "possible",
+        "request",
+        "step",
+        "value",
+        "waited",
+    )
+
+    def __init__(
+        self, value: int, n: int, request: Request | None = None, step: s.Invoke | None = None, caller_hook: str = ""
+    ) -> None:
+        self.value = value
+        self.n = n
+        self.request = request
+        self.step = step
+        self.caller_hook = caller_hook
+        self.entries: list[tuple[Enter, Exit | None]] = []
+        self.callee: Member | None = None
+        self.port: str | None = None
+        self.possible = False
+        self.caller: Execution | None = None
+        self.waited = False
 
     @property
     def worker(self) -> str | None:
@@ -78,7 +94,11 @@ class BusinessCall:
             self.port = runtime.ports.get(self.step.ref)
             self.possible = self.callee is not None and self.callee.serving
         else:
-            self.possible = all(p.serving for p in providers_of(runtime, self))
+            self.possible = True
+            for provider in providers_of(runtime, self):
+                if provider.closing or provider.suspended or not provider.operational:
+                    self.possible = False
+                    break
 
     def callers(self) -> Iterator[Execution]:
         """The executions that wait for this call, the innermost first."""
@@ -89,6 +109,12 @@ class BusinessCall:
 
     def close(self, end: Exit) -> None:
         """The innermost entry of that body came to its end."""
+        if not self.entries:
+            return
+        enter, exit_ = self.entries[-1]
+        if exit_ is None and enter.component == end.component and enter.instance == end.instance:
+            self.entries[-1] = (enter, end)
+            return
         for index in range(len(self.entries) - 1, -1, -1):
             enter, exit_ = self.entries[index]
             if exit_ is None and (enter.component, enter.instance) == (end.component, end.instance):
@@ -223,7 +249,9 @@ class Executions:
 
 def protection_of(declaration: Declaration | None) -> Protection:
     """How its execution policy protects a component; empty without a policy of 10.1.3."""
-    known = (_PROTECTIONS.get(p.definition) for p in (declaration.policies if declaration is not None else ()))
+    if declaration is None or not declaration.policies:
+        return ""
+    known = (_PROTECTIONS.get(p.definition) for p in declaration.policies)
     return next((protection for protection in known if protection is not None), "")
 
 
@@ -251,12 +279,16 @@ def exclusion(declaration: Declaration, claims: Claims, one: str, other: str) ->
 
 def is_contradictory(declaration: Declaration) -> bool:
     """Has the component more than the one execution policy that it may have (10.1.3)?"""
+    if not declaration.policies:
+        return False
     applied = [p for p in declaration.policies if p.definition in _PROTECTIONS]
     return len({p.definition for p in applied}) > 1 or sum(p.port is None for p in applied) > 1
 
 
 def calls_promised(declaration: Declaration, port: str) -> tuple[str, ...]:
     """The requirements by which an execution policy promises that calls of ``port`` are carried out."""
+    if not declaration.policies:
+        return ()
     protection = protection_of(declaration)
     managed = managed_ports(declaration)
     if protection == "active" and port in managed:
@@ -275,17 +307,35 @@ def goals_of(runtime: Runtime, call: BusinessCall) -> list[tuple[Member, str]]:
     return [(c.provider, c.provided) for c in behind if c.provider is not None]
 
 
-def providers_of(runtime: Runtime, call: BusinessCall) -> list[Member]:
+def providers_of(runtime: Runtime, call: BusinessCall) -> tuple[Member, ...]:
     """The instances that the port element a body called through is connected to; empty if that is not known."""
     request = call.request
-    if request is None:
-        return []
-    caller = runtime.member_of(request.component, request.instance)
+    return behind(runtime, request.component, request.instance, request.port).providers if request is not None else ()
+
+
+_NOTHING_KNOWN = Behind((), True, frozenset())
+
+
+def behind(runtime: Runtime, component: str, instance: int, port: str) -> Behind:
+    """What is behind required port element ``port`` of a body."""
+    place = component, instance, port
+    known = runtime.behind.get(place)
+    if known is None:
+        known = runtime.behind[place] = _look_behind(runtime, component, instance, port)
+    return known
+
+
+def _look_behind(runtime: Runtime, component: str, instance: int, port: str) -> Behind:
+    caller = runtime.member_of(component, instance)
     if caller is None or caller.suspended or caller.handed_over is None:
-        return []
-    connections = connections_behind(caller, request.port)
-    providers = [c.provider for c in connections if c.provider is not None]
-    return providers if len(providers) == len(connections) else []
+        return _NOTHING_KNOWN
+    connections = connections_behind(caller, port)
+    providers = [(c.provider, c.provided) for c in connections if c.provider is not None]
+    if len(providers) < len(connections):
+        return _NOTHING_KNOWN
+    targets = frozenset([(p.component, p.instance, provided) for p, provided in providers])
+    fragments = all(provider.declaration.fragment for provider, _ in providers)
+    return Behind(tuple([provider for provider, _ in providers]), fragments, targets)
 
 
 def connections_behind(caller: Member, port: str) -> list[Connection]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
@@ -11,6 +11,7 @@ from ucm_cts.adapters.contract.trace import (
     Counted,
     Create,
     Enter,
+    Event,
     Exit,
     Held,
     Opened,
@@ -25,7 +26,6 @@ from ucm_cts.adapters.contract.trace import (
     Skip,
     Stressed,
     Timeout,
-    Trace,
 )
 from ucm_cts.reference_models import (
     rules_bursts,
@@ -49,8 +49,9 @@ from ucm_cts.reference_models.adoption import adopt
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.duties import Duties
 from ucm_cts.reference_models.executions import BusinessCall, Executions
+from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.interactions import Interactions
-from ucm_cts.reference_models.ledger import Ledger, checks
+from ucm_cts.reference_models.ledger import Ledger, Where, checks
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
 from ucm_cts.reference_models.situations import Situations
@@ -76,6 +77,36 @@ RULE_MODULES = (
 """Importing these registers all rules; rules of one moment look in this order."""
 
 
+Check = Callable[..., None]
+
+_BUSINESS = frozenset(("exchange", "run", "method"))
+"""Where bodies are entered that is no callback."""
+
+_CONTAINER_CALLS = frozenset(get_args(s.ContainerCall))
+_CONNECTOR_CALLS = frozenset(get_args(s.ConnectorCall))
+
+
+class Watch:
+    """The checks that have something to look at in scenarios where so much is ``followed``, by moment."""
+
+    def __init__(self, followed: frozenset[Where]) -> None:
+        self.ended = {op: checks("ended", op, followed) for op in rules_operations.DECLARED}
+        self.entered = {hook: checks("entered", hook, followed) for hook in get_args(s.Hook)}
+        self.called = checks("called", "exchange", followed)
+        self.answered = checks("answered", "exchange", followed)
+        self.replied = checks("replied", "exchange", followed)
+        self.noted = checks("noted", "siblings", followed)
+        self.began = checks("began")
+        self.over = checks("over")
+        self.served = checks("served")
+        self.waited = checks("waited")
+        self.linked = checks("linked")
+        self.delivered = checks("delivered")
+        self.completed = checks("completed")
+        self.told = checks("told")
+        self.closed = checks("closed")
+
+
 class Judge:
     """Judges traces against one life-cycle table and what the vendor claims. Holds no state between traces."""
 
@@ -83,110 +114,157 @@ class Judge:
         self.claims = claims or Claims()
         self.situations = Situations(table)
         self.duties = Duties(table)
-        self.ended = {op: checks("ended", op) for op in rules_operations.DECLARED}
-        self.entered = {hook: checks("entered", hook) for hook in get_args(s.Hook)}
-        self.called = checks("called", "exchange")
-        self.answered = checks("answered", "exchange")
-        self.replied = checks("replied", "exchange")
-        self.noted = checks("noted", "siblings")
-        self.began = checks("began", "")
-        self.over = checks("over", "")
-        self.served = checks("served", "")
-        self.waited = checks("waited", "")
-        self.linked = checks("linked", "")
-        self.delivered = checks("delivered", "")
-        self.completed = checks("completed", "")
-        self.told = checks("told", "")
-        self.closed = checks("closed", "")
+        self._watches: dict[frozenset[Where], Watch] = {}
 
-    def judge(self, scenario: s.Scenario, trace: Trace) -> Ledger:
-        """Everything the rules say about ``trace``, which may break off anywhere.
+    def judge(self, scenario: s.Scenario, trace: Iterable[Event]) -> Ledger:
+        """Everything the rules say about ``trace``, which may break off anywhere, and is read once, event by event.
 
         Where two operations overlap, because one of them took too long, reading ends: who did what cannot be told.
         """
-        reading = _Reading(self, scenario)
+        followed = _followed(scenario)
+        watch = self._watches.get(followed)
+        if watch is None:
+            watch = self._watches[followed] = Watch(followed)
+        reading = _Reading(self, watch, scenario, followed)
+        interactions = reading.interactions
         for event in trace:
-            if reading.window is not None and isinstance(event, Call) and reading.overlaps(event):
+            kind = type(event)
+            if _TAKE[kind](reading, event):
                 break
-            take = _TAKE.get(type(event))
-            if take is not None:
-                take(reading, event)
-            if reading.interactions is not None and not isinstance(event, Timeout | Settled):
-                reading.interactions.latest = event.t
+            if interactions is not None and kind is not Timeout and kind is not Settled:
+                interactions.latest = event.t
         reading.close()
         return reading.ledger
 
 
-class _Reading:
-    """One trace being read: the model, the operation in progress, and who is inside whom on each thread."""
+_NOTHING: frozenset[Where] = frozenset()
 
-    def __init__(self, judge: Judge, scenario: s.Scenario) -> None:
+
+def _followed(scenario: s.Scenario) -> frozenset[Where]:
+    """What is to be followed in a scenario."""
+    for declaration in scenario.components.values():
+        if declaration.policies:
+            return _WITH_POLICIES
+    return _WITH_INTERFACES if scenario.interfaces else _NOTHING
+
+
+_WITH_POLICIES: frozenset[Where] = frozenset(("policies", "interactions"))
+_WITH_INTERFACES: frozenset[Where] = frozenset(("interactions",))
+
+
+class _Thread:
+    """What one thread is doing: calls that have not come back, hooks that have not been left, whom it serves and where."""
+
+    __slots__ = ("calls", "hooks", "inside", "served")
+
+    def __init__(self, inside: list[tuple[str, int]]) -> None:
+        self.calls: list[BusinessCall] | None = None
+        self.hooks: list[s.Hook] = []
+        self.served: list[BusinessCall | None] = []
+        self.inside = inside
+
+
+class _Reading:
+    """One trace being read: the model, the operation in progress, and who is inside whom on each thread.
+
+    What takes an event in returns True where reading is to end, and else nothing.
+    """
+
+    __slots__ = (
+        "calls",
+        "connecting",
+        "executions",
+        "heard",
+        "interactions",
+        "judge",
+        "ledger",
+        "runtime",
+        "steps",
+        "threads",
+        "watch",
+        "window",
+    )
+
+    def __init__(self, judge: Judge, watch: Watch, scenario: s.Scenario, followed: frozenset[Where]) -> None:
         self.judge = judge
+        self.watch = watch
         self.ledger = Ledger(scenario, judge.duties, claims=judge.claims)
+        self.steps = scenario.steps
         self.runtime = Runtime(scenario)
         self.window: Window | None = None
-        self.heard: dict[tuple[str, int], list[s.Hook]] = {}
-        self.calls: dict[int, list[BusinessCall]] = {}
-        self.hooks: dict[int, list[s.Hook]] = {}
-        self.served: dict[int, list[BusinessCall | None]] = {}
-        policies = any(declaration.policies for declaration in scenario.components.values())
-        self.executions = Executions(self.runtime) if policies or scenario.interfaces else None
-        self.interactions = Interactions(self.runtime) if policies or scenario.interfaces else None
+        self.heard: dict[tuple[str, int], Heard] = {}
+        self.calls: list[list[BusinessCall]] = []
+        self.threads: dict[int, _Thread] = {}
+        self.executions = Executions(self.runtime) if followed else None
+        self.interactions = Interactions(self.runtime) if followed else None
         self.runtime.interactions = self.interactions
         self.runtime.executions = self.executions
         self.connecting: dict[int, Call] = {}
 
     def close(self) -> None:
         """The trace is over."""
-        for check in self.judge.closed if self.interactions is not None else ():
+        for check in self.watch.closed if self.interactions is not None else ():
             check(self.ledger, self.runtime)
         self.ledger.close()
 
-    def overlaps(self, event: Call) -> bool:
-        """Does another operation begin with ``event``, while one is in progress?"""
-        return isinstance(self.ledger.scenario.steps[event.step], s.ContainerCall)
+    def thread(self, number: int) -> _Thread:
+        """The thread of that number."""
+        known = self.threads.get(number)
+        if known is None:
+            inside = self.runtime.inside[number] = []
+            known = self.threads[number] = _Thread(inside)
+        return known
 
-    def call(self, event: Call) -> None:
-        step = self.ledger.scenario.steps[event.step]
+    def call(self, event: Call) -> bool | None:
+        step = self.steps[event.step]
+        kind = type(step)
+        is_operation = kind in _CONTAINER_CALLS
+        if is_operation and self.window is not None:
+            return True
         if self.interactions is not None:
             self.interactions.operate(step, event)
-        if isinstance(step, s.Invoke):
-            self.begin(event.thread, BusinessCall(step.value, event.n, step=step))
-        elif isinstance(step, s.ContainerCall):
-            self.window = self.judge.situations.open(self.runtime, event.step, step)
-            self.window.call = event.n
+        if is_operation:
+            self.window = self.judge.situations.open(self.runtime, event.step, step, event.n)  # type: ignore[arg-type]
+        elif isinstance(step, s.Invoke):
+            thread = self.threads.get(event.thread) or self.thread(event.thread)
+            self.begin(thread, BusinessCall(step.value, event.n, None, step))
         else:
             self.connecting[event.step] = event
+        return None
 
     def end(self, event: Return | Raise) -> None:
         window, ledger, runtime = self.window, self.ledger, self.runtime
         if self.interactions is not None:
             self.interactions.operated(event)
         if window is not None and window.step_number == event.step:
-            for check in self.judge.ended[window.operation]:
+            for check in self.watch.ended[window.operation]:
                 check(ledger, runtime, window, event)
             adopt(runtime, window, event)
             runtime.starting.clear()
+            runtime.changed()
             self.window = None
             return
-        step = ledger.scenario.steps[event.step]
-        begin = self.connecting.pop(event.step, None)
+        step = self.steps[event.step]
+        begin = self.connecting.pop(event.step, None) if self.connecting else None
         if begin is not None:
             self.end_connecting(step, begin, event)
             return
-        calls = self.calls.get(event.thread)
-        if calls and isinstance(step, s.Invoke):
+        thread = self.threads.get(event.thread)
+        calls = thread.calls if thread is not None else None
+        if calls and type(step) is s.Invoke:
             call = calls.pop()
-            for check in self.judge.answered:
+            for check in self.watch.answered:
                 check(ledger, runtime, call, event)
-            self.come_back(call, event.n)
+            if self.executions is not None:
+                self.come_back(call, event.n)
 
     def end_connecting(self, step: s.Step, begin: Call, event: Return | Raise) -> None:
         if self.interactions is None:
             return
-        if isinstance(step, s.ConnectorCall):
-            link = self.interactions.linked(step, begin, event)
-            for check in self.judge.linked:
+        if type(step) in _CONNECTOR_CALLS:
+            link = self.interactions.linked(step, begin, event)  # type: ignore[arg-type]
+            self.runtime.changed()
+            for check in self.watch.linked:
                 check(self.ledger, self.runtime, link, step, event)
         elif isinstance(event, Return):
             self.tell(event)
@@ -198,7 +276,7 @@ class _Reading:
     def tell(self, event: Return | Pushed | Counted | Paused | Stressed) -> None:
         if isinstance(event, Pushed) and self.interactions is not None:
             self.interactions.push(event)
-        for check in self.judge.told if self.interactions is not None else ():
+        for check in self.watch.told if self.interactions is not None else ():
             check(self.ledger, self.runtime, event)
 
     def paused(self, event: Paused) -> None:
@@ -211,23 +289,26 @@ class _Reading:
             self.window.created.append((event.component, event.instance))
 
     def enter(self, event: Enter) -> None:
-        self.hooks.setdefault(event.thread, []).append(event.hook)
-        if event.hook in ("exchange", "run", "method"):
-            self.enter_business(event)
+        thread = self.threads.get(event.thread) or self.thread(event.thread)
+        hook = event.hook
+        thread.hooks.append(hook)
+        if hook in _BUSINESS:
+            self.enter_business(thread, event)
             return
-        body = (event.component, event.instance)
+        body = event.component, event.instance
         heard = self.heard.get(body)
         if heard is None:
-            heard = self.heard[body] = []
+            heard = self.heard[body] = Heard()
         window, ledger, runtime = self.window, self.ledger, self.runtime
-        for check in self.judge.entered[event.hook]:
+        for check in self.watch.entered[hook]:
             check(ledger, runtime, window, event, heard)
-        heard.append(event.hook)
-        if event.hook == "on_startup":
+        heard.hear(hook)
+        if hook == "on_startup":
             runtime.startups[body] = event.n, event.thread
-        member = runtime.member_of(event.component, event.instance)
+        member = runtime.bodies.get(body)
         if member is not None:
-            self.changes(member, event.hook)
+            self.changes(member, hook)
+        runtime.changed()
         if window is not None:
             window.hear(event)
 
@@ -236,98 +317,112 @@ class _Reading:
         if hook == "on_startup":
             member.closing = False
             known = self.window is None or self.window.operation != "connect"
-            member.handed_over = tuple(c for c in member.connections if c.live is not False) if known else None
+            member.handed_over = tuple([c for c in member.connections if c.live is not False]) if known else None
         elif hook == "on_shutdown":
             member.closing = True
 
-    def enter_business(self, event: Enter) -> None:
+    def enter_business(self, thread: _Thread, event: Enter) -> None:
         delivery = None
-        if event.hook == "method" and self.interactions is not None:
+        hook = event.hook
+        call: BusinessCall | None
+        if hook == "method" and self.interactions is not None:
             delivery = self.interactions.enter(event)
             call = delivery.call.business if delivery.call is not None else None
+        elif hook == "exchange":
+            calls = thread.calls
+            call = calls[-1] if calls else None
+            if call is None or call.value != event.value:
+                call = self.call_behind(event, call)
         else:
-            call = self.call_behind(event) if event.hook == "exchange" else None
-        self.served.setdefault(event.thread, []).append(call)
-        self.runtime.inside.setdefault(event.thread, []).append((event.component, event.instance))
+            call = None
+        thread.served.append(call)
+        body = event.component, event.instance
+        thread.inside.append(body)
+        ledger, runtime = self.ledger, self.runtime
         if self.executions is not None:
             execution, met = self.executions.begin(event, call)
-            for check in self.judge.began:
-                check(self.ledger, self.runtime, execution, met)
-        if event.hook == "run":
-            self.runtime.last_run[event.component, event.instance] = event.n
+            for check in self.watch.began:
+                check(ledger, runtime, execution, met)
+        if hook == "run":
+            runtime.last_run[body] = event.n
             return
         if call is not None:
             call.entries.append((event, None))
         if delivery is not None:
-            for check in self.judge.delivered:
-                check(self.ledger, self.runtime, delivery)
+            for check in self.watch.delivered:
+                check(ledger, runtime, delivery)
         else:
-            for check in self.judge.called:
-                check(self.ledger, self.runtime, self.window, event, call)
-        member = self.runtime.member_of(event.component, event.instance)
+            for check in self.watch.called:
+                check(ledger, runtime, self.window, event, call)
+        member = runtime.bodies.get(body)
         if member is not None and member.operational:
             member.served = True
 
     def exit(self, event: Exit) -> None:
-        hooks = self.hooks.get(event.thread)
-        if hooks:
-            hooks.pop()
-        if event.hook == "on_startup":
+        thread = self.threads.get(event.thread) or self.thread(event.thread)
+        hook = event.hook
+        if thread.hooks:
+            thread.hooks.pop()
+        if hook == "on_startup":
             self.runtime.starting.add((event.component, event.instance))
-        served = self.served.get(event.thread)
-        if event.hook not in ("exchange", "run", "method") or not served:
+        if hook not in _BUSINESS or not thread.served:
             return
-        self.runtime.inside[event.thread].pop()
-        if event.hook == "method" and self.interactions is not None:
+        thread.inside.pop()
+        if hook == "method" and self.interactions is not None:
             self.interactions.exit(event)
-        call = served.pop()
+        call = thread.served.pop()
         if call is not None:
             call.close(event)
-        execution = self.executions.end(event) if self.executions is not None else None
+        if self.executions is None:
+            return
+        execution = self.executions.end(event)
         if execution is not None:
-            for check in self.judge.over:
+            for check in self.watch.over:
                 check(self.ledger, self.runtime, execution, event.n)
 
-    def call_behind(self, event: Enter) -> BusinessCall | None:
-        calls = self.calls.get(event.thread)
-        own = calls[-1] if calls else None
-        if own is not None and own.value == event.value:
-            return own
-        waiting = [c[-1] for c in self.calls.values() if c and c[-1].value == event.value]
+    def call_behind(self, event: Enter, own: BusinessCall | None) -> BusinessCall | None:
+        """The call of another thread that seems to have led to this entry, else this thread's ``own``."""
+        waiting = [calls[-1] for calls in self.calls if calls and calls[-1].value == event.value]
         return waiting[-1] if waiting else own
 
     def request(self, event: Request) -> None:
-        inside = self.hooks.get(event.thread)
-        hook = inside[-1] if inside else ""
-        call = BusinessCall(event.value, event.n, event, caller_hook=hook)
+        thread = self.threads.get(event.thread) or self.thread(event.thread)
+        call = BusinessCall(event.value, event.n, event, None, thread.hooks[-1] if thread.hooks else "")
         if self.executions is not None:
             call.caller = self.executions.innermost(event.thread)
-        self.begin(event.thread, call)
+        self.begin(thread, call)
         if event.method is not None and self.interactions is not None:
             self.interactions.request(event, call)
 
-    def begin(self, thread: int, call: BusinessCall) -> None:
+    def begin(self, thread: _Thread, call: BusinessCall) -> None:
         call.look(self.runtime)
-        self.calls.setdefault(thread, []).append(call)
+        if thread.calls is None:
+            thread.calls = []
+            self.calls.append(thread.calls)
+        thread.calls.append(call)
         if self.executions is not None:
             self.executions.made(call)
 
     def reply(self, event: Reply) -> None:
-        calls = self.calls.get(event.thread)
-        if calls:
-            call = calls.pop()
-            is_method = call.request is not None and call.request.method is not None
-            completed = self.interactions.reply(event) if is_method and self.interactions is not None else None
-            if completed is not None:
-                for check in self.judge.completed:
-                    check(self.ledger, self.runtime, completed)
-            for check in self.judge.replied if not is_method else ():
+        thread = self.threads.get(event.thread)
+        calls = thread.calls if thread is not None else None
+        if not calls:
+            return
+        call = calls.pop()
+        if call.request is None or call.request.method is None:
+            for check in self.watch.replied:
                 check(self.ledger, self.runtime, call, event)
+        elif self.interactions is not None:
+            completed = self.interactions.reply(event)
+            if completed is not None:
+                for check in self.watch.completed:
+                    check(self.ledger, self.runtime, completed)
+        if self.executions is not None:
             self.come_back(call, event.n)
 
     def come_back(self, call: BusinessCall, end: int) -> None:
         waited = self.executions.answered(call) if self.executions is not None else None
-        for check in self.judge.served if waited is not None else ():
+        for check in self.watch.served if waited is not None else ():
             check(self.ledger, self.runtime, call, waited, end)
 
     def held(self, event: Held) -> None:
@@ -353,19 +448,19 @@ class _Reading:
             return
         if self.interactions is not None:
             self.interactions.wait(event)
-        for check in self.judge.waited:
+        for check in self.watch.waited:
             check(self.ledger, self.runtime, event)
-        if self.executions is not None and isinstance(self.ledger.scenario.steps[event.step], s.Join):
+        if self.executions is not None and isinstance(self.steps[event.step], s.Join):
             for call, waited in self.executions.lost():
-                for check in self.judge.served:
+                for check in self.watch.served:
                     check(self.ledger, self.runtime, call, waited, 0)
 
     def siblings(self, event: Siblings) -> None:
-        for check in self.judge.noted:
+        for check in self.watch.noted:
             check(self.ledger, self.runtime, self.window, event)
 
 
-_TAKE: dict[type[Any], Callable[[_Reading, Any], None]] = {
+_TAKE: dict[type[Any], Callable[[_Reading, Any], bool | None]] = {
     Call: _Reading.call,
     Return: _Reading.end,
     Raise: _Reading.end,
@@ -385,4 +480,4 @@ _TAKE: dict[type[Any], Callable[[_Reading, Any], None]] = {
     Paused: _Reading.paused,
     Stressed: _Reading.tell,
 }
-"""What to do with each kind of event; the other kinds say nothing to the rules."""
+"""What to do with each kind of event."""

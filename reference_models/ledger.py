@@ -36,12 +36,19 @@ elements have interfaces or policies (interactions.py): a step for connectors en
 body's call of a method came back; something was counted, measured or read back; the trace is over."""
 
 
+Where = Literal["", "policies", "interactions"]
+"""In which scenarios a rule has something to look at: in all; where components have policies; where interactions are
+followed, because port elements have interfaces or components policies.
+"""
+
+
 @dataclass(frozen=True)
 class Rule:
     """A named check and the requirements it stands for; ``check`` takes what the judge offers at ``moment``.
 
     ``at`` names the operations, or for ``entered`` the hooks, that it looks at; empty stands for all. What a ``timed`` rule
-    finds depends on how long something took, so that a machine that stood still may be to blame.
+    finds depends on how long something took, so that a machine that stood still may be to blame. With ``where`` it has
+    nothing to look at in other scenarios than those in which that is followed.
     """
 
     name: str
@@ -50,6 +57,7 @@ class Rule:
     at: tuple[str, ...]
     check: Callable[..., None]
     timed: bool = False
+    where: Where = ""
 
 
 RULES: dict[str, Rule] = {}
@@ -57,20 +65,24 @@ RULES: dict[str, Rule] = {}
 
 
 def rule(
-    moment: Moment, *stands_for: str, at: tuple[str, ...] = (), timed: bool = False
+    moment: Moment, *stands_for: str, at: tuple[str, ...] = (), timed: bool = False, where: Where = ""
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Register the decorated function, under its own name, as a rule that looks at ``moment``."""
 
     def register(check: Callable[..., None]) -> Callable[..., None]:
-        RULES[check.__name__] = Rule(check.__name__, moment, stands_for, at, check, timed)
+        RULES[check.__name__] = Rule(check.__name__, moment, stands_for, at, check, timed, where)
         return check
 
     return register
 
 
-def checks(moment: Moment, at: str) -> list[Callable[..., None]]:
-    """The checks of all rules that look at this operation or hook at ``moment``."""
-    return [r.check for r in RULES.values() if r.moment == moment and (not r.at or at in r.at)]
+def checks(moment: Moment, at: str = "", followed: frozenset[Where] = frozenset()) -> tuple[Callable[..., None], ...]:
+    """The checks of all rules that look at this operation or hook at ``moment``, where so much is ``followed``."""
+    return tuple(
+        r.check
+        for r in RULES.values()
+        if r.moment == moment and (not r.at or at in r.at) and (not r.where or r.where in followed)
+    )
 
 
 @dataclass(slots=True)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import read_spelled, spell
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reference, Return, Siblings
 from ucm_cts.reference_models.adoption import received
-from ucm_cts.reference_models.duties import CONNECTABLE_HOOKS, LIFE_CYCLE_HOOKS, Deviation, Listener
+from ucm_cts.reference_models.duties import LIFE_CYCLE_HOOKS, Deviation, Listener
 from ucm_cts.reference_models.findings import Arrow
+from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.life_cycle import Row
 from ucm_cts.reference_models.rules_operations import listing_problem
@@ -130,7 +131,7 @@ def _others(ledger: Ledger, runtime: Runtime, window: Window) -> None:
     concerned = {id(m) for m, _ in window.roles}
     told = {(c.component, c.instance) for c in window.callbacks if c.hook in LIFE_CYCLE_HOOKS}
     undisturbed_elsewhere = False
-    for member in runtime.everyone:
+    for member in runtime.present:
         if id(member) in concerned or member.gone or member.suspended:
             continue
         if any(c.live is None for c in member.connections) and window.operation in (
@@ -196,7 +197,7 @@ def _manager_forgot_its_own(ledger: Ledger, window: Window, answer: str, end: in
 
 
 @rule("entered", "R-11.1.1-01", "R-11.1.2-01", at=LIFE_CYCLE_HOOKS)
-def whole_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]) -> None:
+def whole_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """Life-cycle callbacks come during operations of the container; a whole life has them in order."""
     declaration = runtime.scenario.components.get(event.component)
     requirement = "R-11.1.2-01" if declaration is not None and declaration.fragment else "R-11.1.1-01"
@@ -215,22 +216,20 @@ def whole_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: E
             f"{member.lane} received {event.hook} while no operation was in progress",
             (event.n,),
         )
-    elif event.hook == "on_remove" and member is not None and not member.suspended:
-        steps = [h for h in heard if h in LIFE_CYCLE_HOOKS and h not in CONNECTABLE_HOOKS]
-        if steps[:1] == ["on_init"] and steps[1:] and steps[1:] == ["on_startup", "on_shutdown"] * (len(steps) // 2):
-            ledger.exercised(requirement)
+    elif event.hook == "on_remove" and member is not None and not member.suspended and heard.is_whole_life:
+        ledger.exercised(requirement)
 
 
 @rule("entered", "R-11.2.1.2-01", at=LIFE_CYCLE_HOOKS)
-def nothing_outside_life(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
-) -> None:
+def nothing_outside_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """No callback before on_init or after on_remove."""
-    if event.hook == "on_remove" and heard[:1] == ["on_init"] and "on_remove" not in heard:
+    if event.hook == "on_remove" and heard.first == "on_init" and not heard.removed:
         ledger.exercised("R-11.2.1.2-01")
         return
-    early = event.hook != "on_init" and "on_init" not in heard
-    late = "on_remove" in heard
+    early = event.hook != "on_init" and not heard.initialised
+    late = heard.removed
+    if not (early or late):
+        return
     if (
         late
         and window is not None
@@ -241,7 +240,7 @@ def nothing_outside_life(
     ):
         return  # within the removal itself it is a matter of order
     member = runtime.member_of(event.component, event.instance)
-    if not (early or late) or (member is not None and member.suspended):
+    if member is not None and member.suspended:
         return
     if early and window is not None and not window.judged:
         return
@@ -260,7 +259,7 @@ def nothing_outside_life(
 
 
 @rule("entered", "R-11.2.3-09", "R-11.2.1.2-10", at=("on_startup", "on_shutdown"))
-def alternation(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]) -> None:
+def alternation(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """No second on_startup without on_shutdown between, no on_shutdown without on_startup before: whatever else is unclear."""
     declaration = runtime.scenario.components.get(event.component)
     if declaration is None or raises(declaration, "on_startup", "on_shutdown", "on_init"):
@@ -268,22 +267,21 @@ def alternation(ledger: Ledger, runtime: Runtime, window: Window | None, event: 
     member = runtime.member_of(event.component, event.instance)
     if ledger.findings or window is None or member is None or not member.suspended:
         return  # the table's matter, or whole_life's
-    before = [h for h in heard if h in ("on_startup", "on_shutdown")]
-    if (before[-1:] == ["on_startup"]) == (event.hook == "on_shutdown"):
+    if heard.in_operation == (event.hook == "on_shutdown"):
         return
     ledger.violated(
         "R-11.2.3-09" if event.hook == "on_startup" else "R-11.2.1.2-10",
         "alternation",
         event.hook,
         "on_startup and on_shutdown alternate",
-        f"{event.hook} after {', '.join(before) or 'neither'}",
+        f"{event.hook} after {', '.join(heard.phases) or 'neither'}",
         (event.n,),
         window.step_number if window else None,
     )
 
 
 @rule("entered", "R-12.10-22", at=LIFE_CYCLE_HOOKS)
-def discarded(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]) -> None:
+def discarded(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """What a failed add_component made hears nothing more but its on_remove."""
     if (event.component, event.instance) in runtime.discarded and event.hook != "on_remove":
         ledger.violated(
@@ -302,11 +300,9 @@ _SHOWN = 3
 
 
 @rule("entered", "R-11.2.1.2-05", "R-10.1.1-06", at=("on_init",))
-def attributes_before_init(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
-) -> None:
+def attributes_before_init(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """On entry to on_init the body holds the configured attribute values."""
-    if "on_init" in heard:
+    if heard.initialised:
         return
     declaration = runtime.scenario.components.get(event.component)
     if declaration is None or not declaration.attributes:
@@ -373,9 +369,7 @@ def configuration_first(ledger: Ledger, runtime: Runtime, window: Window, end: R
 
 
 @rule("entered", "R-11.2.1.3-04", at=("on_connect",))
-def connect_arguments(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
-) -> None:
+def connect_arguments(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """on_connect is given the port element's name and the reference that connect was given."""
     if window is None or not isinstance(window.step, s.Connect):
         return
@@ -403,9 +397,7 @@ def connect_arguments(
 
 
 @rule("entered", "R-11.2.1.3-06", at=("on_disconnect",))
-def disconnect_arguments(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
-) -> None:
+def disconnect_arguments(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """on_disconnect is given the name of the port element whose connection is undone."""
     if window is None:
         return
@@ -435,15 +427,13 @@ def disconnect_arguments(
 
 
 @rule("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"))
-def container_interface(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
-) -> None:
+def container_interface(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """A fragment gets its container's interface exactly once, before on_startup."""
     declaration = runtime.scenario.components.get(event.component)
     if declaration is None or not declaration.fragment:
         return
-    given = sum(h == "set_container_interface" for h in heard)
-    first_start = event.hook == "on_startup" and "on_startup" not in heard
+    given = heard.interfaces
+    first_start = event.hook == "on_startup" and not heard.begun
     again = event.hook == "set_container_interface" and given > 0
     if first_start and given == 1:
         ledger.exercised("R-11.2.1.4-02")

@@ -93,7 +93,7 @@ def declared_listing(ledger: Ledger, runtime: Runtime, window: Window, end: Retu
     if window.container.name != s.MANAGER or not window.judged or not isinstance(end, Return):
         return
     below = [m for c in runtime.containers.values() if c is not window.container for m in c.live_members()]
-    if not below or any(m.doubtful for m in (*below, *window.container.members)):
+    if not below or window.container.of_doubt or any(m.doubtful for m in below):
         return
     listed = end.value if isinstance(end.value, tuple) else ()
     reading = "recursive" if len(listed) > len(window.container.live_members()) else "own"
@@ -153,7 +153,7 @@ def core_claimed(ledger: Ledger, runtime: Runtime) -> None:
             event.step,
         )
     links = runtime.interactions.links if runtime.interactions is not None else {}
-    if not denied and (links or any(member.declaration.policies for member in runtime.everyone)):
+    if not denied and (links or runtime.with_policies):
         ledger.exercised("R-10.1-01")
 
 

@@ -77,7 +77,7 @@ def time_range(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     )
 
 
-@rule("ended", "R-10.1.4.1-02", at=("add_component", "start"))
+@rule("ended", "R-10.1.4.1-02", at=("add_component", "start"), where="policies")
 def one_clock(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """A component without clock and one with a clock are started, one with two is refused when it is to start at latest."""
     if isinstance(window.step, s.AddComponent):

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
 from ucm_cts.reference_models.findings import Arrow
+from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
 from ucm_cts.reference_models.service_policies import SERVICES, policy_elements
@@ -20,7 +19,7 @@ def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
 
 
 @rule("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
-def dependencies(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]) -> None:
+def dependencies(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """on_startup names each connected required port element and gives the reference it was connected to."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended or member.operational:
@@ -86,9 +85,7 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
 
 
 @rule("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
-def no_dangling_reference(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
-) -> None:
+def no_dangling_reference(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
     if window is not None and window.operation == "connect":
         return

@@ -158,7 +158,7 @@ def waiting_calls_served(ledger: Ledger, runtime: Runtime, call: BusinessCall, w
     )
 
 
-@rule("answered", "R-10.1.3.2-07", "R-10.1.3.2-08", "R-10.1.3.2-15", "R-10.1.3.2-21")
+@rule("answered", "R-10.1.3.2-07", "R-10.1.3.2-08", "R-10.1.3.2-15", "R-10.1.3.2-21", where="policies")
 def calls_carried_out(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
     """A call through a port that the policy speaks of enters the body once, there, with the value sent; its result comes back."""
     member, port = call.callee, call.port
@@ -185,7 +185,7 @@ def calls_carried_out(ledger: Ledger, runtime: Runtime, call: BusinessCall, end:
     )
 
 
-@rule("called", "R-10.1.3.2-14", "R-10.1.3.2-19")
+@rule("called", "R-10.1.3.2-14", "R-10.1.3.2-19", where="policies")
 def no_self_execution(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
 ) -> None:
@@ -207,7 +207,7 @@ def no_self_execution(
     )
 
 
-@rule("ended", *_SUPPORT.values(), at=("add_component", "start"))
+@rule("ended", *_SUPPORT.values(), at=("add_component", "start"), where="policies")
 def policy_supported(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """A component with an execution policy is added and started like any other."""
     if isinstance(window.step, s.AddComponent):
@@ -240,7 +240,7 @@ def _refused(ledger: Ledger, window: Window, declaration: Declaration, end: Rais
         )
 
 
-@rule("ended", "R-10.1.3-03", at=("add_component", "start"))
+@rule("ended", "R-10.1.3-03", at=("add_component", "start"), where="policies")
 def one_execution_policy(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """A component with two execution policies is refused when it is added, or at the latest when it is to be started."""
     if isinstance(window.step, s.AddComponent):
@@ -293,7 +293,7 @@ def run_triggered(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
     step = runtime.scenario.steps[event.step]
     if not isinstance(step, s.ReachGate):
         return
-    for member in runtime.everyone:
+    for member in runtime.present:
         runs = runtime.runs_since_start(member)
         if member.serving and not runs and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
             unprompted = not member.connections and not member.served

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply, Return
-from ucm_cts.reference_models.executions import BusinessCall, calls_promised, connections_behind, providers_of
+from ucm_cts.reference_models.executions import BusinessCall, behind, calls_promised, providers_of
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
@@ -18,9 +18,10 @@ def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return |
         return
     if port is not None and calls_promised(member.declaration, port):
         return  # its execution policy's matter
-    own = [(e, x) for e, x in call.entries if (e.component, e.instance) == (member.component, member.instance)]
-    expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
+    component, instance = member.component, member.instance
+    own = [(e, x) for e, x in call.entries if e.instance == instance and e.component == component]
     if not own or isinstance(end, Raise):
+        expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
         observed = f"it raised {end.error} {end.detail}" if isinstance(end, Raise) else "the body was not entered"
         _violate(ledger, "R-11.2.1.2-07", "stimulus", "not served", expected, observed, call.n, end.n, member)
         return
@@ -36,6 +37,7 @@ def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return |
         observed = f"the body received {enter.value}, returned {result}, the caller got {end.value}"
         if len(own) > 1:
             observed = f"the body was entered {len(own)} times"
+        expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
         _violate(ledger, "R-11.2.1.1-02", "stimulus", "wrong value", expected, observed, call.n, end.n, member)
         return
     ledger.exercised("R-11.2.1.1-02")
@@ -45,25 +47,28 @@ def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return |
 @rule("replied", "R-11.1.3-01", "R-11.1.2-02")
 def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
     """A call through a connection enters a connected body with the value sent; its result comes back."""
-    providers = providers_of(runtime, call)
-    if not providers or reply.raised:
+    request = call.request
+    if request is None or reply.raised:
         return
-    fragment = all(p.declaration.fragment for p in providers)
-    requirement = "R-11.1.2-02" if fragment else "R-11.1.3-01"
-    wanted = _targets(runtime, call)
-    reached = [(e, x) for e, x in call.entries if (e.component, e.instance, e.port) in wanted and e.value == call.value]
+    providers, fragments, targets = behind(runtime, request.component, request.instance, request.port)
+    if not providers:
+        return
+    requirement = "R-11.1.2-02" if fragments else "R-11.1.3-01"
+    wanted = call.value
+    reached = [(e, x) for e, x in call.entries if e.value == wanted and (e.component, e.instance, e.port) in targets]
+    came_back = [x for _, x in reached if x is None or x.value == reply.value]
+    if len(reached) == 1 and came_back:
+        ledger.exercised(requirement)
+        return
     names = " or ".join(sorted(p.lane for p in providers))
     expected = f"{reply.component}'s call of {reply.port} with {call.value} reaches {names} and brings back its result"
     if not reached:
         where = ", ".join(f"{lane(e.component, e.instance)} with {e.value}" for e, _ in call.entries) or "no body"
         observed = f"it reached {where}"
-    elif all(x is not None and x.value != reply.value for _, x in reached):
+    elif not came_back:
         observed = f"the body returned {reached[0][1].value if reached[0][1] else None}, the caller got {reply.value}"
-    elif len(reached) > 1:
-        observed = f"it was carried out {len(reached)} times"
     else:
-        ledger.exercised(requirement)
-        return
+        observed = f"it was carried out {len(reached)} times"
     cause = "target" if not reached else "result"
     _violate(ledger, requirement, "peer_calls", cause, expected, observed, call.n, reply.n, providers[0])
 
@@ -71,12 +76,17 @@ def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Repl
 @rule("replied", "R-11.2.3-03")
 def interactions(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
     """In the operational phase a call between two components comes back."""
-    caller = runtime.member_of(reply.component, reply.instance)
+    if not call.possible:
+        return
+    caller = runtime.bodies.get((reply.component, reply.instance))
+    if caller is None or not caller.serving:
+        return
     providers = providers_of(runtime, call)
-    if caller is None or not caller.serving or not providers or not call.possible:
+    if not providers:
         return
-    if not all(p.serving for p in providers) or any(p.raises("exchange") for p in providers):
-        return
+    for provider in providers:
+        if not provider.serving or (provider.declaration.plan and provider.raises("exchange")):
+            return
     if not reply.raised:
         ledger.exercised("R-11.2.3-03")
         return
@@ -91,9 +101,9 @@ def disabled_ports(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
 ) -> None:
     """Before start was called on its container, no component is called by another one or by the framework."""
-    member = runtime.member_of(event.component, event.instance)
     if call is not None and call.step is not None:
         return
+    member = runtime.bodies.get((event.component, event.instance))
     if member is None:
         _called_while_added(ledger, window, event, call)
         return
@@ -150,8 +160,10 @@ def nothing_after_stop(
     ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
 ) -> None:
     """After stop returned, no business method begins but those that the test itself calls."""
+    if call is not None:
+        return
     member = runtime.member_of(event.component, event.instance)
-    if member is None or member.suspended or call is not None or member.operational or not member.startups:
+    if member is None or member.suspended or member.operational or not member.startups:
         return
     if window is not None and window.operation in ("start", "stop", "add_component"):
         return
@@ -173,16 +185,6 @@ def quiet_after_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Retu
         return
     if any(m.served and not m.suspended for m in window.container.live_members()):
         ledger.exercised("R-11.2.3-17")
-
-
-def _targets(runtime: Runtime, call: BusinessCall) -> set[tuple[str, int | None, str]]:
-    request = call.request
-    caller = runtime.member_of(request.component, request.instance) if request else None
-    return {
-        (c.provider.component, c.provider.instance, c.provided)
-        for c in (connections_behind(caller, request.port) if caller and request else ())
-        if c.provider is not None
-    }
 
 
 def _violate(

@@ -101,7 +101,7 @@ def kept_for_later_phases(ledger: Ledger, runtime: Runtime, timeout: Timeout) ->
                 )
 
 
-@rule("ended", "R-10.1.6.1-09", at=("stop",))
+@rule("ended", "R-10.1.6.1-09", at=("stop",), where="interactions")
 def delivered_at_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """All that had got ok has arrived when stop returns, where the vendor has declared it."""
     if isinstance(end, Raise) or runtime.interactions is None:

@@ -240,7 +240,7 @@ def message_connector(
     ledger.violated(requirement, "message_connector", s.operation(step), what, observed, (end.n,), end.step)
 
 
-@rule("ended", "R-10.1.6.1-10", at=("start",))
+@rule("ended", "R-10.1.6.1-10", at=("start",), where="interactions")
 def joined_and_started(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Whoever is joined by a message connector can be started."""
     if not isinstance(end, Raise) or runtime.interactions is None or window.forgiving:

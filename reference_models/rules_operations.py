@@ -212,7 +212,7 @@ def membership(ledger: Ledger, runtime: Runtime, window: Window, end: Return | R
 
 def listing_problem(runtime: Runtime, container: Container, listed: tuple[int, ...]) -> str | None:
     """What is wrong with ``listed`` as the members of ``container``; the manager may list sub-containers' members too."""
-    if any(m.doubtful for m in container.members):
+    if container.of_doubt:
         return None
     live = [m.id for m in container.live_members()]
     missing = [i for i in live if i not in listed]

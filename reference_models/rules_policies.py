@@ -21,7 +21,7 @@ from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane, rais
 _MILLISECOND = 1_000_000
 
 
-@rule("ended", "R-10.1.3-02", at=("add_component", "start"))
+@rule("ended", "R-10.1.3-02", at=("add_component", "start"), where="policies")
 def execution_policy_given(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """A component that says nothing of its execution is refused, or is given a policy by the framework."""
     declarations = runtime.scenario.components
@@ -56,7 +56,7 @@ def _note(ledger: Ledger, window: Window, who: str, reading: str, end: Return | 
     )
 
 
-@rule("ended", "R-10.1.3-03", at=("add_component", "start"))
+@rule("ended", "R-10.1.3-03", at=("add_component", "start"), where="policies")
 def active_policies(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """A component with the active policy on several ports is refused, or started, as declared."""
     declarations = runtime.scenario.components
@@ -119,7 +119,7 @@ def runs_no_more(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
     patience = runtime.scenario.patience
     if not isinstance(step, s.ReachGate):
         return
-    for member in runtime.everyone:
+    for member in runtime.present:
         runs = _runs_since_start(runtime, member.component, member.instance or 0)
         plan = member.declaration.plan.get("run", ())
         if not member.serving or len(runs) != 1 or s.HoldAtGate(step.gate) not in plan or s.RaiseError() in plan:

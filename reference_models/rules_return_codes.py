@@ -61,7 +61,7 @@ def without_receivers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> Non
         _violate(ledger, "R-10.1.2-02", "without_receivers", call, expected, "without receivers")
 
 
-@rule("ended", "R-10.1.2-02", at=("start",))
+@rule("ended", "R-10.1.2-02", at=("start",), where="interactions")
 def refused_without_receivers(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """A connection without receivers is refused only where the vendor has declared it."""
     if (

@@ -333,7 +333,7 @@ def _refused_second_server(ledger: Ledger, step: s.Attach, end: Raise) -> None:
     )
 
 
-@rule("ended", _ONE_SERVER, at=("start",))
+@rule("ended", _ONE_SERVER, at=("start",), where="interactions")
 def one_server(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Two servers of one connection never are operational together."""
     links = runtime.interactions.improper() if runtime.interactions is not None else []

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Enter, Paused, Pushed, Raise, Return, Stressed
+from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.interactions import MethodCall
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.log_contents import (
@@ -32,10 +31,8 @@ _TOO_MANY = "too many"
 _SHOWN = 60
 
 
-@rule("entered", *_REFERENCES.values(), _SEVERAL, at=("on_startup",))
-def policy_references(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Sequence[str]
-) -> None:
+@rule("entered", *_REFERENCES.values(), _SEVERAL, at=("on_startup",), where="policies")
+def policy_references(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """on_startup hands over a reference for each port element that a component requires by its policies, at every start."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or has_several_clocks(member.declaration) or member.operational:
@@ -84,7 +81,7 @@ def log_returns(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     )
 
 
-@rule("ended", _SEVERAL, at=("add_component",))
+@rule("ended", _SEVERAL, at=("add_component",), where="policies")
 def traces_supported(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """A component may have any number of trace policies."""
     step = window.step

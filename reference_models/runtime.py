@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario, Step
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference, Skip
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 
 NO_ID = 2**64
 """The id of a connection whose id nobody was told."""
+
+MOST_CONNECTIONS = 8
+"""So many connections of an instance are remembered one by one."""
 
 
 @dataclass(slots=True, eq=False)
@@ -52,7 +55,7 @@ class Member:
 
     ``suspended``: its state is not known, so nothing about it is judged. ``doubtful``: not even whether it is a member.
     ``leaving``: a removal of it failed half-way. ``handed_over``: the connections that on_startup told it of last, None while that is not known.
-    ``closing``: on_shutdown has come since.
+    ``closing``: on_shutdown has come since. ``raising``: where its plan makes it raise, None while nobody has asked.
     """
 
     name: str
@@ -72,13 +75,43 @@ class Member:
     once_connected: set[str] = field(default_factory=set)
     handed_over: tuple[Connection, ...] | None = ()
     closing: bool = False
+    raising: frozenset[Hook] | None = None
 
     def raises(self, *hooks: Hook) -> bool:
         """Does the plan make this body raise at one of ``hooks``?"""
-        return raises(self.declaration, *hooks)
+        if self.raising is None:
+            self.raising = raising(self.declaration)
+        return bool(self.raising) and not self.raising.isdisjoint(hooks)
+
+    def forget_repetitions(self) -> None:
+        """Of many connections that are undone, forget those that were like another one: there may be any number of them."""
+        if len(self.connections) <= MOST_CONNECTIONS:
+            return
+        kept: list[Connection] = []
+        seen: set[tuple[str, MaybeReference, int, str]] = set()
+        for connection in self.connections:
+            like = connection.port, connection.reference, id(connection.provider), connection.provided
+            is_over = connection.live is False and not connection.ambiguous and not connection.stale
+            if is_over and like in seen and connection not in (self.handed_over or ()):
+                continue
+            if is_over:
+                seen.add(like)
+            kept.append(connection)
+        self.connections = kept
+
+    def leave(self) -> None:
+        """It has been removed."""
+        self.gone = True
+        self.container.changed()
+
+    def doubt(self) -> None:
+        """Nobody knows whether it still is a member."""
+        self.doubtful = self.container.of_doubt = True
 
     def live_connections(self, port: str | None = None) -> list[Connection]:
         """Its own connections that certainly stand, of ``port`` or of all required port elements."""
+        if not self.connections:
+            return []
         return [c for c in self.connections if c.live and (port is None or c.port == port)]
 
     @property
@@ -103,13 +136,18 @@ class Member:
     @property
     def connected(self) -> bool:
         """Is every required port element certainly connected?"""
-        return {c.port for c in self.connections if c.live}.issuperset(self.declaration.requires)
+        required = self.declaration.requires
+        if not required:
+            return True
+        live = [c.port for c in self.connections if c.live]
+        return all(map(live.__contains__, required))
 
 
 @dataclass(slots=True, eq=False)
 class Container:
     """A container: ``started`` is None where the text leaves the outcome of a failed start or stop open, ``doubtful``
-    says the same of its removal.
+    says the same of its removal. ``members`` are all it ever had; ``of_doubt`` says that of one of them nobody knows whether
+    it still is.
     """
 
     name: str
@@ -119,10 +157,18 @@ class Container:
     members: list[Member] = field(default_factory=list)
     startup_order: list[Member] = field(default_factory=list)
     failed_adds: int = 0
+    of_doubt: bool = False
+    _live: tuple[Member, ...] | None = None
 
-    def live_members(self) -> list[Member]:
+    def live_members(self) -> tuple[Member, ...]:
         """Members that have not been removed."""
-        return [m for m in self.members if not m.gone]
+        if self._live is None:
+            self._live = tuple([m for m in self.members if not m.gone])
+        return self._live
+
+    def changed(self) -> None:
+        """It has other members than before."""
+        self._live = None
 
     def suspend(self) -> None:
         """The outcome was left open: be silent about this container until a start or stop succeeds."""
@@ -131,7 +177,6 @@ class Container:
             member.suspended = True
 
 
-@dataclass(slots=True, eq=False)
 class Window:
     """One operation of Container or ContainerManager, from call to return.
 
@@ -142,26 +187,50 @@ class Window:
     ``forgiving`` windows may end in UCM_ERROR for a reason the rows do not show. ``call`` is the call event's ``n``.
     """
 
-    step_number: int
-    step: Step
-    operation: str
-    container: Container
-    call: int = 0
-    roles: list[tuple[Member | None, Row]] = field(default_factory=list)
-    judged: bool = True
-    forgiving: bool = False
-    lost: bool = False
-    callbacks: list[Enter] = field(default_factory=list)
-    by_body: dict[tuple[str, int | None], list[Enter]] = field(default_factory=dict)
-    created: list[tuple[str, int]] = field(default_factory=list)
-    fitted: list[tuple[Member | None, Row, Fit]] = field(default_factory=list)
-    subject: Member | None = None
-    connection: Connection | None = None
+    __slots__ = (
+        "by_body",
+        "call",
+        "callbacks",
+        "connection",
+        "container",
+        "created",
+        "fitted",
+        "forgiving",
+        "judged",
+        "lost",
+        "operation",
+        "roles",
+        "step",
+        "step_number",
+        "subject",
+    )
+
+    def __init__(self, step_number: int, step: Step, operation: str, container: Container, call: int = 0) -> None:
+        self.step_number = step_number
+        self.step = step
+        self.operation = operation
+        self.container = container
+        self.call = call
+        self.roles: list[tuple[Member | None, Row]] = []
+        self.judged = True
+        self.forgiving = False
+        self.lost = False
+        self.callbacks: list[Enter] = []
+        self.by_body: dict[tuple[str, int | None], list[Enter]] = {}
+        self.created: list[tuple[str, int]] = []
+        self.fitted: list[tuple[Member | None, Row, Fit]] = []
+        self.subject: Member | None = None
+        self.connection: Connection | None = None
 
     def hear(self, callback: Enter) -> None:
         """A body was entered while the operation was in progress."""
         self.callbacks.append(callback)
-        self.by_body.setdefault((callback.component, callback.instance), []).append(callback)
+        body = callback.component, callback.instance
+        heard = self.by_body.get(body)
+        if heard is None:
+            self.by_body[body] = [callback]
+        else:
+            heard.append(callback)
 
 
 def lane(component: str, instance: int) -> str:
@@ -171,19 +240,40 @@ def lane(component: str, instance: int) -> str:
 
 def raises(declaration: Declaration, *hooks: Hook) -> bool:
     """Does the plan of ``declaration`` raise at one of ``hooks``?"""
-    return bool(declaration.plan) and any(
-        isinstance(action, RaiseError) for hook in hooks for action in declaration.plan.get(hook, ())
-    )
+    return bool(declaration.plan) and not raising(declaration).isdisjoint(hooks)
+
+
+def raising(declaration: Declaration) -> frozenset[Hook]:
+    """The hooks at which the plan of ``declaration`` raises."""
+    plan = declaration.plan
+    return frozenset([hook for hook, actions in plan.items() if _RAISE in actions]) if plan else _NOWHERE
+
+
+_RAISE = RaiseError()
+_NOWHERE: frozenset[Hook] = frozenset()
+
+
+class Behind(NamedTuple):
+    """What is behind a required port element: the instances it is connected to, none if that is not known, and where
+    calls through it arrive: component, instance and port element. ``fragments`` says that all of them are fragments.
+    """
+
+    providers: tuple[Member, ...]
+    fragments: bool
+    targets: frozenset[tuple[str, int | None, str]]
 
 
 class Runtime:
     """All containers, instances, connections and references of one scenario.
 
-    ``members``, ``connections`` and ``references`` are what variables hold now; ``everyone`` is every instance ever added.
+    ``members``, ``connections`` and ``references`` are what variables hold now; ``present`` are the instances in the order
+    in which they were added, without those that have been removed and left nothing behind. ``with_policies`` says that there
+    was one with policies.
     ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
     whose on_startup has returned during the operation in progress, ``last_run`` when run was entered last. ``inside`` are
     the bodies in which a thread is carrying out business methods or run, the innermost last. ``not_offered`` tells of
     operations that the adapter does not offer.
+    ``behind`` is what executions.behind has worked out since anything ``changed``.
     ``interactions`` are followed where port elements have interfaces or components policies, ``executions`` where
     components have policies.
     """
@@ -192,7 +282,8 @@ class Runtime:
         self.scenario = scenario
         self.containers: dict[str, Container] = {MANAGER: Container(MANAGER)}
         self.members: dict[str, Member] = {}
-        self.everyone: list[Member] = []
+        self.present: list[Member] = []
+        self.with_policies = False
         self.bodies: dict[tuple[str, int], Member] = {}
         self.discarded: set[tuple[str, int]] = set()
         self.startups: dict[tuple[str, int], tuple[int, int]] = {}
@@ -206,6 +297,28 @@ class Runtime:
         self.destroyed = False
         self.interactions: Interactions | None = None
         self.executions: Executions | None = None
+        self.behind: dict[tuple[str, int, str], Behind] = {}
+
+    def changed(self) -> None:
+        """What is behind the port elements of instances may have changed."""
+        if self.behind:
+            self.behind.clear()
+
+    def enrol(self, member: Member) -> None:
+        """An instance has been added."""
+        member.container.members.append(member)
+        member.container.changed()
+        self.members[member.name] = member
+        self.present.append(member)
+        self.with_policies = self.with_policies or bool(member.declaration.policies)
+        if member.instance is not None:
+            self.bodies[(member.component, member.instance)] = member
+
+    def let_go(self, member: Member) -> None:
+        """An instance has been removed: it may be called, but its connections are nobody's matter unless they are unclear."""
+        member.leave()
+        if member in self.present and not any(c.live is not False or c.ambiguous for c in member.connections):
+            self.present.remove(member)
 
     def member_of(self, component: str, instance: int) -> Member | None:
         """The instance whose body this is, if an ``add_component`` has returned for it."""
@@ -238,8 +351,8 @@ class Runtime:
         if variable == UNKNOWN or variable not in self.members:
             return None, "never existed"
         wanted = self.members[variable]
-        for member in container.members:
-            if not member.gone and member.id == wanted.id:
+        for member in container.live_members():
+            if member.id == wanted.id:
                 return member, ""
         if wanted.gone:
             return None, "already removed"
@@ -262,13 +375,13 @@ class Runtime:
         return (wanted, "") if container.name == MANAGER else (None, "of another container")
 
     def all_connections(self) -> Iterator[Connection]:
-        """Every connection ever made."""
-        return (connection for member in self.everyone for connection in member.connections)
+        """Every connection, but for those of removed instances that are undone."""
+        return (connection for member in self.present for connection in member.connections)
 
     def clients_of(self, providers: Iterable[Member]) -> Iterator[tuple[Member, list[Connection]]]:
         """Each other instance that has live connections to one of ``providers``, with these connections."""
         wanted = {id(p) for p in providers}
-        for member in self.everyone:
+        for member in self.present:
             if member.gone or id(member) in wanted:
                 continue
             used = [c for c in member.connections if c.live and c.provider is not None and id(c.provider) in wanted]

@@ -20,12 +20,14 @@ def policies_of(declaration: Declaration | None, *definitions: str) -> list[Poli
 
 def policy_elements(declaration: Declaration | None, *definitions: str) -> dict[str, str]:
     """The port elements that a component requires by such policies, each with the definition of its policy."""
+    if declaration is None or not declaration.policies:
+        return {}
     return {p.element: p.definition for p in policies_of(declaration, *definitions) if p.element is not None}
 
 
 def has_several_clocks(declaration: Declaration | None) -> bool:
     """Has the component more than the one clock that it may have (10.1.4.1)?"""
-    return len(policies_of(declaration, s.CLOCK)) > 1
+    return declaration is not None and bool(declaration.policies) and len(policies_of(declaration, s.CLOCK)) > 1
 
 
 def port_traces(declaration: Declaration | None, port: str, method: str) -> list[Policy]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
@@ -40,12 +40,12 @@ class Situations:
             "destroy": self._destroy,
         }
 
-    def open(self, runtime: Runtime, number: int, step: s.ContainerCall) -> Window:
-        """The window of scenario step ``number``, with the rows that apply."""
+    def open(self, runtime: Runtime, number: int, step: s.ContainerCall, call: int = 0) -> Window:
+        """The window of scenario step ``number``, with the rows that apply; ``call`` is the event that opens it."""
         operation = s.operation(step)
         name = s.MANAGER if operation in _OF_THE_MANAGER else step.container  # type: ignore[union-attr]
         container = runtime.containers.get(name) or Container(name, removed=True)
-        window = Window(number, step, operation, container)
+        window = Window(number, step, operation, container, call)
         if runtime.destroyed or container.doubtful or (container.removed and operation != "remove_container"):
             window.judged = False
             return window
@@ -314,7 +314,7 @@ class Situations:
                 if _raises_when_disconnected(client):
                     window.judged = False
 
-    def _removal_of_all(self, window: Window, members: list[Member]) -> None:
+    def _removal_of_all(self, window: Window, members: Sequence[Member]) -> None:
         if not members:
             self._role(window, None, "absent", "no members")
         for member in members:
