@@ -107,10 +107,13 @@ class Prediction:
 def _copied(runtime: Runtime) -> Runtime:
     """As far as operations of containers change it."""
     containers: dict[int, Container] = {id(c): copy(c) for c in runtime.containers.values()}
-    members: dict[int, Member] = {id(m): copy(m) for m in runtime.everyone}
-    connections: dict[int, Connection] = {id(c): copy(c) for c in runtime.all_connections()}
+    everyone = [m for c in runtime.containers.values() for m in c.members]
+    members: dict[int, Member] = {id(m): copy(m) for m in everyone}
+    remembered = [c for m in everyone for c in (*m.connections, *(m.handed_over or ()))]
+    connections: dict[int, Connection] = {id(c): copy(c) for c in (*remembered, *runtime.connections.values())}
     for container in containers.values():
         container.members = [members[id(m)] for m in container.members]
+        container.changed()
         container.startup_order = [members[id(m)] for m in container.startup_order]
     for member in members.values():
         member.container = containers[id(member.container)]
@@ -124,7 +127,7 @@ def _copied(runtime: Runtime) -> Runtime:
     other = copy(runtime)
     other.containers = {name: containers[id(c)] for name, c in runtime.containers.items()}
     other.members = {name: members[id(m)] for name, m in runtime.members.items()}
-    other.everyone = [members[id(m)] for m in runtime.everyone]
+    other.present, other.behind = [members[id(m)] for m in runtime.present], {}
     other.bodies = {body: members[id(m)] for body, m in runtime.bodies.items()}
     other.connections = {name: connections[id(c)] for name, c in runtime.connections.items()}
     other.references = {name: (r, m and members[id(m)]) for name, (r, m) in runtime.references.items()}
