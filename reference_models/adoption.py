@@ -232,7 +232,8 @@ def _removed(runtime: Runtime, window: Window, removed: Sequence[Member]) -> Non
 def _started(runtime: Runtime, window: Window, step: s.Start, end: Return | Raise) -> None:
     returned = isinstance(end, Return)
     container = window.container
-    reached = [m for c in runtime.containers.values() for m in c.live_members() if received(window, m, "on_startup")]
+    everywhere = [m for c in runtime.containers.values() for m in c.live_members()] if window.callbacks else []
+    reached = [m for m in everywhere if received(window, m, "on_startup")]
     own = [m for m in reached if m.container is container]
     _reached_unseen(runtime, container)
     if not returned:
@@ -269,7 +270,7 @@ def _stopped(runtime: Runtime, window: Window, step: s.Stop, end: Return | Raise
     returned = isinstance(end, Return)
     container = window.container
     _reached_unseen(runtime, container)
-    for other in runtime.containers.values():
+    for other in runtime.containers.values() if window.callbacks else ():
         for member in other.live_members():
             if received(window, member, "on_shutdown"):
                 member.operational = False
@@ -288,7 +289,8 @@ def _stopped(runtime: Runtime, window: Window, step: s.Stop, end: Return | Raise
 
 def _unsure(member: Member) -> bool:
     """Is it open whether the instance is configured?"""
-    open_ports = {c.port for c in member.connections if c.live is None} - {c.port for c in member.live_connections()}
+    doubtful = [c.port for c in member.connections if c.live is None]
+    open_ports = set(doubtful) - {c.port for c in member.live_connections()} if doubtful else doubtful
     return bool(open_ports) or member.instance is None or member.raises("on_init", "set_container_interface")
 
 
@@ -314,7 +316,7 @@ def _resolve(member: Member, startup: Enter) -> None:
 
 def _reached_unseen(runtime: Runtime, container: Container) -> None:
     """The manager's start or stop may have reached sub-containers without members, where nobody can tell."""
-    if container is runtime.containers[s.MANAGER]:
+    if len(runtime.containers) > 1 and container is runtime.containers[s.MANAGER]:
         for other in runtime.containers.values():
             if other is not container and not other.live_members():
                 other.started = None

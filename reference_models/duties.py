@@ -29,10 +29,11 @@ class Listener(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """A permitted way for an operation to go: the requirements it exercises, and the readings that permit it, one of which
-    has been taken. There are none where it is permitted under every reading.
+    """A way for an operation to go that ``row`` permits: the requirements it exercises, and the readings that permit it, one
+    of which has been taken. There are none where it is permitted under every reading.
     """
 
+    row: Row
     readings: tuple[str, ...]
     exercised: tuple[str, ...]
 
@@ -53,6 +54,7 @@ class Duties:
     def __init__(self, table: LifeCycleTable) -> None:
         self._table = table
         self._duties: dict[tuple[str, str], CallbackDuty] = {}
+        self._answers: dict[int, frozenset[str]] = {}
         self._fits: dict[tuple[int, str, Listener, tuple[str, ...]], Fit | None] = {}
 
     def of(self, callback: str, operation: str) -> CallbackDuty:
@@ -63,6 +65,13 @@ class Duties:
             duty = next(d for d in candidates if not d.operations or operation in d.operations)
             self._duties[callback, operation] = duty
         return duty
+
+    def answers_to(self, row: Row) -> frozenset[str]:
+        """The answers that ``row`` permits."""
+        known = self._answers.get(id(row))
+        if known is None:
+            known = self._answers[id(row)] = frozenset(a for outcome in row.outcomes for a in outcome.answer)
+        return known
 
     def fit(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> Fit | None:
         """How ``heard`` fits an outcome of ``row`` with this ``answer``; None if it does not."""
@@ -79,7 +88,7 @@ class Duties:
         if not fitting:
             return None
         readings = tuple(dict.fromkeys(o.reading for o in fitting))
-        return Fit(() if "" in readings else readings, tuple(self._exercised(row, answer, listener, heard)))
+        return Fit(row, () if "" in readings else readings, tuple(self._exercised(row, answer, listener, heard)))
 
     def _exercised(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> list[str]:
         exercised = []

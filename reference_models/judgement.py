@@ -137,19 +137,19 @@ class Judge:
         return reading.ledger
 
 
-_NOTHING: frozenset[Where] = frozenset()
-
-
 def _followed(scenario: s.Scenario) -> frozenset[Where]:
     """What is to be followed in a scenario."""
+    followed: set[Where] = set()
+    if scenario.interfaces:
+        followed.add("interactions")
     for declaration in scenario.components.values():
         if declaration.policies:
-            return _WITH_POLICIES
-    return _WITH_INTERFACES if scenario.interfaces else _NOTHING
-
-
-_WITH_POLICIES: frozenset[Where] = frozenset(("policies", "interactions"))
-_WITH_INTERFACES: frozenset[Where] = frozenset(("interactions",))
+            followed.update(("policies", "interactions"))
+        if declaration.fragment:
+            followed.add("fragments")
+        if declaration.attributes:
+            followed.add("attributes")
+    return frozenset(followed)
 
 
 class _Thread:
@@ -195,8 +195,9 @@ class _Reading:
         self.heard: dict[tuple[str, int], Heard] = {}
         self.calls: list[list[BusinessCall]] = []
         self.threads: dict[int, _Thread] = {}
-        self.executions = Executions(self.runtime) if followed else None
-        self.interactions = Interactions(self.runtime) if followed else None
+        interacting = "interactions" in followed
+        self.executions = Executions(self.runtime) if interacting else None
+        self.interactions = Interactions(self.runtime) if interacting else None
         self.runtime.interactions = self.interactions
         self.runtime.executions = self.executions
         self.connecting: dict[int, Call] = {}

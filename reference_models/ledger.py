@@ -36,9 +36,9 @@ elements have interfaces or policies (interactions.py): a step for connectors en
 body's call of a method came back; something was counted, measured or read back; the trace is over."""
 
 
-Where = Literal["", "policies", "interactions"]
+Where = Literal["", "policies", "interactions", "fragments", "attributes"]
 """In which scenarios a rule has something to look at: in all; where components have policies; where interactions are
-followed, because port elements have interfaces or components policies.
+followed, because port elements have interfaces or components policies; where components are fragments, or have attributes.
 """
 
 
@@ -149,17 +149,17 @@ class Ledger:
         tally.exercised += 1
         tally.violated += 1
 
-    def fitted(self, row: Row, fit: Fit) -> None:
-        """An instance went a way that ``row`` permits."""
-        tally = self.row(row)
-        tally.exercised += 1
+    def fitted(self, fit: Fit) -> None:
+        """An instance went a way that its row permits."""
         self.fits[fit] = self.fits.get(fit, 0) + 1
-        if len(fit.readings) == 1:
-            tally.readings.add(fit.readings[0])
 
     def close(self) -> None:
         """The trace is over: add up what the fits exercised."""
         for fit, times in self.fits.items():
+            tally = self.row(fit.row)
+            tally.exercised += times
+            if len(fit.readings) == 1:
+                tally.readings.add(fit.readings[0])
             for requirement in fit.exercised:
                 self.exercises[requirement] = self.exercises.get(requirement, 0) + times
         self.fits.clear()

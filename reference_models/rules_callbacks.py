@@ -69,13 +69,19 @@ def callbacks(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Ra
             else:
                 window.judged = False
             continue
-        ledger.fitted(row, fit)
+        ledger.fitted(fit)
         window.fitted.append((member, row, fit))
 
 
 _OF_ALL: dict[str, s.Hook] = {"start": "on_startup", "stop": "on_shutdown"}
 _UNDOING = ("disconnect", "remove_component", "remove_container", "destroy")
 _NOBODY = Listener(False, False, 0)
+_LISTENERS = {
+    (connectable, fragment, undone): Listener(connectable, fragment, undone)
+    for connectable in (False, True)
+    for fragment in (False, True)
+    for undone in range(3)
+}
 
 
 def _listener(runtime: Runtime, window: Window, member: Member | None) -> tuple[str, int | None, Listener]:
@@ -83,7 +89,10 @@ def _listener(runtime: Runtime, window: Window, member: Member | None) -> tuple[
     if member is not None:
         undone = len(undone_by(window, member)) if member.connections else 0
         declaration = member.declaration
-        return member.component, member.instance, Listener(declaration.connectable, declaration.fragment, undone)
+        listener = _LISTENERS.get((declaration.connectable, declaration.fragment, undone))
+        if listener is None:
+            listener = Listener(declaration.connectable, declaration.fragment, undone)
+        return member.component, member.instance, listener
     if not isinstance(window.step, s.AddComponent):
         return "", None, _NOBODY
     component = window.step.component
@@ -129,6 +138,9 @@ def _deviates(
 def _others(ledger: Ledger, runtime: Runtime, window: Window) -> None:
     """Instances the operation does not concern receive nothing."""
     concerned = {id(m) for m, _ in window.roles}
+    strangers = [(c, i) for c, i in window.by_body if id(runtime.bodies.get((c, i or 0))) not in concerned]
+    if not strangers and len(runtime.containers) == 1:
+        return
     told = {(c.component, c.instance) for c in window.callbacks if c.hook in LIFE_CYCLE_HOOKS}
     undisturbed_elsewhere = False
     for member in runtime.present:
@@ -199,6 +211,8 @@ def _manager_forgot_its_own(ledger: Ledger, window: Window, answer: str, end: in
 @rule("entered", "R-11.1.1-01", "R-11.1.2-01", at=LIFE_CYCLE_HOOKS)
 def whole_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """Life-cycle callbacks come during operations of the container; a whole life has them in order."""
+    if window is not None and event.hook != "on_remove":
+        return
     declaration = runtime.scenario.components.get(event.component)
     requirement = "R-11.1.2-01" if declaration is not None and declaration.fragment else "R-11.1.1-01"
     member = runtime.member_of(event.component, event.instance)
@@ -216,7 +230,7 @@ def whole_life(ledger: Ledger, runtime: Runtime, window: Window | None, event: E
             f"{member.lane} received {event.hook} while no operation was in progress",
             (event.n,),
         )
-    elif event.hook == "on_remove" and member is not None and not member.suspended and heard.is_whole_life:
+    elif member is not None and not member.suspended and heard.is_whole_life:
         ledger.exercised(requirement)
 
 
@@ -261,12 +275,12 @@ def nothing_outside_life(ledger: Ledger, runtime: Runtime, window: Window | None
 @rule("entered", "R-11.2.3-09", "R-11.2.1.2-10", at=("on_startup", "on_shutdown"))
 def alternation(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """No second on_startup without on_shutdown between, no on_shutdown without on_startup before: whatever else is unclear."""
-    declaration = runtime.scenario.components.get(event.component)
-    if declaration is None or raises(declaration, "on_startup", "on_shutdown", "on_init"):
-        return
     member = runtime.member_of(event.component, event.instance)
     if ledger.findings or window is None or member is None or not member.suspended:
         return  # the table's matter, or whole_life's
+    declaration = runtime.scenario.components.get(event.component)
+    if declaration is None or raises(declaration, "on_startup", "on_shutdown", "on_init"):
+        return
     if heard.in_operation == (event.hook == "on_shutdown"):
         return
     ledger.violated(
@@ -283,7 +297,7 @@ def alternation(ledger: Ledger, runtime: Runtime, window: Window | None, event: 
 @rule("entered", "R-12.10-22", at=LIFE_CYCLE_HOOKS)
 def discarded(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """What a failed add_component made hears nothing more but its on_remove."""
-    if (event.component, event.instance) in runtime.discarded and event.hook != "on_remove":
+    if runtime.discarded and (event.component, event.instance) in runtime.discarded and event.hook != "on_remove":
         ledger.violated(
             "R-12.10-22",
             "discarded",
@@ -299,7 +313,7 @@ _SHOWN = 3
 """So many attributes are told of."""
 
 
-@rule("entered", "R-11.2.1.2-05", "R-10.1.1-06", at=("on_init",))
+@rule("entered", "R-11.2.1.2-05", "R-10.1.1-06", at=("on_init",), where="attributes")
 def attributes_before_init(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """On entry to on_init the body holds the configured attribute values."""
     if heard.initialised:
@@ -352,7 +366,7 @@ def configuration_first(ledger: Ledger, runtime: Runtime, window: Window, end: R
     """Once start has started a member, nothing of the container is initialised or connected any more."""
     if not isinstance(end, Return):
         return
-    own = [m for m in window.container.live_members() if m.instance is not None]
+    own = [m for m in window.container.live_members() if m.instance is not None] if window.callbacks else []
     late = [c for m in own for c in (*received(window, m, "on_init"), *received(window, m, "on_connect"))]
     if late:
         ledger.violated(
@@ -426,7 +440,7 @@ def disconnect_arguments(ledger: Ledger, runtime: Runtime, window: Window | None
     )
 
 
-@rule("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"))
+@rule("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"), where="fragments")
 def container_interface(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
     """A fragment gets its container's interface exactly once, before on_startup."""
     declaration = runtime.scenario.components.get(event.component)

@@ -32,7 +32,8 @@ _OF_ALL_AT_ONCE = ("double-start", "stop-when-stopped")
 @rule("ended", *_WITH_CHOICES)
 def declared_choices(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Where the life-cycle table permits several ways, an instance goes the one that the vendor declares."""
-    telling = [told for told in window.fitted if told[2].readings and _is_choice(window, end, *told)]
+    fitted = [told for told in window.fitted if told[2].readings]
+    telling = [told for told in fitted if _is_choice(window, end, *told)] if fitted else fitted
     if not telling:
         return
     together = isinstance(end, Raise) or any(_options(fit)[0] in _OF_ALL_AT_ONCE for _, _, fit in telling)

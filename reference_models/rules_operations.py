@@ -95,7 +95,7 @@ def outcomes(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Rai
         window.lost = True
         return
     for member, row in window.roles:
-        permitted = {a for outcome in row.outcomes for a in outcome.answer}
+        permitted = ledger.duties.answers_to(row)
         if answer in permitted:
             ledger.exercised(row.requirement)
             continue

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
@@ -37,7 +38,7 @@ from ucm_cts.harness.scenarios.scripts import bound_by, used_by
 _WAITS = (s.ReachGate, s.Join)
 _TOLD = {Counted: s.AwaitMessages, Paused: s.Pause, Stressed: s.Stress}
 """What tells that such a step is done."""
-_OF_SCENARIO = (*_WAITS, s.OpenGate, s.Settle, s.AwaitMessages, s.Pause)
+_OF_SCENARIO = frozenset((*_WAITS, s.OpenGate, s.Settle, s.AwaitMessages, s.Pause))
 _OPTIONAL = (s.Link, s.Attach, s.Detach, s.Break, s.Mend, s.ReadLog)
 """What an adapter need not offer."""
 _ID_GIVING = (s.AddComponent, s.Connect, s.Invoke)
@@ -45,14 +46,17 @@ _ID_GIVING = (s.AddComponent, s.Connect, s.Invoke)
 _PUNCTUALITY, _GRAIN = 0.9, 5_000_000
 """A wait for patience that ends after this part of it, less so many nanoseconds, is believed: clocks differ."""
 
+_NONE_HELD: dict[str, int] = {}
+"""Held by a body that was given no references. Nobody adds to it."""
+
 _LONGEST_PATIENCE = 24 * 60 * 60 * 1000
 _NANOSECONDS = 1_000_000
 
 
-def contradiction(scenario: Scenario, trace: Sequence[Event], stuck: bool = False) -> str | None:
+def contradiction(scenario: Scenario, trace: Iterable[Event], stuck: bool = False) -> str | None:
     """Why ``trace`` cannot be what happened when ``scenario`` ran; None if it can.
 
-    ``stuck`` traces may leave steps open. Checks order, nesting, threads, gates, completeness, and that bodies kept to
+    ``stuck`` traces may leave steps open; the trace is read once, event by event. Checks order, nesting, threads, gates, completeness, and that bodies kept to
     their plans.
     """
     check = _Check(scenario)
@@ -80,6 +84,7 @@ class _Check:
         self.open: dict[int, list[Event]] = {}
         self.bodies: dict[str, int] = {}
         self.clock: dict[int, int] = {}
+        self.before: int | None = None
         self.bound = {s.MANAGER, s.UNKNOWN, s.NIL}
         self.null = {s.NIL}
         self.holds: dict[tuple[str, int], dict[str, int]] = {}
@@ -101,7 +106,10 @@ class _Check:
         if before is not None and event.t < before:
             return f"event {event.n} is earlier than the one before it on thread {event.thread}"
         self.clock[event.thread] = event.t
-        problem = self.check_gate(event) or self.check(event, before)
+        problem = self.check_gate(event) if self.waiting else None
+        if problem is None:
+            self.before = before
+            problem = _CHECKS[type(event)](self, event)
         return f"event {event.n}: {problem}" if problem else None
 
     def end(self) -> str | None:
@@ -113,21 +121,6 @@ class _Check:
             elif not isinstance(step, s.Join) and not self.done.get(number):
                 return f"step {number} ({s.operation(step)}) is missing or not ended"
         return None
-
-    def check(self, event: Event, before: int | None) -> str | None:
-        if isinstance(event, Call | Skip):
-            return self.check_begin(event)
-        if isinstance(event, Return | Raise):
-            return self.check_end(event)
-        if isinstance(event, Timeout):
-            return self.check_timeout(event, before)
-        if isinstance(event, Opened):
-            return self.check_opened(event)
-        if isinstance(event, Settled):
-            return self.check_settled(event)
-        if isinstance(event, Counted | Paused | Stressed):
-            return self.check_told(event, before)
-        return self.check_body(event)
 
     def check_gate(self, event: Event) -> str | None:
         """A body that is held lets its thread go on when the gate is open, patience has run out or all is over."""
@@ -146,7 +139,7 @@ class _Check:
         if self.open.get(thread):
             return f"step {number} begins while another one is open on thread {thread}"
         problem = self.turns.begin(number, thread)
-        if problem:
+        if problem or not self.turns.passed:
             return problem
         for passed in self.turns.passed:
             step = self.scenario.steps[passed]
@@ -165,7 +158,7 @@ class _Check:
         step = self.step(event)
         if isinstance(step, str):
             return step
-        if isinstance(step, _OF_SCENARIO):
+        if type(step) in _OF_SCENARIO:
             return f"step {event.step} is no operation"
         frames = self.open.get(event.thread)
         if isinstance(event, Skip) and isinstance(step, _OPTIONAL) and event.variable == s.operation(step) and frames:
@@ -175,7 +168,7 @@ class _Check:
             return None if is_own else f"step {event.step} is skipped and was not begun"
         if event.step in self.done:
             return f"step {event.step} is carried out twice"
-        missing = [v for v in used_by(step) if v not in self.bound or (isinstance(step, s.Invoke) and v in self.null)]
+        missing = self.missing(step)
         if isinstance(event, Skip) and event.variable not in missing:
             return f"step {event.step} is skipped although {event.variable} is bound"
         if isinstance(event, Call) and missing:
@@ -186,27 +179,33 @@ class _Check:
             self.open.setdefault(event.thread, []).append(event)
         return problem
 
-    def check_timeout(self, event: Timeout, before: int | None) -> str | None:
+    def missing(self, step: s.Step) -> list[str]:
+        """The variables that ``step`` reads and that are not bound, or that hold nothing it could call."""
+        if type(step) is s.Invoke:
+            return [] if step.ref in self.bound and step.ref not in self.null else [step.ref]
+        return [variable for variable in used_by(step) if variable not in self.bound]
+
+    def check_timeout(self, event: Timeout) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
         if not isinstance(step, _WAITS) or event.step in self.done:
             return f"step {event.step} is not a wait"
-        if before is not None and event.t - before < self.shortest_wait:
+        if self.before is not None and event.t - self.before < self.shortest_wait:
             return f"step {event.step} runs out of patience too early"
         problem = self.check_turn(event.step, event.thread)
         self.done[event.step] = True
         return problem
 
-    def check_told(self, event: Counted | Paused | Stressed, before: int | None) -> str | None:
+    def check_told(self, event: Counted | Paused | Stressed) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
         if not isinstance(step, _TOLD[type(event)]) or event.step in self.done:
             return f"step {event.step} is not what was done"
-        if isinstance(step, s.Pause) and before is not None:
+        if isinstance(step, s.Pause) and self.before is not None:
             due = step.milliseconds * _NANOSECONDS * _PUNCTUALITY - _GRAIN
-            if event.t - before < due:
+            if event.t - self.before < due:
                 return f"step {event.step} ends too early"
         if isinstance(event, Counted) and not 0 <= event.distinct <= event.received:
             return f"step {event.step} has counted {event.distinct} of {event.received}"
@@ -238,7 +237,7 @@ class _Check:
         step = self.step(event)
         if isinstance(step, str):
             return step
-        if isinstance(step, _OF_SCENARIO):
+        if type(step) in _OF_SCENARIO:
             return f"step {event.step} is no operation"
         frames = self.open.setdefault(event.thread, [])
         top = frames[-1] if frames else None
@@ -251,6 +250,8 @@ class _Check:
         too_early = event.t - top.t < self.shortest_wait
         if isinstance(step, s.ReadLog) and len(event.records or ()) < step.records and too_early:
             return f"step {event.step} gives up waiting for {step.records} records too early"
+        if type(step) is s.Invoke:
+            return None if type(event.value) is int and event.records is None else self.check_value(step, event)
         self.bound.update(bound_by(step))
         if isinstance(step, s.GetPortElement):
             (self.null.add if event.value is None else self.null.discard)(step.bind)
@@ -291,14 +292,20 @@ class _Check:
             return None if event.instance == made + 1 else f"instance {event.instance} is made after {made}"
         if not 1 <= event.instance <= made:
             return f"instance {event.instance} of {event.component} was never made"
-        frames = self.open.setdefault(event.thread, [])
-        acts = self.acts.setdefault(event.thread, [])
-        if isinstance(event, Enter):
+        frames = self.open.get(event.thread)
+        if frames is None:
+            frames = self.open[event.thread] = []
+        acts = self.acts.get(event.thread)
+        if acts is None:
+            acts = self.acts[event.thread] = []
+            self.held_before[event.thread] = []
+        kind = type(event)
+        if kind is Enter:
+            assert isinstance(event, Enter)
             frames.append(event)
             acts.append([])
             problem = self.check_enter(declaration, event)
-            held = self.holds.get((event.component, event.instance), {})
-            self.held_before.setdefault(event.thread, []).append(held)
+            self.held_before[event.thread].append(self.holds.get((event.component, event.instance), _NONE_HELD))
             return problem
         if isinstance(event, Request):
             if acts:
@@ -308,8 +315,7 @@ class _Check:
                     else s.CallMethod(event.port, event.method, event.arguments or ())
                 )
             frames.append(event)
-            elements = {policy.element for policy in declaration.policies}
-            known = event.port in declaration.requires or event.port in elements
+            known = event.port in declaration.requires or event.port in [p.element for p in declaration.policies]
             return None if known else f"a request through {event.port!r}"
         top = frames[-1] if frames else None
         same = isinstance(top, BodyEvent) and (top.component, top.instance) == (event.component, event.instance)
@@ -364,7 +370,7 @@ class _Check:
         if enter.hook != event.hook:
             return f"{event.hook} is left where {enter.hook} was entered"
         plan = declaration.plan.get(enter.hook, ())
-        if event.raised != any(isinstance(a, s.RaiseError) for a in plan):
+        if event.raised != bool(plan and any(isinstance(a, s.RaiseError) for a in plan)):
             return f"{event.hook} {'raised' if event.raised else 'did not raise'} against its plan"
         if event.hook == "method":
             answers = [a for a in plan if isinstance(a, s.Answer) and a.method == enter.method]
@@ -375,16 +381,41 @@ class _Check:
                 due_results, due_exception = enter.arguments if own is None else own, answers[-1].exception
             if not event.raised and (event.results, event.exception) != (due_results, due_exception):
                 return f"{enter.method} gave {event.results!r}, its plan says {due_results!r}"
-        now = self.holds.get((event.component, event.instance), {})
-        if not _as_planned(plan, acts, (now,) if now is before else (now, before)):
+        now = self.holds.get((event.component, event.instance), _NONE_HELD)
+        if not plan and not acts:
+            pass  # as most bodies do
+        elif not _as_planned(plan, acts, (now,) if now is before else (now, before)):
             return f"{event.component} did not act in {event.hook} as its plan says"
         if event.hook == "on_shutdown":
             self.holds.pop((event.component, event.instance), None)
         if event.hook != "exchange" or event.raised or enter.value is None:
             return None
-        planned = [a.value for a in plan if isinstance(a, s.ReturnValue)]
+        planned = [a.value for a in plan if isinstance(a, s.ReturnValue)] if plan else plan
         due = planned[-1] if planned else ~enter.value
         return None if event.value == due else f"exchange returned {event.value}, its plan says {due}"
+
+
+_CHECKS: dict[type, Callable[[_Check, Any], str | None]] = {
+    Call: _Check.check_begin,
+    Skip: _Check.check_begin,
+    Return: _Check.check_end,
+    Raise: _Check.check_end,
+    Timeout: _Check.check_timeout,
+    Opened: _Check.check_opened,
+    Settled: _Check.check_settled,
+    Counted: _Check.check_told,
+    Paused: _Check.check_told,
+    Stressed: _Check.check_told,
+    Create: _Check.check_body,
+    Enter: _Check.check_body,
+    Exit: _Check.check_body,
+    Request: _Check.check_body,
+    Reply: _Check.check_body,
+    Siblings: _Check.check_body,
+    Held: _Check.check_body,
+    Pushed: _Check.check_body,
+}
+"""What looks at each kind of event."""
 
 
 def _as_planned(plan: Sequence[Action], acts: list[Action], held: tuple[dict[str, int], ...]) -> bool:

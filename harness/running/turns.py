@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from array import array
+from bisect import bisect_left
+from collections.abc import Callable, Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -12,34 +14,36 @@ class Turns:
     """The steps of each worker, by number, and the threads that turned out to be theirs. ``None`` is the scenario itself."""
 
     def __init__(self, scenario: Scenario) -> None:
-        self.steps: dict[str | None, list[int]] = {None: []}
+        self.steps: dict[str | None, array[int]] = {None: array("q")}
         for number, step in enumerate(scenario.steps):
-            self.steps.setdefault(step.thread, []).append(number)
+            self.steps.setdefault(step.thread, array("q")).append(number)
         self._scenario = scenario
         self._threads: dict[str | None, int] = {None: 0}
         self._next: dict[str | None, int] = {}
-        self._passed: list[int] = []
+        self._passed: Sequence[int] = ()
 
     def begin(self, number: int, thread: int) -> str | None:
         """Step ``number`` begins on ``thread``; why it cannot be so."""
         worker = self._scenario.steps[number].thread
-        if thread != self._threads.get(worker, thread):
+        known = self._threads.get(worker)
+        if known is not None and thread != known:
             if worker is None:
                 return f"step {number} runs on thread {thread}, not on the scenario's own"
-            return f"step {number} runs on thread {thread}, others of '{worker}' on thread {self._threads[worker]}"
-        if thread in self._threads.values() and worker not in self._threads:
+            return f"step {number} runs on thread {thread}, others of '{worker}' on thread {known}"
+        if known is None and thread in self._threads.values():
             return f"step {number} of '{worker}' runs on thread {thread}, which is another one's"
         self._threads[worker] = thread
         first = self._next.get(worker, 0)
-        place = self.steps[worker].index(number)
+        steps = self.steps[worker]
+        place = first if first < len(steps) and steps[first] == number else bisect_left(steps, number)
         if place < first:
-            return f"step {number} comes after step {self.steps[worker][first - 1]}"
-        self._passed = self.steps[worker][first:place]
+            return f"step {number} comes after step {steps[first - 1]}"
+        self._passed = steps[first:place] if place > first else ()
         self._next[worker] = place + 1
         return None
 
     @property
-    def passed(self) -> list[int]:
+    def passed(self) -> Sequence[int]:
         """The steps between the one that began last and the one before it on the same thread."""
         return self._passed
 
@@ -55,7 +59,9 @@ class Turns:
         for worker in self.steps:
             if self._threads.get(worker, thread) != thread or (worker not in self._threads and thread == 0):
                 continue
-            for number in self.steps[worker][self._next.get(worker, 0) :]:
+            steps = self.steps[worker]
+            for place in range(self._next.get(worker, 0), len(steps)):
+                number = steps[place]
                 step = self._scenario.steps[number]
                 if wanted(step):
                     return number
