@@ -8,7 +8,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import read_spelled, spell
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reference, Return, Siblings
 from ucm_cts.reference_models.adoption import received
-from ucm_cts.reference_models.duties import LIFE_CYCLE_HOOKS, Deviation, Listener
+from ucm_cts.reference_models.duties import CONNECTABLE_HOOKS, LIFE_CYCLE_HOOKS, Deviation, Listener
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.ledger import Ledger, rule
