@@ -92,3 +92,9 @@ class _Moody(Base):
 
 
 Moody = bind("Moody", _Moody, _Moody.__doc__)
+
+
+class Mended(ReferenceAdapter):
+    """Was once ``stops_in_startup_order``, and conforms now."""
+
+    product = MUTANTS["stops_in_startup_order"].adapter.product

@@ -33,7 +33,7 @@ _OPERATIONS = (
     "attach",
     "attach",
     "remove",
-    "list",
+    "look",
     "meet",
 )
 
@@ -169,9 +169,11 @@ class CoreWriter:
 
     def tell(self) -> None:
         """Somebody calls or pushes; what is pushed is waited for where it has to come."""
-        name = self.choose(tuple(self.pushes))
-        if self.ends.get(name) is None or name not in self.places:
+        ready = [name for name in self.pushes if name in self.ends]
+        if not ready:
             return
+        name = self.choose(ready)
+        self.let_in(name)
         serving = [who for who in self.come if self.ends.get(who) == self.ends[name] and who in self.places]
         self.steps.append(s.Invoke(f"tell {name}", self.value()))
         if not self.pushes[name]:
@@ -187,6 +189,12 @@ class CoreWriter:
                 continue
             self.come[who] = known + self.pushes[name]
             self.steps.append(s.ReachGate(f"gate of {who}", total=known + self.pushes[name]))
+
+    def let_in(self, caller: str) -> None:
+        """Nobody is held any more who is called by ``caller``: it would wait for as long as patience lasts."""
+        for who in [who for who in self.holding if who in self.line_of(caller)]:
+            self.holding.remove(who)
+            self.steps.append(s.OpenGate(f"inside {who}"))
 
     def meet(self) -> None:
         """Two clients call while the first is held inside."""

@@ -136,8 +136,9 @@ class Campaign:
         for finding in findings:
             yield finding, execution
 
-    def look_again(self) -> None:
-        """Take a second look at each failure that was seen once, and at each requirement that was kept and depends on time.
+    def look_again(self, at_passes: bool = True) -> None:
+        """Take a second look at each failure that was seen once, and at each requirement that was kept and depends on time,
+        unless passes are of no interest.
 
         They are run with another timeout and another schedule. What flips is unstable, and no verdict.
         """
@@ -153,7 +154,7 @@ class Campaign:
             if doubt is not None:
                 self._doubt(execution, [doubt])
         failed = {requirement for requirement, _, _ in self._tally.failures}
-        kept = [case for requirement, case in self._timed.items() if requirement not in failed]
+        kept = [case for requirement, case in self._timed.items() if at_passes and requirement not in failed]
         for name, scenario in {name: scenario for name, scenario in kept}.items():
             if time.monotonic() > last:
                 break

@@ -1,0 +1,280 @@
+"""Exploration: what fails is found by scenarios nobody wrote, shortened, told once, remembered and tried first next time."""
+
+from __future__ import annotations
+
+import json
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+from command_line import ucm_cts, within
+from hypothesis.database import DirectoryBasedExampleDatabase, InMemoryExampleDatabase
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.exploring.changing import LONGEST, changed
+from ucm_cts.harness.exploring.core_writer import CoreWriter
+from ucm_cts.harness.exploring.exploration import Exploration
+from ucm_cts.harness.exploring.foresight import transitions
+from ucm_cts.harness.exploring.memory import Memory, Remembered
+from ucm_cts.harness.exploring.novelty import Guide
+from ucm_cts.harness.exploring.writer import Writer
+from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.running.driver import Driver
+from ucm_cts.harness.scenarios.scripts import Script, problems, to_scenario
+from ucm_cts.harness.stating.statement import default_statement
+
+SUBJECT, REQUIREMENT = "subjects:stops_in_startup_order", "R-11.2.2.1-13"
+MENDED = "subjects:Mended"
+REFERENCE = "ucm_cts.adapters.reference_py.adapter:ReferenceAdapter"
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    within(tmp_path, monkeypatch)
+    return tmp_path
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of an exploration that has found the one defect of its subject."""
+    folder = tmp_path_factory.mktemp("found")
+    with pytest.MonkeyPatch.context() as patch:
+        within(folder, patch)
+        outcome = ucm_cts("explore", SUBJECT, "--budget", "2s", "--seed", "1", "--out", folder / "out")
+    assert (outcome.status, outcome.err) == (1, "")
+    assert f"✗ {REQUIREMENT}" in outcome.out
+    assert "ucm-cts replay " in outcome.out
+    return folder / "out"
+
+
+def exploration(folder: Path) -> Any:
+    return json.loads((folder / "exploration.json").read_text())
+
+
+# what it finds
+
+
+def test_a_failure_is_told_once_with_its_shortest_scenario(found: Path) -> None:
+    told = exploration(found)
+    (failure,) = told["failures"]
+    assert (failure["requirement"], failure["clause"]) == (REQUIREMENT, "11.2.2.1")
+    assert failure["steps"] == ["add_component", "add_component", "start", "stop"]
+    assert failure["expected"] != failure["observed"]
+    assert told["incidents"] == []
+    assert told["known"] == []
+    assert 0 < told["rows_visited"] <= told["rows"] == len(load_life_cycle().rows)
+    assert [path.name for path in (found / "failures").iterdir()] == [f"{REQUIREMENT}.json"]
+
+
+def test_the_saved_scenario_replays(found: Path) -> None:
+    (failure,) = exploration(found)["failures"]
+    wrong = ucm_cts("replay", found / failure["file"], SUBJECT)
+    assert (wrong.status, "1 rule(s) broken" in wrong.out) == (1, True)
+    assert ucm_cts("replay", found / failure["file"], REFERENCE).status == 0
+    assert failure["replay"] == f"ucm-cts replay failures/{REQUIREMENT}.json {SUBJECT}"
+
+
+def first_failing(seed: int) -> tuple[int, list[bytes]]:
+    """How many scenarios it took, and the first few of them."""
+    memory = Memory(InMemoryExampleDatabase(), "", "container")
+    with Driver(locate(SUBJECT, in_process=True), seed) as driver:
+        exploring = Exploration(driver, "container", default_statement(), memory)
+        drawn = [
+            msgspec.json.encode(purpose.scenarios) for purpose, _ in zip(exploring._purposes(), range(5), strict=False)
+        ]
+        return next(far.scenarios for far in exploring.explore(lambda: False) if far.failures), drawn
+
+
+def test_a_seed_repeats_everything() -> None:
+    number, drawn = first_failing(5)
+    assert number <= 50
+    assert first_failing(5) == (number, drawn)
+    assert first_failing(6)[1] != drawn
+
+
+def test_conformant_frameworks_are_not_failed(here: Path) -> None:
+    for profile in "container", "core":
+        arguments = REFERENCE, "--budget", "1.5s", "--profile", profile, "--seed", "3", "--out", profile
+        outcome = ucm_cts("explore", *arguments)
+        assert (outcome.status, outcome.err) == (0, "")
+        assert "✓ nothing found" in outcome.out
+        told = exploration(here / profile)
+        assert told["scenarios"] > 0
+        assert told["failures"] == told["incidents"] == []
+
+
+def test_crashes_are_failures_and_do_not_end_it(here: Path) -> None:
+    outcome = ucm_cts("explore", "subjects:Crashing", "--budget", "4s", "--seed", "2", "--out", "out")
+    assert (outcome.status, outcome.err) == (1, "")
+    told = exploration(here / "out")
+    assert {mishap["kind"] for mishap in told["incidents"]} <= {"crash", "untried"}
+    (crash,) = (failure for failure in told["failures"] if failure["cause"] == "start crash")
+    assert crash["steps"] == ["add_component", "start", "start"]
+    assert ucm_cts("replay", here / "out" / crash["file"], "subjects:Crashing").status == 1
+
+
+def test_an_interrupt_ends_it_with_what_was_found(here: Path) -> None:
+    os.mkfifo(here / "heard")
+    environment = {**os.environ, "HEARD": str(here / "heard")}
+    command = [sys.executable, "-m", "ucm_cts", "explore", "subjects:Waiting", "--budget", "2h", "--timeout", "600"]
+    with subprocess.Popen(
+        [*command, "--out", "out"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
+    ) as process:
+        assert (here / "heard").read_text() == "started"
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate()
+    assert (process.returncode, err) == (1, "")
+    assert "interrupted: what was found so far is kept" in out
+    assert exploration(here / "out")["scenarios"] >= 0
+
+
+# what it remembers
+
+
+def test_what_is_remembered_is_tried_first(found: Path, here: Path) -> None:
+    arguments = "--budget", "0.001s", "--seed", "1", "--database", found / "examples", "--out"
+    again = ucm_cts("explore", SUBJECT, *arguments, "again")
+    assert (again.status, again.err) == (1, "")
+    assert f"still there      {REQUIREMENT}" in again.out
+    assert exploration(here / "again")["scenarios"] <= 1
+    (failure,) = exploration(here / "again")["failures"]
+    assert failure["steps"] == ["add_component", "add_component", "start", "stop"]
+    mended = ucm_cts("explore", MENDED, *arguments, "mended")
+    assert (mended.status, mended.err) == (0, "")
+    assert f"no longer shown  {REQUIREMENT}" in mended.out
+    assert exploration(here / "mended")["known"][0]["still_there"] is False
+    once_more = ucm_cts("explore", MENDED, *arguments, "once more")
+    assert exploration(here / "once more")["known"] == []
+    assert REQUIREMENT not in once_more.out
+
+
+def test_shared_databases_are_read_and_not_written(found: Path) -> None:
+    shutil.copytree(found / "examples", "shared")
+    before = {path: path.read_bytes() for path in Path("shared").rglob("*") if path.is_file()}
+    databases = "--database", "own", "--database", "readonly:shared", "--budget", "0.001s", "--out", "out"
+    outcome = ucm_cts("explore", SUBJECT, *databases)
+    assert "still there" in outcome.out
+    assert any(path.is_file() for path in Path("own").rglob("*"))
+    assert "no longer shown" in ucm_cts("explore", MENDED, *databases).out
+    assert {path: path.read_bytes() for path in Path("shared").rglob("*") if path.is_file()} == before
+
+
+def test_any_database_of_hypothesis_can_be_plugged_in(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(here))
+    (here / "our_database.py").write_text(
+        "from hypothesis.database import InMemoryExampleDatabase\ndatabase = InMemoryExampleDatabase()\n"
+    )
+    arguments = "--database", "our_database:database", "--seed", "1", "--out", "out", "--budget"
+    assert ucm_cts("explore", SUBJECT, *arguments, "2s").status == 1
+    assert "still there" in ucm_cts("explore", SUBJECT, *arguments, "0.001s").out
+
+
+def remember(database: Any, product: str, steps: int = 0) -> Remembered:
+    twice = s.AddComponent("one"), s.AddComponent("two"), s.Start(), s.Stop(), *([s.GetComponents()] * steps)
+    scenario = Scenario({"one": s.Declaration(), "two": s.Declaration()}, twice)
+    failure = Remembered(REQUIREMENT, "rule", "order", "it did not", scenario)
+    Memory(database, product, "container").remember(failure)
+    return failure
+
+
+def test_one_scenario_is_kept_for_each_cause() -> None:
+    database = InMemoryExampleDatabase()
+    memory = Memory(database, "product", "container")
+    remember(database, "product", 3)
+    short = remember(database, "product", 0)
+    assert memory.recall() == [short]
+    remember(database, "product", 3)
+    assert len(memory.recall()) == 1
+    assert Memory(database, "product", "core").recall() == []
+    assert Memory(database, "another", "container").recall() == []
+    memory.forget(short.identity)
+    assert memory.recall() == []
+
+
+def test_what_cannot_be_read_is_told_and_left_alone(here: Path) -> None:
+    remember(DirectoryBasedExampleDatabase("kept"), "stops_in_startup_order")
+    (entry,) = (p for p in Path("kept").rglob("*") if p.is_file() and b"add_component" in p.read_bytes())
+    entry.write_bytes(b"{")
+    outcome = ucm_cts("explore", MENDED, "--database", "kept", "--budget", "0.001s", "--out", "out")
+    assert (outcome.status, outcome.err) == (0, "")
+    assert "1 remembered failures cannot be read by this version and are left alone" in outcome.out
+    assert entry.read_bytes() == b"{"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("--budget", "soon"), "'soon' is no budget; write a number of seconds, minutes or hours: 60s, 5m, 2h."),
+        (("--budget", "0s"), "'0s' is no budget"),
+        (("--budget", "60"), "'60' is no budget"),
+        (("--database", "file"), "failures cannot be kept in 'file': File exists"),
+        (("--database", "readonly:nowhere"), "there is no folder 'nowhere' to read failures from"),
+        (("--database", "nowhere:database"), "the database 'nowhere:database' cannot be loaded: ModuleNotFoundError"),
+        (("--database", "json:loads"), "'json:loads' is a function and no hypothesis ExampleDatabase"),
+        (("--out", "file/out"), "the report cannot be written to 'file/out'"),
+        (("--profile", "nonsense"), "'nonsense' is not one of"),
+    ],
+)
+def test_wrong_use_is_told_in_a_line(here: Path, arguments: tuple[str, str], told: str) -> None:
+    (here / "file").write_text("")
+    outcome = ucm_cts("explore", REFERENCE, *arguments)
+    assert outcome.status == 2
+    assert told in outcome.err.replace("\n", " ")
+
+
+# what it draws
+
+
+def drawn(seed: int, number: int) -> list[Scenario]:
+    """Scenarios, each new, or one of those before it changed."""
+    choose = random.Random(seed)
+    scenarios: list[Scenario] = []
+    for index in range(number):
+        if index % 3 == 0:
+            scenarios.append(Writer(choose.choice).scenario())
+        elif index % 10 == 1:
+            scenarios.append(CoreWriter(choose.choice).scenario())
+        else:
+            known = choose.choice([scenario for scenario in scenarios if not scenario.interfaces])
+            scenarios.append(changed(known, choose.choice))
+    return scenarios
+
+
+def test_what_is_drawn_can_be_saved_read_back_and_foreseen() -> None:
+    scenarios = drawn(1, 300)
+    table = load_life_cycle()
+    for scenario in scenarios:
+        script = msgspec.convert({"scenario": "drawn", **msgspec.to_builtins(scenario)}, Script)
+        assert to_scenario(script) == scenario
+        assert problems(script) == []
+        assert bool(transitions(table, scenario)) == bool(scenario.steps)
+    assert len({msgspec.json.encode(scenario) for scenario in scenarios}) > 250
+    assert max(len(scenario.steps) for scenario in scenarios) > LONGEST // 2
+
+
+def test_transitions_tell_what_the_model_does() -> None:
+    one = s.AddComponent("one"), s.Start(), s.Stop()
+    scenario = Scenario({"one": s.Declaration()}, one)
+    found = transitions(load_life_cycle(), scenario)
+    assert ("then", "configured/start/", "ready/stop/started") in found or any(
+        "configured/start" in before and "ready/stop" in after for _, before, after in (t for t in found if len(t) == 3)
+    )
+    assert transitions(load_life_cycle(), msgspec.structs.replace(scenario, steps=one[:2])) < found
+
+
+def test_what_is_rare_is_preferred() -> None:
+    usual = Scenario({"one": s.Declaration()}, (s.AddComponent("one"), s.Start(), s.Stop()))
+    rare = Scenario({"one": s.Declaration()}, (s.AddComponent("one"), s.Start(), s.RemoveComponent("one")))
+    guide = Guide(load_life_cycle())
+    guide.choose([usual])
+    assert guide.choose([usual, rare]) is rare
+    assert guide.choose([usual]) is usual
