@@ -33,6 +33,7 @@ from ucm_cts.harness.options import (
     seed_option,
     timeout_option,
 )
+from ucm_cts.harness.report.command import compare
 from ucm_cts.harness.report.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.summary import summary
@@ -248,6 +249,7 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
 
 cli.add_command(selftest)
 cli.add_command(explore)
+cli.add_command(compare)
 
 
 def main() -> None:

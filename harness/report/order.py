@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from typing import Protocol
 
 from ucm_cts.harness.results import RequirementResult, Verdict
 
@@ -30,7 +31,15 @@ def to_fix(results: Iterable[RequirementResult]) -> list[RequirementResult]:
     return sorted((result for result in results if result.verdict == "fail"), key=key)
 
 
-def count(results: Iterable[RequirementResult]) -> dict[Verdict, int]:
+class HasVerdict(Protocol):
+    """A requirement's result, of a run or as it was read from a report."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """Its verdict."""
+
+
+def count(results: Iterable[HasVerdict]) -> dict[Verdict, int]:
     """How many requirements have each verdict, the worst first."""
     verdicts = [result.verdict for result in results]
     return {verdict: verdicts.count(verdict) for verdict in VERDICTS}
