@@ -152,6 +152,22 @@ class clock_runs_half(_Paced):
     pace = 0.5
 
 
+@breaks("R-10.1.4.1-08", clauses=HERE, also=("R-10.1.4.1-09",))
+class clock_loses_whole_seconds(Base):
+    """Local time is right to the microsecond, and without its seconds."""
+
+    def _local_time(self, member: Member) -> int:
+        return super()._local_time(member) % SECOND
+
+
+@breaks("R-10.1.4.1-10", clauses=HERE)
+class synchronized_clock_loses_whole_seconds(Base):
+    """The same of synchronized time."""
+
+    def _synchronized_time(self, member: Member) -> int:
+        return super()._synchronized_time(member) % SECOND
+
+
 @breaks("R-10.1.4.1-09", clauses=HERE, readings={"clock-epoch": "unix"})
 class clock_has_another_epoch_than_declared(Base):
     """Local time is monotonic time; the vendor declares Unix time."""
