@@ -190,4 +190,4 @@ class LwucmAdapter final : public ucm_cts::ShapedAdapter<Lwucm> {
 
 }  // namespace
 
-UCM_CTS_ADAPTER(LwucmAdapter, "lwucm reference framework (C++)", "0.1.0");
+UCM_CTS_ADAPTER(LwucmAdapter, lwucm::product(), "0.1.0");

@@ -6,7 +6,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario
 from ucm_cts.harness.scenarios.scripts import TestPurpose
 
-MILLISECONDS = 100
+MILLISECONDS = 200
 """How long a component is stressed: a lock that is missing on one of 1,000 calls is found in less (docs/reentrancy.md)."""
 
 _PORTS = ("in.api", "aux.api")

@@ -7,6 +7,7 @@
 // in how many trials it was found out, and the sums of what the trials counted.
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -57,6 +58,27 @@ class TicketLock {
   private:
     std::atomic<unsigned> next_{0};
     std::atomic<unsigned> serving_{0};
+};
+
+// first come, first served, and who waits sleeps
+class MonitorLock {
+  public:
+    void lock() {
+        std::unique_lock<std::mutex> lock(mutex_);
+        const unsigned own = next_++;
+        left_.wait(lock, [this, own] { return own == serving_; });
+    }
+    void unlock() {
+        std::lock_guard<std::mutex> lock(mutex_);
+        ++serving_;
+        left_.notify_all();
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable left_;
+    unsigned next_ = 0;
+    unsigned serving_ = 0;
 };
 
 template <class Lock>
@@ -217,6 +239,7 @@ int main(int argc, char** argv) {
         {"no lock on 1 of 1,000 calls (mutex)", false, make<Forgetful<std::mutex, 1000>>},
         {"no lock on 1 of 1,000 calls (spin lock)", false, make<Forgetful<SpinLock, 1000>>},
         {"no lock on 1 of 1,000 calls (ticket lock)", false, make<Forgetful<TicketLock, 1000>>},
+        {"no lock on 1 of 1,000 calls (monitor)", false, make<Forgetful<MonitorLock, 1000>>},
         {"no lock on 1 of 100,000 calls (mutex)", false, make<Forgetful<std::mutex, 100000>>},
         {"no lock on 1 of 100,000 calls (ticket lock)", false, make<Forgetful<TicketLock, 100000>>},
         {"checked, then set", false, make<CheckThenSet<0>>},
@@ -225,6 +248,7 @@ int main(int argc, char** argv) {
         {"mutex", true, make<Correct<std::mutex>>},
         {"spin lock", true, make<Correct<SpinLock>>},
         {"ticket lock", true, make<Correct<TicketLock>>},
+        {"monitor", true, make<Correct<MonitorLock>>},
     };
     for (const Subject& subject : subjects) {
         Sums sums = {0, 0, 0, 0, 0, 0, 0};

@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <unordered_map>
 #include <utility>
 
@@ -94,8 +95,9 @@ class MessageCounts {
 
 /// How those behave who stress a body. The hurried come back at once and mostly leave at once, which finds locks that are
 /// checked first and taken afterwards: those change hands often. Those who stroll take their time inside and outside, which
-/// finds locks that are missing on some calls: when such a call comes somebody is inside, and nobody waits.
-enum class Pace { none, hurried, strolling };
+/// finds locks that are missing on some calls: when such a call comes somebody is inside, and nobody waits. Those who linger
+/// sleep inside, which finds the same where whoever waits sleeps, too, or where threads have to share a processor.
+enum class Pace { none, hurried, strolling, lingering };
 
 /// A number below `most` that nobody can foresee, at the cost of nothing.
 inline int any_below(int most) {
@@ -119,7 +121,11 @@ class Occupancy {
         if (inside_.fetch_add(1, std::memory_order_relaxed) != 0) {
             overlaps.fetch_add(1, std::memory_order_relaxed);
         }
-        pass_moments(pace == Pace::strolling ? 200 : any_below(64) != 0 ? 20 : 2000);
+        if (pace == Pace::lingering) {
+            std::this_thread::sleep_for(std::chrono::microseconds(20));
+        } else {
+            pass_moments(pace == Pace::strolling ? 200 : any_below(64) != 0 ? 20 : 2000);
+        }
         inside_.fetch_sub(1, std::memory_order_relaxed);
     }
 

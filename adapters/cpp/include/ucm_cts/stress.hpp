@@ -97,9 +97,10 @@ class Stress : public std::enable_shared_from_this<Stress> {
         }
         stage_->overlaps = 0;
         auto left = std::chrono::duration_cast<std::chrono::microseconds>(duration);
-        while (left.count() > 0 && !references_.empty()) {
+        static const Pace paces[] = {Pace::hurried, Pace::lingering, Pace::strolling, Pace::lingering};
+        for (std::size_t number = 0; left.count() > 0 && !references_.empty(); ++number) {
             const auto turn = std::min(left, std::chrono::microseconds(2000));
-            stage_->stress = stage_->stress == Pace::hurried ? Pace::strolling : Pace::hurried;
+            stage_->stress = paces[number % 4];
             take_turn(Turn::references, turn);
             take_turn(Turn::control, turn / 4);
             left -= turn;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "lwucm/errors.hpp"
+#include "parts.hpp"
 
 namespace lwucm {
 
@@ -26,7 +27,7 @@ Execution::Execution(componentId id, std::shared_ptr<const Implementation> imple
 Execution::~Execution() { close(); }
 
 void Execution::make_guards(ComponentObject& body) {
-    const auto monitor = std::make_shared<Monitor>();
+    const std::shared_ptr<Monitor> monitor = Parts::monitor();
     const Options::Executor chosen = platform_.options.executor;
     if (chosen == Options::Executor::component ||
         (chosen == Options::Executor::caller && demands_.protection == Protection::active)) {
@@ -45,7 +46,7 @@ void Execution::make_guards(ComponentObject& body) {
         if (!component) {
             throw UCM_ERROR("the component gives no " + SELF_EXECUTION_API);
         }
-        self_execution_.reset(new SelfExecution(std::move(component), guard_));
+        self_execution_ = Parts::self_execution(std::move(component), guard_);
     }
 }
 

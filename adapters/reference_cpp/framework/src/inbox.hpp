@@ -22,24 +22,24 @@ class Inbox {
   public:
     /// What leaves `deliver` as an exception is nobody's.
     Inbox(std::function<void(const Bytes&)> deliver, const Options& options);
-    ~Inbox();
+    virtual ~Inbox();
     Inbox(const Inbox&) = delete;
     Inbox& operator=(const Inbox&) = delete;
 
     /// False if it is not open and that shall be an error. Waits while the inbox is full, unless somebody may be
     /// waiting for the caller: receivers that send to each other would wait in a circle.
-    bool put(const Message& message);
+    virtual bool put(const Message& message);
 
     void open();
 
     /// Delivers nothing more, but what is to be delivered at the end; what is being delivered goes on.
-    void shut();
+    virtual void shut();
 
     /// Waits until nothing is being delivered. The inbox has been shut.
-    void await_delivery();
+    virtual void await_delivery();
 
     /// Ends the thread and forgets all messages. Nothing is being delivered.
-    void end();
+    virtual void end();
 
   private:
     void work();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "message_connector.hpp"
+#include "parts.hpp"
 #include "service_connector.hpp"
 
 namespace lwucm {
@@ -11,7 +12,7 @@ const char* const SIMPLE_SERVICE_CONNECTOR = "simple_service_connector";
 const char* const SIMPLE_MESSAGE_CONNECTOR = "simple_message_connector";
 
 std::shared_ptr<Runtime> create_runtime(const Repository& repository, const Options& options) {
-    return std::make_shared<ManagerImpl>(std::make_shared<Shared>(repository, options));
+    return Parts::runtime(std::make_shared<Shared>(repository, options));
 }
 
 ManagerImpl::ManagerImpl(std::shared_ptr<Shared> shared) : ContainerImpl(std::move(shared)) {}

@@ -10,7 +10,7 @@
 
 namespace lwucm {
 
-class ManagerImpl final : public ContainerImpl, public Runtime {
+class ManagerImpl : public ContainerImpl, public Runtime {
   public:
     explicit ManagerImpl(std::shared_ptr<Shared> shared);
 

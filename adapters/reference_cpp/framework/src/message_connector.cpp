@@ -5,6 +5,7 @@
 
 #include "door.hpp"
 #include "instance.hpp"
+#include "parts.hpp"
 
 namespace lwucm {
 
@@ -85,16 +86,16 @@ class MessageConnector::LaterReceiver final : public Receiver {
     LaterReceiver(Instance& instance, const std::string& port, std::shared_ptr<DynamicPortElement> element,
                   const Options& options)
         : Receiver(instance, port, std::move(element)),
-          inbox_([this](const Bytes& message) { deliver(message); }, options) {}
+          inbox_(Parts::inbox([this](const Bytes& message) { deliver(message); }, options)) {}
 
-    bool take(const Message& message) override { return inbox_.put(message); }
-    void started() override { inbox_.open(); }
-    void stopping() override { inbox_.shut(); }
-    void await_calls() override { inbox_.await_delivery(); }
-    void left() override { inbox_.end(); }
+    bool take(const Message& message) override { return inbox_->put(message); }
+    void started() override { inbox_->open(); }
+    void stopping() override { inbox_->shut(); }
+    void await_calls() override { inbox_->await_delivery(); }
+    void left() override { inbox_->end(); }
 
   private:
-    Inbox inbox_;
+    const std::unique_ptr<Inbox> inbox_;
 };
 
 /// Gets messages on the emitter's thread, before push returns.

@@ -12,18 +12,19 @@
 namespace lwucm {
 
 /// Chains enter in the order in which they came, so that each gets its turn; the one inside may enter again.
-class Monitor final : public Guard {
+class Monitor : public Guard {
   public:
     void call(const std::function<void()>& code) override;
 
     /// Is the calling thread's chain inside?
-    bool is_inside();
+    virtual bool is_inside();
+
+  protected:
+    virtual void enter();
+    virtual void leave();
 
   private:
     class Visit;
-
-    void enter();
-    void leave();
 
     std::mutex mutex_;
     std::condition_variable left_;

@@ -16,16 +16,16 @@ namespace lwucm {
 class SelfExecution {
   public:
     SelfExecution(std::shared_ptr<component_execution_intf> component, std::shared_ptr<Guard> guard);
-    ~SelfExecution();
+    virtual ~SelfExecution();
     SelfExecution(const SelfExecution&) = delete;
     SelfExecution& operator=(const SelfExecution&) = delete;
 
-    void begin();
+    virtual void begin();
 
     /// Waits for the run() that is under way.
-    void end();
+    virtual void end();
 
-  private:
+  protected:
     void work();
 
     const std::shared_ptr<component_execution_intf> component_;

@@ -25,6 +25,9 @@ class Runtime : public virtual ContainerManager {
     virtual std::vector<LogRecord> trace_records() = 0;
 };
 
+/// Who this is.
+const char* product();
+
 /// A new, empty, independent runtime that can instantiate what `repository` holds now.
 std::shared_ptr<Runtime> create_runtime(const Repository& repository, const Options& options = Options());
 

@@ -1,0 +1,87 @@
+// Where native mutants are registered: frameworks derived from the C++ reference framework, each with one defect.
+#ifndef DERIVED_CPP_REGISTRY_HPP
+#define DERIVED_CPP_REGISTRY_HPP
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "manager_impl.hpp"
+#include "parts.hpp"
+
+namespace derived {
+
+/// What a mutant is made of; a part that it does not name is the framework's own.
+struct Mutant {
+    std::vector<std::string> requirements;  // each must fail; of a rare defect, one of them
+    std::vector<std::string> also;          // broken by the same defect, but perhaps not seen in each run
+    bool is_rare = false;                   // so rare that a run shows it in one place or another
+    std::vector<std::string> clauses;       // whose test purposes are to find it out
+    std::string lie;                        // what it does wrong
+    std::map<std::string, std::string> readings;  // what its vendor declares beside what is stated of the framework
+    std::function<std::shared_ptr<lwucm::Runtime>(std::shared_ptr<lwucm::Shared>)> runtime;
+    std::function<std::shared_ptr<lwucm::Monitor>()> monitor;
+    std::function<std::unique_ptr<lwucm::SelfExecution>(std::shared_ptr<lwucm::component_execution_intf>,
+                                                        std::shared_ptr<lwucm::Guard>)>
+        self_execution;
+    std::function<std::unique_ptr<lwucm::Inbox>(std::function<void(const lwucm::Bytes&)>, const lwucm::Options&)> inbox;
+};
+
+/// All mutants by name.
+std::map<std::string, Mutant>& mutants();
+
+template <class Own>
+void set_part(Mutant& mutant, const lwucm::Monitor*) {
+    mutant.clauses = {"10.1.3"};
+    mutant.monitor = [] { return std::make_shared<Own>(); };
+}
+
+template <class Own>
+void set_part(Mutant& mutant, const lwucm::SelfExecution*) {
+    mutant.clauses = {"10.1.3"};
+    mutant.self_execution = [](std::shared_ptr<lwucm::component_execution_intf> component,
+                               std::shared_ptr<lwucm::Guard> guard) {
+        return std::unique_ptr<lwucm::SelfExecution>(new Own(std::move(component), std::move(guard)));
+    };
+}
+
+template <class Own>
+void set_part(Mutant& mutant, const lwucm::Inbox*) {
+    mutant.clauses = {"10.1.2", "10.1.6"};
+    mutant.inbox = [](std::function<void(const lwucm::Bytes&)> deliver, const lwucm::Options& options) {
+        return std::unique_ptr<lwucm::Inbox>(new Own(std::move(deliver), options));
+    };
+}
+
+template <class Own>
+void set_part(Mutant& mutant, const lwucm::ManagerImpl*) {
+    mutant.clauses = {"11", "12.10"};
+    mutant.runtime = [](std::shared_ptr<lwucm::Shared> shared) { return std::make_shared<Own>(std::move(shared)); };
+}
+
+/// Registers a mutant whose part `Own`, a class derived from the framework's, is wrong.
+template <class Own>
+bool breaks(const std::string& name, std::vector<std::string> requirements, const std::string& lie,
+            std::vector<std::string> also = {}, std::map<std::string, std::string> readings = {}) {
+    Mutant& mutant = mutants()[name];
+    mutant.requirements = std::move(requirements);
+    mutant.also = std::move(also);
+    mutant.lie = lie;
+    mutant.readings = std::move(readings);
+    set_part<Own>(mutant, static_cast<const Own*>(nullptr));
+    return true;
+}
+
+/// The same of one whose defect a run is to show in one of several places.
+template <class Own>
+bool breaks_rarely(const std::string& name, std::vector<std::string> requirements, const std::string& lie) {
+    mutants()[name].is_rare = true;
+    return breaks<Own>(name, std::move(requirements), lie);
+}
+
+}  // namespace derived
+
+#endif
