@@ -54,7 +54,7 @@ class starts_what_was_removed(Base):
             Failures().attempt(ghost.body.on_startup, [])
 
 
-@breaks("R-11.2.1.2-03", also=("R-11.1.3-01", "R-11.1.2-02"))
+@breaks("R-11.2.1.2-03", also=("R-11.1.3-01", "R-11.1.2-02", "R-11.2.3-10"))
 class mixes_references_up(Base):
     """Hands over the references of two port elements in reverse."""
 

@@ -89,7 +89,7 @@ class refuses_to_connect_across(Base):
         return super().connect(instance, port_name, to_port)
 
 
-@breaks("R-11.2.2.1-09", also=("R-11.2.1.3-06",))
+@breaks("R-11.2.2.1-09", also=("R-11.2.1.3-06", "R-11.2.2.1-08", "R-11.2.2.1-10", "R-11.2.3-08"))
 class same_id_for_connections(Base):
     """Every connection of a client gets the id of its first one."""
 
@@ -110,7 +110,7 @@ class refuses_to_disconnect(Base):
         super().disconnect(connection)
 
 
-@breaks("R-11.2.2.1-10")
+@breaks("R-11.2.2.1-10", also=("R-11.1.3-01", "R-11.2.3-10"))
 class hands_over_undone_connections(Base):
     """A reference that was disconnected is handed over beside the new one."""
 

@@ -17,6 +17,7 @@ from ucm_cts.harness.scenarios.scripts import TestPurpose, load_scripts, to_scen
 from ucm_cts.harness.scenarios.services import service_purposes
 from ucm_cts.harness.scenarios.stress import stress_purposes
 from ucm_cts.harness.scenarios.systematic import systematic_purposes
+from ucm_cts.harness.scenarios.unforeseen import unforeseen_purposes
 
 PROFILES = ("container", "core")
 """What a run can choose: profiles that are complete."""
@@ -74,7 +75,7 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
         if script.exercises[0] in clauses
     ]
     combined = [purpose for source in _CORE for purpose in source()] if "core" in PARTS[profile] else []
-    return (*scripted, *generated_purposes(load_life_cycle()), *combined)
+    return (*scripted, *generated_purposes(load_life_cycle()), *unforeseen_purposes(), *combined)
 
 
 def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:
