@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.scenarios.scripts import TestPurpose
 from ucm_cts.harness.systematic.derivation import derive
+from ucm_cts.harness.systematic.identification import told_apart
 from ucm_cts.harness.systematic.machine import Machine
 from ucm_cts.harness.systematic.settings import Setting, across, below, one, relays, two
 from ucm_cts.harness.systematic.suites import Suite, hsi, tour
@@ -39,7 +40,7 @@ def _purposes(readings: tuple[tuple[str, str], ...], extra: int) -> tuple[TestPu
 
 def _all(readings: Mapping[str, str], extra: int) -> Iterator[TestPurpose]:
     for setting in (build() for build in IDENTIFIED):
-        machine = derive(load_life_cycle(), setting, readings)
+        machine = told_apart(derive(load_life_cycle(), setting, readings))
         text = f"Every transition of {setting.text}, and every state identified, with {extra} extra states (HSI)."
         yield _purpose(setting, machine, hsi(machine, extra), text)
     if extra:

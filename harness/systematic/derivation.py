@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
 from collections import deque
 from collections.abc import Mapping
 
-import msgspec
-
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.harness.systematic.machine import LISTS, Machine, Move, Observation, Permitted
+from ucm_cts.harness.systematic.machine import Machine, Move, Permitted
+from ucm_cts.harness.systematic.permission import Permission
 from ucm_cts.harness.systematic.settings import Input, Setting
 from ucm_cts.reference_models.claims import Claims
-from ucm_cts.reference_models.duties import Listener, pattern
-from ucm_cts.reference_models.life_cycle import LifeCycleTable, Outcome, Row
+from ucm_cts.reference_models.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.prediction import Prediction, Way
-from ucm_cts.reference_models.runtime import Member, Runtime, Window
-from ucm_cts.reference_models.situations import Situations, undone_by
+from ucm_cts.reference_models.runtime import Runtime, Window
 
 State = tuple[object, ...]
 """What of a runtime decides its further behaviour: phases, members, connections."""
@@ -32,25 +28,11 @@ def derive(table: LifeCycleTable, setting: Setting, readings: Mapping[str, str])
     return _Derivation(table, Claims(readings), setting).machine()
 
 
-def _declared(table: LifeCycleTable, claims: Claims) -> LifeCycleTable:
-    """The table without what the vendor has ruled out."""
-
-    def fits(outcome: Outcome) -> bool:
-        option, _, value = outcome.reading.partition("=")
-        return not option or claims.permits(option, value)
-
-    def reduced(row: Row) -> Row:
-        outcomes = tuple(filter(fits, row.outcomes))
-        return msgspec.structs.replace(row, outcomes=outcomes or row.outcomes)
-
-    return msgspec.structs.replace(table, rows=tuple(map(reduced, table.rows)))
-
-
 class _Derivation:
     def __init__(self, table: LifeCycleTable, claims: Claims, setting: Setting) -> None:
         self.setting = setting
-        self.first = Prediction(_declared(table, claims), dict(setting.components))
-        self.undeclared = Situations(table)
+        self.first = Prediction(table, dict(setting.components))
+        self.permission = Permission(table, claims)
         self.outputs: dict[Permitted, int] = {}
 
     def machine(self) -> Machine:
@@ -69,24 +51,28 @@ class _Derivation:
                 after = self.after(now, state, asked, window) if is_defined(now, window) else None
                 if after is None:
                     continue
-                reached, then = after
+                reached, then, way = after
                 if reached not in numbers:
                     numbers[reached] = len(numbers)
                     waiting.append((reached, then))
-                if _reaches_below(window):  # where the judge lets nobody be bound by what is declared
-                    window = self.undeclared.open(now.runtime, 0, asked.step)
-                output = self.outputs.setdefault(permitted(now.runtime, window), len(self.outputs))
-                moves[-1][number] = Move(numbers[reached], output)
+                permitted = self.permitted(now.runtime, window, way)
+                moves[-1][number] = Move(numbers[reached], self.outputs.setdefault(permitted, len(self.outputs)))
         return Machine(tuple(i.name for i in self.setting.inputs), tuple(self.outputs), tuple(moves))
 
-    def after(self, now: Prediction, state: State, asked: Input, window: Window) -> tuple[State, Prediction] | None:
-        """The one known state that ``asked`` leads to, and the model in that state; None unless there is just one."""
-        reached: dict[State, Prediction] = {}
+    def after(
+        self, now: Prediction, state: State, asked: Input, window: Window
+    ) -> tuple[State, Prediction, Way] | None:
+        """The one known state that ``asked`` leads to, the model in that state, and a way there; None unless there is
+        just one.
+        """
+        reached: dict[State, tuple[Prediction, Way]] = {}
         for way in now.ways(window):
+            if not self.permission.permits(now.runtime, window, way):
+                continue
             if window.forgiving and way.answer == "UCM_ERROR":
                 return None  # perhaps for a reason that the table does not know: the judge loses track
             if _changes_nothing(asked.step, way):
-                reached.setdefault(state, now)
+                reached.setdefault(state, (now, way))
                 continue
             then = now.fork()
             then.carry_out(asked.step, way)
@@ -97,8 +83,17 @@ class _Derivation:
                 continue
             for step in asked.follow if way.answer == "return" else ():
                 then.perform(step)
-            reached[after] = then
-        return next(iter(reached.items())) if len(reached) == 1 else None
+            reached[after] = then, way
+        if len(reached) != 1:
+            return None
+        [(after, (then, way))] = reached.items()
+        return after, then, way
+
+    def permitted(self, runtime: Runtime, window: Window, usual: Way) -> Permitted:
+        """What may be seen of the operation that is about to begin, of the ``usual`` way first."""
+        ways = (usual, *self.permission.ways(runtime, window))
+        seen = dict.fromkeys(o for way in ways for o in self.permission.seen(runtime, window, way))
+        return Permitted(tuple(seen), window.forgiving)
 
 
 def _named(runtime: Runtime, asked: Input) -> Input:
@@ -126,12 +121,6 @@ def is_defined(now: Prediction, window: Window) -> bool:
         if container is not None and not container.removed:
             return False
     return window.judged
-
-
-def _reaches_below(window: Window) -> bool:
-    """A start or stop of the manager, while there are members in sub-containers."""
-    below = any(member is not None and member.container is not window.container for member, _ in window.roles)
-    return below and window.operation in ("start", "stop")
 
 
 def _changes_nothing(step: s.ContainerCall, way: Way) -> bool:
@@ -162,44 +151,3 @@ def state_of(runtime: Runtime) -> State | None:
         tuple(sorted((m.name, m.operational) for m in members)),
         tuple(sorted((c.name, c.provider.name if c.provider else "") for c in connections if c.live)),
     )
-
-
-def permitted(runtime: Runtime, window: Window) -> Permitted:
-    """What may be seen of the operation that is about to begin."""
-    seen: dict[Observation, None] = {}
-    answers = dict.fromkeys(a for _, row in window.roles for o in row.outcomes for a in o.answer)
-    for answer in answers:
-        roles = [_heard(window, member, row, answer) for member, row in window.roles]
-        for heard in itertools.product(*roles):
-            told = sorted((name, hooks) for name, hooks in heard if hooks)
-            for shown in _shown(runtime, window, answer):
-                seen.setdefault(Observation(shown, tuple(told)))
-    return Permitted(tuple(seen), window.forgiving)
-
-
-def _shown(runtime: Runtime, window: Window, answer: str) -> list[str]:
-    """The answer with what comes with it: who is listed."""
-    if answer != "return" or not isinstance(window.step, s.GetComponents):
-        return [answer]
-    own = sorted(m.name for m in window.container.live_members())
-    listings = [own]
-    if window.container.name == s.MANAGER:
-        listings.append(sorted(m.name for c in runtime.containers.values() for m in c.live_members()))
-    return list(dict.fromkeys(" ".join((LISTS, *listing)) for listing in listings))
-
-
-def _heard(window: Window, member: Member | None, row: Row, answer: str) -> list[tuple[str, tuple[str, ...]]]:
-    """The instance, with each sequence of callbacks that its row permits together with ``answer``."""
-    name, declaration = "", s.Declaration()
-    if member is not None:
-        name, declaration = member.name, member.declaration
-    elif isinstance(window.step, s.AddComponent):
-        name = window.step.bind or window.step.component
-    listener = Listener(declaration.connectable, declaration.fragment, len(undone_by(window, member)) if member else 0)
-    sequences: dict[tuple[str, ...], None] = {}
-    for outcome in row.outcomes:
-        if answer in outcome.answer:
-            tokens = pattern(outcome, listener)
-            for kept in itertools.product(*((True, False) if optional else (True,) for _, optional in tokens)):
-                sequences.setdefault(tuple(hook for (hook, _), keep in zip(tokens, kept, strict=True) if keep))
-    return [(name, sequence) for sequence in sequences]

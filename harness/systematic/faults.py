@@ -165,12 +165,25 @@ class Subject:
                 if other != after:
                     yield Fault("extra state", {**changes, (number, asked): (other, usual)}, twins)
 
+    def drawn(self, kind: str, draw: random.Random) -> Fault:
+        """One output or transfer fault, drawn: first the transition, then what is wrong with it."""
+        while True:
+            (state, asked), (after, seen) = draw.choice(self._transitions)
+            if kind == "output":
+                return Fault(kind, {(state, asked): (after, draw.choice(tuple(self.wrong(state, asked))))})
+            if after not in self.machine.final:
+                other = draw.choice([lively for lively in self._lively if lively != after])
+                return Fault(kind, {(state, asked): (other, seen)})
+
+    @cached_property
+    def _transitions(self) -> tuple[tuple[Where, tuple[int, Observation]], ...]:
+        return tuple(self._usual.items())
+
     def two_faults(self, amount: int, seed: int) -> Iterator[Fault]:
         """So many machines with two output or transfer faults at different transitions, drawn."""
         draw = random.Random(seed)
-        kinds = [*self.output_faults()], [*self.transfer_faults()]
         while amount:
-            one, other = (draw.choice(draw.choice(kinds)) for _ in range(2))
+            one, other = (self.drawn(draw.choice(("output", "transfer")), draw) for _ in range(2))
             if one.changes.keys() != other.changes.keys():
                 yield Fault("two faults", {**one.changes, **other.changes})
                 amount -= 1

@@ -8,15 +8,51 @@ two different states of its own.
 from __future__ import annotations
 
 import itertools
+from collections import deque
 from collections.abc import Iterator, Sequence
 
-from ucm_cts.harness.systematic.machine import Machine, Word
+from ucm_cts.harness.systematic.machine import Machine, Move, Word
 
 Pair = tuple[int, int]
 
 
 class NotReduced(Exception):
-    """Two states of the machine cannot be told apart: it has no suite that could identify them."""
+    """States of the machine cannot be told apart: it has no suite that could identify them. ``pairs`` are these."""
+
+    def __init__(self, machine: Machine, pairs: Sequence[Pair]) -> None:
+        one, other = (" ".join(machine.inputs[i] for i in machine.cover[state]) for state in pairs[0])
+        super().__init__(f"nothing tells the states after '{one}' and after '{other}' apart")
+        self.pairs = tuple(pairs)
+
+
+def told_apart(machine: Machine) -> Machine:
+    """The machine as far as its states can be told apart: of two that cannot, nothing more is asked in the one in which
+    less can be asked, so that it need not be identified. Transitions lead there as before.
+    """
+    while True:
+        try:
+            separating_words(machine)
+        except NotReduced as problem:
+            states = {state for pair in problem.pairs for state in pair} - {0}
+            machine = _without(machine, min(states, key=lambda state: (len(machine.moves[state]), -state)))
+        else:
+            return machine
+
+
+def _without(machine: Machine, last: int) -> Machine:
+    """Nothing is asked in state ``last``. States that are reached no other way are left out."""
+    numbers = {0: 0}
+    moves: list[dict[int, Move]] = []
+    waiting = deque([0])
+    while waiting:
+        state = waiting.popleft()
+        moves.append({})
+        for asked, move in machine.moves[state].items() if state != last else ():
+            if move.next not in numbers:
+                numbers[move.next] = len(numbers)
+                waiting.append(move.next)
+            moves[-1][asked] = Move(numbers[move.next], move.output)
+    return Machine(machine.inputs, machine.outputs, tuple(moves))
 
 
 def separating_words(machine: Machine) -> dict[Pair, Word]:
@@ -27,8 +63,7 @@ def separating_words(machine: Machine) -> dict[Pair, Word]:
     while open_pairs:
         found = {pair: word for pair in open_pairs if (word := _longer(machine, pair, words)) is not None}
         if not found:
-            one, other = (" ".join(machine.inputs[i] for i in machine.cover[state]) for state in open_pairs[0])
-            raise NotReduced(f"nothing tells the states after '{one}' and after '{other}' apart")
+            raise NotReduced(machine, open_pairs)
         words |= found
         open_pairs = [pair for pair in open_pairs if pair not in found]
     return words
