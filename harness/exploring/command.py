@@ -6,6 +6,7 @@ import random
 import re
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -43,22 +44,41 @@ FOR_INCIDENTS = 0.5
 _UNITS = {"s": 1, "m": 60, "h": 3600}
 
 
-class Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 8.2
-    """A time like 60s, 5m or 2h, in seconds."""
+@dataclass(frozen=True)
+class Budget:
+    """So many seconds, or so many scenarios."""
 
-    name = "time"
+    amount: float
+    is_time: bool = True
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        match = re.fullmatch(r"(\d{1,6}(?:\.\d{1,3})?)([smh])", str(value))
-        if match is None or not float(match[1]):
-            self.fail(f"'{value}' is no budget; write a number of seconds, minutes or hours: 60s, 5m, 2h.", param, ctx)
-        return float(match[1]) * _UNITS[match[2]]
+    def spent(self, far: HowFar, seconds: float) -> float:
+        """How much of it is gone."""
+        return seconds if self.is_time else far.scenarios
+
+
+class _Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 8.2
+    """A budget as people write it."""
+
+    name = "budget"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Budget:
+        match = re.fullmatch(r"(\d{1,9})(s|m|h|scenarios)|(\d{1,6}\.\d{1,3})(s|m|h)", str(value))
+        if match is None or not float(match[1] or match[3]):
+            self.fail(
+                f"'{value}' is no budget; write a time or a number of scenarios: 60s, 5m, 2h, 500scenarios.", param, ctx
+            )
+        amount, unit = float(match[1] or match[3]), match[2] or match[4]
+        return Budget(amount * _UNITS[unit]) if unit in _UNITS else Budget(amount, is_time=False)
 
 
 @click.command()
 @adapter_argument
 @click.option(
-    "--budget", type=Budget(), default="60s", show_default=True, help="How long to draw scenarios: 60s, 5m, 2h."
+    "--budget",
+    type=_Budget(),
+    default="60s",
+    show_default=True,
+    help="How long to draw scenarios, or how many: 60s, 5m, 2h, 500scenarios.",
 )
 @profile_option
 @seed_option
@@ -77,7 +97,7 @@ class Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 8
 @timeout_option
 def explore(
     adapter: str,
-    budget: float,
+    budget: Budget,
     profile: str,
     seed: int | None,
     out: Path,
@@ -94,7 +114,8 @@ def explore(
     console = Output()
     statement = stated_by(ics, adapter)
     drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
-    limits = Limits(timeout, incident_seconds=FOR_INCIDENTS * budget)
+    incident_seconds = FOR_INCIDENTS * budget.amount if budget.is_time else Limits.incident_seconds
+    limits = Limits(timeout, incident_seconds=incident_seconds)
     with ends_like_interrupts(), Driver(locate(adapter, in_process), drawn, limits) as driver:
         identity = driver.identity
         check_subject(statement, identity, profile)
@@ -121,21 +142,24 @@ def explore(
 
 
 def _explore(
-    exploration: Exploration, memory: Memory, budget: float, console: Output
+    exploration: Exploration, memory: Memory, budget: Budget, console: Output
 ) -> tuple[list[Replayed], HowFar, bool]:
     """What is still there, how far it came, and whether it was interrupted."""
     known: list[Replayed] = []
     far = HowFar(0, 0, 0, 0, 0)
     with _progress(console) as progress:
-        task = progress.add_task("trying what is remembered", total=budget)
+        task = progress.add_task("trying what is remembered", total=budget.amount)
         try:
             known = exploration.replay()
             if known or memory.unreadable:
                 console.print(known_text(known, memory.unreadable))
             began = time.monotonic()
-            for far in exploration.explore(lambda: time.monotonic() - began > budget):
-                _show(progress, task, far, time.monotonic() - began)
-            progress.update(task, description="looking for the shortest scenarios", completed=budget)
+            for far in exploration.explore():
+                spent = budget.spent(far, time.monotonic() - began)
+                _show(progress, task, far, spent)
+                if spent >= budget.amount:
+                    break
+            progress.update(task, description="looking for the shortest scenarios", completed=budget.amount)
             exploration.finish()
         except KeyboardInterrupt:
             return known, far, True
@@ -147,11 +171,11 @@ def _progress(console: Output) -> Progress:
     return Progress(*columns, console=console, transient=True)
 
 
-def _show(progress: Progress, task: TaskID, far: HowFar, seconds: float) -> None:
+def _show(progress: Progress, task: TaskID, far: HowFar, spent: float) -> None:
     told = (
         f"{far.scenarios} scenarios, {far.rows} of {far.of} rows, {far.events} pairs of events, {far.failures} failures"
     )
-    progress.update(task, description=told, completed=seconds)
+    progress.update(task, description=told, completed=spent)
 
 
 def _remember(report: Report, memory: Memory) -> None:

@@ -7,7 +7,7 @@ order not seen before is changed and becomes a candidate again.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
@@ -96,8 +96,8 @@ class Exploration:
             self._memory.forget(one.identity)
         return [Replayed(one, one not in missing) for one in remembered]
 
-    def explore(self, is_over: Callable[[], bool]) -> Iterator[Progress]:
-        """Draw and run scenarios until it ``is_over``; yields after each. Ends by itself if nothing more can be tried."""
+    def explore(self) -> Iterator[Progress]:
+        """Draw and run scenarios; yields after each. Ends by itself only if nothing more can be tried."""
         in_vain = 0
         for checked in self._check(self._purposes()):
             self._run += 1
@@ -106,7 +106,7 @@ class Exploration:
             )
             kinds = {execution.incident.kind for _, execution in checked.failures if execution.incident}
             in_vain = in_vain + 1 if "untried" in kinds else 0
-            if is_over() or in_vain >= IN_VAIN or "unreachable" in kinds:
+            if in_vain >= IN_VAIN or "unreachable" in kinds:
                 return
 
     def finish(self) -> None:
