@@ -42,6 +42,10 @@ CALL_EXCLUSIONS = tuple(requirement for requirement in EXCLUSIONS if requirement
 _PROMISES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
 
 
+Caller = Literal["test", "body", "nobody"]
+"""Who made a call that led to an entry, if anybody did."""
+
+
 class BusinessCall:
     """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
 
@@ -50,19 +54,11 @@ class BusinessCall:
     called; ``possible`` says that all who could be called were operational when the call was made.
     """
 
-    __slots__ = (
-        "callee",
-        "caller",
-        "caller_hook",
-        "entries",
-        "n",
-        "port",
-        "possible",
-        "request",
-        "step",
-        "value",
-        "waited",
-    )
+    callee: Member | None = None
+    port: str | None = None
+    possible = False
+    caller: Execution | None = None
+    waited = False
 
     def __init__(
         self, value: int, n: int, request: Request | None = None, step: s.Invoke | None = None, caller_hook: str = ""
@@ -72,12 +68,8 @@ class BusinessCall:
         self.request = request
         self.step = step
         self.caller_hook = caller_hook
+        self.by: Caller = "body" if step is None else "test"
         self.entries: list[tuple[Enter, Exit | None]] = []
-        self.callee: Member | None = None
-        self.port: str | None = None
-        self.possible = False
-        self.caller: Execution | None = None
-        self.waited = False
 
     @property
     def worker(self) -> str | None:
@@ -89,13 +81,14 @@ class BusinessCall:
 
     def look(self, runtime: Runtime) -> None:
         """Note who is called, and whether a call is possible."""
+        request = self.request
         if self.step is not None:
             _, self.callee = runtime.reference(self.step.ref)
             self.port = runtime.ports.get(self.step.ref)
             self.possible = self.callee is not None and self.callee.serving
-        else:
+        elif request is not None:
             self.possible = True
-            for provider in providers_of(runtime, self):
+            for provider in behind(runtime, request.component, request.instance, request.port).providers:
                 if provider.closing or provider.suspended or not provider.operational:
                     self.possible = False
                     break

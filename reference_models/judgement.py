@@ -48,7 +48,7 @@ from ucm_cts.reference_models import (
 from ucm_cts.reference_models.adoption import adopt
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.duties import Duties
-from ucm_cts.reference_models.executions import BusinessCall, Executions
+from ucm_cts.reference_models.executions import BusinessCall, Caller, Executions
 from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.interactions import Interactions
 from ucm_cts.reference_models.ledger import Ledger, Where, checks
@@ -82,6 +82,7 @@ Check = Callable[..., None]
 _BUSINESS = frozenset(("exchange", "run", "method"))
 """Where bodies are entered that is no callback."""
 
+_NOTHING_HAPPENS = frozenset((Timeout, Settled))
 _CONTAINER_CALLS = frozenset(get_args(s.ContainerCall))
 _CONNECTOR_CALLS = frozenset(get_args(s.ConnectorCall))
 
@@ -92,7 +93,9 @@ class Watch:
     def __init__(self, followed: frozenset[Where]) -> None:
         self.ended = {op: checks("ended", op, followed) for op in rules_operations.DECLARED}
         self.entered = {hook: checks("entered", hook, followed) for hook in get_args(s.Hook)}
-        self.called = checks("called", "exchange", followed)
+        self.called: dict[Caller, tuple[Check, ...]] = {
+            who: checks("called", who, followed) for who in get_args(Caller)
+        }
         self.answered = checks("answered", "exchange", followed)
         self.replied = checks("replied", "exchange", followed)
         self.noted = checks("noted", "siblings", followed)
@@ -128,10 +131,9 @@ class Judge:
         reading = _Reading(self, watch, scenario, followed)
         interactions = reading.interactions
         for event in trace:
-            kind = type(event)
-            if _TAKE[kind](reading, event):
+            if _TAKE[type(event)](reading, event):
                 break
-            if interactions is not None and kind is not Timeout and kind is not Settled:
+            if interactions is not None and type(event) not in _NOTHING_HAPPENS:
                 interactions.latest = event.t
         reading.close()
         return reading.ledger
@@ -293,6 +295,9 @@ class _Reading:
         thread = self.threads.get(event.thread) or self.thread(event.thread)
         hook = event.hook
         thread.hooks.append(hook)
+        if hook == "exchange" and self.executions is None:
+            self.enter_plainly(thread, event)
+            return
         if hook in _BUSINESS:
             self.enter_business(thread, event)
             return
@@ -321,6 +326,24 @@ class _Reading:
             member.handed_over = tuple([c for c in member.connections if c.live is not False]) if known else None
         elif hook == "on_shutdown":
             member.closing = True
+
+    def enter_plainly(self, thread: _Thread, event: Enter) -> None:
+        """As ``enter_business``, where nobody has interfaces or policies."""
+        calls = thread.calls
+        call = calls[-1] if calls else None
+        if call is None or call.value != event.value:
+            call = self.call_behind(event, call)
+        body = event.component, event.instance
+        thread.served.append(call)
+        thread.inside.append(body)
+        if call is not None:
+            call.entries.append((event, None))
+        runtime = self.runtime
+        for check in self.watch.called[call.by if call is not None else "nobody"]:
+            check(self.ledger, runtime, self.window, event, call)
+        member = runtime.bodies.get(body)
+        if member is not None and member.operational:
+            member.served = True
 
     def enter_business(self, thread: _Thread, event: Enter) -> None:
         delivery = None
@@ -353,7 +376,7 @@ class _Reading:
             for check in self.watch.delivered:
                 check(ledger, runtime, delivery)
         else:
-            for check in self.watch.called:
+            for check in self.watch.called[call.by if call is not None else "nobody"]:
                 check(ledger, runtime, self.window, event, call)
         member = runtime.bodies.get(body)
         if member is not None and member.operational:

@@ -46,7 +46,7 @@ followed, because port elements have interfaces or components policies; where co
 class Rule:
     """A named check and the requirements it stands for; ``check`` takes what the judge offers at ``moment``.
 
-    ``at`` names the operations, or for ``entered`` the hooks, that it looks at; empty stands for all. What a ``timed`` rule
+    ``at`` names the operations, for ``entered`` the hooks, for ``called`` who called, that it looks at; empty stands for all. What a ``timed`` rule
     finds depends on how long something took, so that a machine that stood still may be to blame. With ``where`` it has
     nothing to look at in other scenarios than those in which that is followed.
     """
@@ -117,9 +117,11 @@ class Ledger:
         self.readings.setdefault(option, set()).add(value)
         return self.claims.permits(option, value)
 
-    def exercised(self, requirement: str) -> None:
-        """The requirement's condition really arose, and it was kept."""
-        self.exercises[requirement] = self.exercises.get(requirement, 0) + 1
+    def exercised(self, *requirements: str) -> None:
+        """The requirements' condition really arose, and they were kept."""
+        exercises = self.exercises
+        for requirement in requirements:
+            exercises[requirement] = exercises.get(requirement, 0) + 1
 
     def violated(
         self,

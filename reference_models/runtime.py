@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 NO_ID = 2**64
 """The id of a connection whose id nobody was told."""
 
-MOST_CONNECTIONS = 8
+MOST_CONNECTIONS = 4
 """So many connections of an instance are remembered one by one."""
 
 

@@ -1,7 +1,4 @@
-"""What a life-cycle scenario costs through each door, side by side in one run (``tox -e bench``).
-
-All figures are medians of several rounds taken in turn, so that a machine that slows down slows all of them down.
-"""
+"""What a life-cycle scenario costs through each door, beside the framework alone and what one would test it with instead."""
 
 from __future__ import annotations
 
@@ -15,7 +12,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from rich.console import Console
 from rich.table import Table
 
 from ucm_cts.adapters.contract import scenario as s
@@ -27,6 +23,8 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
 )
 from ucm_cts.adapters.reference_py.framework import ContainerManager
+from ucm_cts.harness.bench.alternatives import parametrised_test, state_machine
+from ucm_cts.harness.bench.measuring import ROUNDS, limit, medians, timed
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.hosting.host_watch import Limits
 from ucm_cts.harness.hosting.hosts import Hosts
@@ -37,8 +35,16 @@ from ucm_cts.harness.running.driver import Driver
 from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.reference_models.judgement import Judge
 
-ROUNDS = 7
 BATCH = 400
+
+DIRECT = "pybind11, in process"
+TRACED = "pybind11, in process, with trace"
+PIPELINED = "wire, pipelined"
+JUDGED = "wire, pipelined, with judge"
+STATE_MACHINE = "hypothesis' RuleBasedStateMachine, in process"
+PARAMETRISED = "one parametrised pytest test a case, in process"
+
+_ROUNDS_OF_ALTERNATIVES = 3
 
 _SERVER, _CLIENT = "server", "client"
 _PROVIDED, _REQUIRED = "in_api", "out_api"
@@ -66,66 +72,81 @@ LIFE_CYCLE = s.Scenario(
 _ECHO = "import os\nwhile True:\n    data = os.read(0, 65536)\n    if not data: break\n    os.write(1, data)\n"
 
 
-def main() -> None:
-    """Print the table of costs."""
+def tables() -> Iterator[Table]:
+    """What the doors cost, one table after the other."""
     module: Any = importlib.import_module("ucm_cts.adapters._reference_cpp")
-    console = Console()
-    console.print("measuring ...")
     cases: dict[str, Callable[[], float]] = {}
-    with Hosts(locate("reference-cpp")) as hosts:
+    with Hosts(locate("reference-cpp")) as hosts, Hosts(locate("reference-py")) as python:
         hosts.welcome  # noqa: B018 - starts the host outside the measurement
+        python.welcome  # noqa: B018
         cases["direct C++ loop"] = lambda: float(module.life_cycles(BATCH * 10)) / 1000
-        cases["pybind11, in process"] = lambda: _timed(lambda: _direct(module), BATCH)
-        cases["pybind11, in process, with trace"] = lambda: _timed(lambda: _traced(module.answer), BATCH)
-        cases["pybind11, in process, with trace and judge"] = lambda: _timed(lambda: _judged(module.answer), BATCH)
-        cases["wire, one at a time"] = lambda: _timed(lambda: _wire(hosts, 1, False), 1, BATCH)
-        cases["wire, pipelined"] = lambda: _timed(lambda: _wire(hosts, 32, False), 1, BATCH)
-        cases["wire, pipelined, with judge"] = lambda: _timed(lambda: _wire(hosts, 32, True), 1, BATCH)
-        costs = _medians(cases)
+        cases[DIRECT] = lambda: timed(lambda: _direct(module), BATCH)
+        cases[TRACED] = lambda: timed(lambda: _traced(module.answer), BATCH)
+        cases["pybind11, in process, with trace and judge"] = lambda: timed(lambda: _judged(module.answer), BATCH)
+        cases["wire, one at a time"] = lambda: timed(lambda: _wire(hosts, 1, False), 1, BATCH)
+        cases["wire, one at a time, with judge"] = lambda: timed(lambda: _wire(hosts, 1, True), 1, BATCH)
+        cases[PIPELINED] = lambda: timed(lambda: _wire(hosts, 32, False), 1, BATCH)
+        cases[JUDGED] = lambda: timed(lambda: _wire(hosts, 32, True), 1, BATCH)
+        cases["wire, pipelined, with judge, Python framework"] = lambda: timed(
+            lambda: _wire(python, 32, True), 1, BATCH
+        )
+        costs = medians(cases)
+    yield _life_cycle_table(costs)
+    others = {STATE_MACHINE: state_machine, PARAMETRISED: parametrised_test}
+    yield _alternatives_table(costs[JUDGED], medians(others, _ROUNDS_OF_ALTERNATIVES))
     with _pinned(), _raw_pipe() as ping, Hosts(locate("reference-cpp")) as hosts:
         hosts.welcome  # noqa: B018
-        calls = _medians(
+        calls = medians(
             {
-                "raw ping-pong": lambda: _timed(ping, BATCH),
-                "one call a message": lambda: _timed(lambda: _calls(hosts, ONE_CALL, BATCH), 1, BATCH),
+                "raw ping-pong": lambda: timed(ping, BATCH),
+                "one call a message": lambda: timed(lambda: _calls(hosts, ONE_CALL, BATCH), 1, BATCH),
             }
         )
     with Hosts(locate("reference-cpp")) as hosts:
         hosts.welcome  # noqa: B018
         many = BATCH // 8
-        calls |= _medians(
+        calls |= medians(
             {
-                "64 calls a message": lambda: _timed(lambda: _calls(hosts, MANY_CALLS, many, 8), 1, many * 64),
-                "direct Python call": lambda: _timed(_direct_python_calls, BATCH, 64),
+                "64 calls a message": lambda: timed(lambda: _calls(hosts, MANY_CALLS, many, 8), 1, many * 64),
+                "direct Python call": lambda: timed(_direct_python_calls, BATCH, 64),
             }
         )
+    yield _call_table(calls)
     restarts = {name: _restart(name) for name in ("reference-cpp", "reference-py")}
     whole = {name: _whole_run(name) for name in ("reference-cpp", "reference-py")}
-    console.print(_life_cycle_table(costs))
-    console.print(_call_table(calls))
     other = Table(title="Hosts and whole runs", title_justify="left")
     for column in ("", "reference-cpp", "reference-py", "limit"):
         other.add_column(column)
     other.add_row(
-        "fresh host after a crash, ms", *(f"{restarts[n]:.1f}" for n in restarts), _limit(10, *restarts.values())
+        "fresh host after a crash, ms", *(f"{restarts[n]:.1f}" for n in restarts), limit(10, *restarts.values())
     )
-    other.add_row("whole container run, s", *(f"{whole[n]:.2f}" for n in whole), _limit(10, *whole.values()))
-    console.print(other)
-
-
-def _limit(limit: float, *measured: float) -> str:
-    """The limit, and whether it is kept."""
-    return f"{limit:g} [green]✓[/]" if round(max(measured), 1) <= limit else f"{limit:g} [bold red]✗ missed[/]"
+    other.add_row("whole container run, s", *(f"{whole[n]:.2f}" for n in whole), limit(10, *whole.values()))
+    yield other
 
 
 def _life_cycle_table(costs: dict[str, float]) -> Table:
-    direct = costs["pybind11, in process"]
+    direct = costs[DIRECT]
     table = Table(title="One life-cycle scenario (10 operations)", title_justify="left")
-    for column in ("through", "µs", "× direct pybind11", "limit"):
+    for column in ("through", "µs", "× direct pybind11", "a second", "limit"):
         table.add_column(column, justify="left" if column == "through" else "right")
     for name, cost in costs.items():
-        limit = _limit(40, cost / direct) if name == "wire, pipelined, with judge" else ""
-        table.add_row(name, f"{cost:.1f}", f"{cost / direct:.1f}", limit)
+        aim = limit(40, cost / direct) if name == JUDGED else ""
+        table.add_row(name, f"{cost:.1f}", f"{cost / direct:.1f}", f"{1e6 / cost:,.0f}", aim)
+    isolation = costs[PIPELINED] - costs[TRACED]
+    table.add_section()
+    table.add_row(
+        "isolation: the wire, pipelined, less what is in process", f"{isolation:.1f}", "", "", limit(50, isolation)
+    )
+    return table
+
+
+def _alternatives_table(judged: float, costs: dict[str, float]) -> Table:
+    table = Table(title="Ten operations, tested in another way", title_justify="left")
+    for column in ("with", "µs", "× a judged scenario through the wire"):
+        table.add_column(column, justify="left" if column == "with" else "right")
+    table.add_row("this suite, in a process of its own", f"{judged:.1f}", "1")
+    for name, cost in costs.items():
+        table.add_row(name, f"{cost:.1f}", f"{cost / judged:.1f}")
     return table
 
 
@@ -136,27 +157,10 @@ def _call_table(calls: dict[str, float]) -> Table:
     ping, python = calls["raw ping-pong"], calls["direct Python call"]
     one, many = calls["one call a message"], calls["64 calls a message"]
     table.add_row("raw ping-pong of as many bytes", f"{ping:.1f}", "1", "")
-    table.add_row("one call a message, one at a time", f"{one:.1f}", f"{one / ping:.1f}", _limit(2, one / ping))
+    table.add_row("one call a message, one at a time", f"{one:.1f}", f"{one / ping:.1f}", limit(2, one / ping))
     table.add_row("direct call of the Python reference framework", f"{python:.2f}", "1", "")
-    table.add_row("64 calls a message", f"{many:.2f}", f"{many / python:.1f}", _limit(6, many / python))
+    table.add_row("64 calls a message", f"{many:.2f}", f"{many / python:.1f}", limit(6, many / python))
     return table
-
-
-def _medians(cases: dict[str, Callable[[], float]]) -> dict[str, float]:
-    taken: dict[str, list[float]] = {name: [] for name in cases}
-    for turn in range(ROUNDS + 1):
-        for name, measure in cases.items():
-            cost = measure()
-            if turn:  # the first round warms up
-                taken[name].append(cost)
-    return {name: statistics.median(costs) for name, costs in taken.items()}
-
-
-def _timed(action: Callable[[], object], times: int, each: int = 1) -> float:
-    began = time.perf_counter()
-    for _ in range(times):
-        action()
-    return (time.perf_counter() - began) / times / each * 1e6
 
 
 def _direct(module: Any) -> None:
@@ -279,7 +283,7 @@ def _restart(name: str) -> float:
         hosts.welcome  # noqa: B018
         for _ in range(ROUNDS):
             hosts.discard()
-            costs.append(_timed(lambda: _calls(hosts, ONE_CALL, 1), 1) / 1000)
+            costs.append(timed(lambda: _calls(hosts, ONE_CALL, 1), 1) / 1000)
     return statistics.median(costs)
 
 
@@ -291,7 +295,3 @@ def _whole_run(name: str) -> float:
             assert not checked.failures
         assert not any(isinstance(i.incident, Incident) for i in campaign.report().incidents)
     return time.perf_counter() - began
-
-
-if __name__ == "__main__":
-    main()

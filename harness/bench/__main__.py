@@ -1,0 +1,26 @@
+"""Print what testing costs: ``python -m ucm_cts.harness.bench``."""
+
+from __future__ import annotations
+
+from rich.console import Console
+
+from ucm_cts.harness.bench import doors, judging
+
+EVENTS = 1_000_000
+
+
+def main() -> None:
+    """Measure, and print each table when it is there. Memory is looked at first, while nothing else has taken any."""
+    console = Console()
+    with console.status("judging a million events ..."):
+        life = judging.of_a_long_life(EVENTS)
+    with console.status("judging the suite's own scenarios ..."):
+        own = [judging.of_the_suite(profile) for profile in ("container", "core")]
+    console.print(judging.table([life, *own]))
+    with console.status("going through the doors ..."):
+        for table in doors.tables():
+            console.print(table)
+
+
+if __name__ == "__main__":
+    main()

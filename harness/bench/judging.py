@@ -1,0 +1,219 @@
+"""What judging costs an event: on a life of a million events, read as a stream, and on the suite's own scenarios."""
+
+from __future__ import annotations
+
+import json
+import resource
+import tempfile
+import time
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+from rich.table import Table
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
+from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.adapters.python.engine import Engine
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.harness.bench.long_life import LongLife
+from ucm_cts.harness.bench.measuring import limit, medians
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.running.disguise import Disguise
+from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.scenarios.payloads import Payloads
+from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.reference_models.judgement import Judge
+
+CALLS = 100
+"""Calls of the test between two reconnections of the long life; the client passes each one on."""
+
+AIM = 5
+"""Judging takes at most so many times as long as decoding."""
+
+_BLOCK = 64 * 1024
+_ROUNDS = 3
+_TIMED = s.Pause | s.Stress | s.AwaitMessages
+
+_decoder = msgspec.json.Decoder(Event)
+_judge = Judge(load_life_cycle())
+
+
+@dataclass(frozen=True)
+class Costs:
+    """Nanoseconds an event: ``reading`` the bytes, decoding them (``plain`` by the standard library), judging and asking
+    whether the trace can be true, both without the decoding. ``grown`` is by how many MB memory grew, None if unknown.
+    """
+
+    what: str
+    events: int
+    reading: float
+    decoding: float
+    plain: float
+    believing: float
+    judging: float
+    grown: float | None = None
+
+
+def of_a_long_life(events: int) -> Costs:
+    """What it costs to judge one trace of so many events that comes as a stream."""
+    small = LongLife(2, CALLS)
+    life = LongLife(max(2, events // (len(LongLife(3, CALLS)) - len(small))), CALLS)
+    scenario = life.scenario()
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "trace.jsonl"
+        with path.open("wb") as file:
+            file.writelines(msgspec.json.encode(event) + b"\n" for event in life.events())
+
+        def judge() -> None:
+            assert not _judge.judge(scenario, _decoded(path)).findings
+
+        def believe() -> None:
+            assert contradiction(scenario, _decoded(path)) is None
+
+        before = _most_memory()
+        judge()
+        grown = _most_memory() - before
+        costs = _an_event(
+            len(life),
+            {
+                "reading": lambda: _read(path),
+                "decoding": lambda: _exhaust(map(_decoder.decode_lines, _blocks(path))),
+                "streaming": lambda: _exhaust(_decoded(path)),
+                "plain": lambda: _exhaust(map(json.loads, path.open("rb"))),
+                "believing": believe,
+                "judging": judge,
+            },
+        )
+    return _net(f"one life of {len(life):,} events", len(life), costs, grown)
+
+
+def of_the_suite(profile: str) -> Costs:
+    """What it costs to judge the traces of the profile's scenarios, but those in which time passes, one by one."""
+    answers = list(_answers(profile))
+    lines = [line for _, line in answers]
+    traced = [(scenario, _events(line), line) for scenario, line in answers]
+    events = sum(len(trace) for _, trace, _ in traced)
+    decoder = from_host_decoder()
+
+    def decode() -> None:
+        for line in lines:
+            decoder.decode(line)
+
+    def judge() -> None:
+        for scenario, trace, _ in traced:
+            _judge.judge(scenario, trace)
+
+    def believe() -> None:
+        for scenario, trace, _ in traced:
+            contradiction(scenario, trace)
+
+    costs = _an_event(
+        events,
+        {
+            "reading": lambda: [len(line.split(b"\n")) for line in lines],
+            "decoding": decode,
+            "plain": lambda: [json.loads(line) for line in lines],
+            "believing": believe,
+            "judging": judge,
+        },
+    )
+    return Costs(f"{profile}: {len(lines):,} traces", events, **costs)
+
+
+def table(rows: Iterable[Costs]) -> Table:
+    """The costs side by side; the aim is for the long life."""
+    shown = Table(title="Judging, ns an event", title_justify="left")
+    for column in (
+        "",
+        "reading bytes",
+        "json",
+        "msgspec",
+        "possible?",
+        "judge",
+        "× msgspec",
+        "limit",
+        "events/s",
+        "MB",
+    ):
+        shown.add_column(column, justify="right" if column else "left")
+    for row in rows:
+        ratio = row.judging / row.decoding
+        shown.add_row(
+            row.what,
+            f"{row.reading:.0f}",
+            f"{row.plain:.0f}",
+            f"{row.decoding:.0f}",
+            f"{row.believing:.0f}",
+            f"{row.judging:.0f}",
+            f"{ratio:.1f}",
+            limit(AIM, ratio) if row.grown is not None else "",
+            f"{1e9 / (row.decoding + row.judging):,.0f}",
+            f"+{row.grown:.0f}" if row.grown is not None else "",
+        )
+    return shown
+
+
+def _net(what: str, events: int, costs: dict[str, float], grown: float) -> Costs:
+    """Streams are read and decoded while they are judged: take that off."""
+    streaming = costs.pop("streaming")
+    for both in ("believing", "judging"):
+        costs[both] -= streaming
+    return Costs(what, events, **costs, grown=grown)
+
+
+def _an_event(events: int, cases: dict[str, Callable[[], object]]) -> dict[str, float]:
+    def nanoseconds(action: Callable[[], object]) -> float:
+        began = time.process_time()
+        action()
+        return (time.process_time() - began) / events * 1e9
+
+    return medians({name: lambda action=action: nanoseconds(action) for name, action in cases.items()}, _ROUNDS)  # type: ignore[misc]
+
+
+def _decoded(path: Path) -> Iterator[Event]:
+    """The events of a file, as a stream."""
+    for block in _blocks(path):
+        yield from _decoder.decode_lines(block)
+
+
+def _blocks(path: Path) -> Iterator[bytes]:
+    """The bytes of a file, whole lines."""
+    with path.open("rb") as file:
+        while block := b"".join(file.readlines(_BLOCK)):
+            yield block
+
+
+def _read(path: Path) -> None:
+    with path.open("rb", buffering=0) as file:
+        while file.read(_BLOCK):
+            pass
+
+
+def _exhaust(things: Iterable[object]) -> None:
+    for _ in things:
+        pass
+
+
+def _answers(profile: str) -> Iterator[tuple[s.Scenario, bytes]]:
+    engine = Engine(ReferenceAdapter)
+    disguise, payloads = Disguise(1, ReferenceAdapter.port_element_name), Payloads(1)
+    for purpose in load_purposes(profile):
+        for _, plain in purpose.draw(1, {}) if purpose.draw else purpose.scenarios:
+            if any(isinstance(step, _TIMED) or step.thread for step in plain.steps):
+                continue
+            scenario = disguise.scenario(payloads.deal(plain))
+            yield scenario, engine.answer(encode(Run(0, scenario)))
+
+
+def _events(line: bytes) -> tuple[Event, ...]:
+    reply = from_host_decoder().decode(line)
+    assert isinstance(reply, Traced)
+    return reply.events
+
+
+def _most_memory() -> float:
+    """The most memory that this process has ever had, in MB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
