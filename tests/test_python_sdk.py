@@ -25,7 +25,7 @@ from ucm_cts.adapters.contract.messages import (
 )
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject
 from ucm_cts.adapters.contract.scenario import SELF_EXECUTING, SELF_EXECUTION_API
-from ucm_cts.adapters.python import workers
+from ucm_cts.adapters.python import engine, workers
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.hosting.hosts import Hosts
@@ -268,6 +268,7 @@ def test_settle_finds_workers_that_are_held() -> None:
 
 def test_nobody_is_seen_to_be_blocked_where_the_operating_system_does_not_tell(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(workers, "_sleeps", lambda thread: None)
+    monkeypatch.setattr(engine, "SEAL", engine.sealed())
     assert "settled worker=w where=running" in play({}, BLOCKS, Waits, patience=50)
 
 

@@ -1,4 +1,5 @@
-"""Frameworks derived from the Python reference framework: ``MUTANTS`` are wrong, ``VARIANTS`` conformant.
+"""Frameworks derived from the Python reference framework: ``MUTANTS`` are wrong, ``VARIANTS`` conformant,
+and ``CHEATS`` are adapters that hide what is wrong.
 
 Each is a few lines put in front of the reference framework; the docstring says how it lies, or which freedom it uses.
 Every module of this package registers its own. ``ucm_cts.adapters.derived:NAME`` names the adapter of one.
@@ -10,11 +11,14 @@ import importlib
 import pkgutil
 
 from ucm_cts.adapters.derived.registry import (
+    CHEATS,
     CONTAINER,
     CORE,
     MUTANTS,
     POLICIES,
+    UNSEEN,
     VARIANTS,
+    Cheat,
     Mutant,
     Variant,
     mutants_of,
@@ -22,14 +26,27 @@ from ucm_cts.adapters.derived.registry import (
 )
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 
-__all__ = ["CONTAINER", "CORE", "MUTANTS", "POLICIES", "VARIANTS", "Mutant", "Variant", "mutants_of", "variants_of"]
+__all__ = [
+    "CHEATS",
+    "CONTAINER",
+    "CORE",
+    "MUTANTS",
+    "POLICIES",
+    "UNSEEN",
+    "VARIANTS",
+    "Cheat",
+    "Mutant",
+    "Variant",
+    "mutants_of",
+    "variants_of",
+]
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:
-    try:
-        return (MUTANTS[name] if name in MUTANTS else VARIANTS[name]).adapter
-    except KeyError:
-        raise AttributeError(name) from None
+    for known in (MUTANTS, VARIANTS, CHEATS, UNSEEN):
+        if name in known and (adapter := known[name].adapter) is not None:
+            return adapter
+    raise AttributeError(name)

@@ -49,8 +49,28 @@ class Variant:
     readings: Mapping[str, str] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
+class Cheat:
+    """An adapter that hides what a framework does. ``detected_by`` says what must come out, all of it: requirements that fail,
+    or kinds of incident; nothing if no observation can tell it from an honest adapter of a conformant framework.
+
+    ``door`` is how it is named on the command line. ``rehearsals`` are runs in which it learns, before it cheats.
+    """
+
+    name: str
+    door: str
+    lie: str
+    detected_by: tuple[str, ...]
+    clauses: tuple[str, ...] = CONTAINER
+    rehearsals: int = 0
+    adapter: type[ReferenceAdapter] | None = None
+
+
 MUTANTS: dict[str, Mutant] = {}
 VARIANTS: dict[str, Variant] = {}
+CHEATS: dict[str, Cheat] = {}
+UNSEEN: dict[str, Cheat] = {}
+"""Cheats that an auditor has to look for (docs/honesty.md)."""
 
 
 def mutants_of(clauses: tuple[str, ...]) -> dict[str, Mutant]:
@@ -102,6 +122,23 @@ def variant_of(*clauses: str, readings: Mapping[str, str] = {}) -> Callable[[typ
         assert name not in VARIANTS, name
         VARIANTS[name] = Variant(name, bind(name, mixin, mixin.__doc__), clauses, readings)
         return mixin
+
+    return register
+
+
+def cheats(
+    *detected_by: str, clauses: tuple[str, ...] = CONTAINER, rehearsals: int = 0
+) -> Callable[[type[ReferenceAdapter]], type[ReferenceAdapter]]:
+    """Register the decorated adapter as a cheat; without ``detected_by`` as one that no observation shows."""
+
+    def register(adapter: type[ReferenceAdapter]) -> type[ReferenceAdapter]:
+        name = adapter.__name__
+        lie = " ".join((adapter.__doc__ or "").split())
+        known = CHEATS if detected_by else UNSEEN
+        assert name not in {**CHEATS, **UNSEEN, **MUTANTS, **VARIANTS}, name
+        adapter.product = name
+        known[name] = Cheat(name, f"{__package__}:{name}", lie, detected_by, clauses, rehearsals, adapter)
+        return adapter
 
     return register
 

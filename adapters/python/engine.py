@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import sys
 import time
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -44,6 +45,7 @@ from ucm_cts.adapters.contract.trace import (
 from ucm_cts.adapters.python.counting import Occupancy, Storm, switching_often
 from ucm_cts.adapters.python.probe import Stage, is_integer
 from ucm_cts.adapters.python.recorder import Recorder
+from ucm_cts.adapters.python.seal import Seal
 from ucm_cts.adapters.python.variables import Unbound, Variables
 from ucm_cts.adapters.python.workers import Workers
 
@@ -138,6 +140,9 @@ class Performance:
         self._stage.gates.open_all()
         self.stuck = self._workers.finish()
         events = self._recorder.stop()
+        replaced = SEAL.broken(self, self._stage, self._recorder, self._workers, self._stage.gates, self._variables)
+        if replaced or self._stage.recorder is not self._recorder:
+            raise ContractBroken(f"the adapter has replaced a part of the SDK: {replaced or 'the recorder'}")
         if not self.stuck and not self._destroyed:  # what a stuck thread holds could block destroy for ever
             with contextlib.suppress(Exception, SystemExit):
                 self._adapter.destroy(self._manager)
@@ -406,3 +411,15 @@ def _text(error: BaseException) -> str:
     except Exception:  # noqa: BLE001 - the exception is the framework's
         return ""
     return text[:_LONGEST_DETAIL].encode("utf-8", "replace").decode()
+
+
+_PARTS = ("counting", "data", "engine", "gates", "probe", "recorder", "variables", "workers")
+
+
+def sealed() -> Seal:
+    """The SDK as it is now."""
+    return Seal(sys.modules[f"{__package__}.{part}"] for part in _PARTS)
+
+
+SEAL = sealed()
+"""Of what an adapter might change to tell something else than what happened; made before any adapter is loaded."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
-import time
 from collections.abc import Callable
+from time import monotonic_ns as now  # an adapter may change what the module has, not this
 from typing import Any
 
 from ucm_cts.adapters.contract.trace import Event
@@ -25,6 +26,7 @@ class Recorder:
         self._numbers = threading.local()
         self._numbers.own = 0
         self._threads = 1
+        self._count = itertools.count(1)
         self._events: list[Event] = []
         self._complaint = ""
         self.recording = True
@@ -38,7 +40,7 @@ class Recorder:
             if number is None:
                 number = self._numbers.own = self._threads
                 self._threads += 1
-            event = kind(n=len(self._events) + 1, t=time.monotonic_ns(), thread=number, **fields)
+            event = kind(n=next(self._count), t=now(), thread=number, **fields)
             self._events.append(event)
             if self._sink:
                 self._sink(event)
@@ -58,4 +60,6 @@ class Recorder:
         """End the recording and return all events."""
         with self._lock:
             self.recording = False
+            if next(self._count) != len(self._events) + 1:
+                self._complaint = self._complaint or "events have been taken away from the recorder, or added"
             return tuple(self._events)

@@ -14,6 +14,7 @@ messages that were on their way to it are sent again to its successor.
 from __future__ import annotations
 
 import itertools
+import time
 from collections import deque
 from collections.abc import Generator, Iterable
 from contextlib import suppress
@@ -50,12 +51,15 @@ _SHOWN = 80
 class Answer(msgspec.Struct, frozen=True):
     """What came of the ``Run`` message with ``id``.
 
-    ``happened`` are the events that a streamed run sent ahead: after an incident, the trace as far as it is known.
+    ``happened`` are the events that a streamed run sent ahead: after an incident, the trace as far as it is known. ``host``
+    numbers the hosts; it was ``sent`` the message then, in nanoseconds of ``time.monotonic_ns``.
     """
 
     id: int
     reply: Traced | Refused | Incident
     happened: tuple[Event, ...] = ()
+    host: int = 0
+    sent: int = 0
 
 
 class Hosts:
@@ -71,6 +75,7 @@ class Hosts:
         self._opener: Opener | None = None
         self._host: Host | None = None
         self._welcome: Welcome | None = None
+        self._opened = 0
 
     def __enter__(self) -> Self:
         return self
@@ -97,6 +102,7 @@ class Hosts:
         """
         assert window > 0
         waiting: deque[Run] = deque()
+        when: deque[int] = deque()
         source = iter(runs)
         current: Host | None = None
         sent = 0  # how many of those waiting have been sent to the current host
@@ -119,10 +125,13 @@ class Hosts:
                     assert self._host
                 if self._host is not current:
                     current, sent = self._host, 0
+                    when.clear()
                 for run in itertools.islice(waiting, sent, None):
+                    when.append(time.monotonic_ns())
                     current.submit(encode(run))
                 sent = len(waiting)
-                answer = self._receive(waiting[0])
+                host = self._opened
+                answer = msgspec.structs.replace(self._receive(waiting[0]), host=host, sent=when.popleft())
                 waiting.popleft()
                 sent -= 1
                 yield answer
@@ -165,6 +174,7 @@ class Hosts:
             host.close()
             raise
         self._host = host
+        self._opened += 1
 
     def _new_host(self) -> Host:
         if self._door.in_process:

@@ -21,6 +21,7 @@ from ucm_cts.harness.hosting.hosts import Hosts, Limits
 from ucm_cts.harness.hosting.locate import Door
 from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 from ucm_cts.harness.running.disguise import Disguise
+from ucm_cts.harness.running.host_clock import HostClock
 from ucm_cts.harness.running.incidents import Patience
 from ucm_cts.harness.running.integrity import believable, contradiction
 
@@ -60,6 +61,8 @@ class Driver:
         self._disguise: Disguise | None = None
         self._numbers = itertools.count()
         self._patience = Patience(self._hosts.limits.incident_seconds)
+        self._is_near = door.kind in ("python", "executable")
+        self._clock: tuple[int, HostClock] = (0, HostClock(self._is_near))
 
     def __enter__(self) -> Self:
         return self
@@ -162,7 +165,7 @@ class Driver:
     def _examine(self, case: _Case, answer: HostAnswer, insist: bool) -> tuple[Trace, Incident | None]:
         run, reply = case.run, answer.reply
         if isinstance(reply, Traced):
-            problem = contradiction(run.scenario, reply.events, bool(reply.stuck))
+            problem = contradiction(run.scenario, reply.events, bool(reply.stuck)) or self._out_of_time(answer)
             if problem is not None:
                 return reply.events, Incident("contradiction", problem)
             if not set(reply.stuck) <= set(case.scenario.may_stay):
@@ -175,6 +178,14 @@ class Driver:
         if not insist and not self._patience.is_worth_a_look(run.scenario, reply.kind):
             return (), reply
         return self._second_look(run, reply)
+
+    def _out_of_time(self, answer: HostAnswer) -> str | None:
+        """Why the host cannot have lived through what it tells."""
+        received = time.monotonic_ns()
+        if self._clock[0] != answer.host:
+            self._clock = answer.host, HostClock(self._is_near)
+        events = answer.reply.events if isinstance(answer.reply, Traced) else ()
+        return self._clock[1].contradiction(events, answer.sent, received)
 
     def _second_look(self, run: Run, first: Incident) -> tuple[Trace, Incident]:
         """The same scenario once more, each event sent as it happens: what led to the incident?"""

@@ -1,0 +1,61 @@
+"""Mutants of the C++ reference framework are found out by the ordinary pipeline; the slow ones by ``harness/selftest/native.py``."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+from cpp_builds import Builds
+
+from ucm_cts.adapters.derived_cpp import VARIABLE, NativeMutant, native_mutants
+from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.harness.hosting.hosts import Limits
+from ucm_cts.harness.selftest.native import Found, run_once, statement_of
+from ucm_cts.harness.stating.applicability import purposes_for
+
+QUICK = {
+    "crashes_in_remove": "whole-life",
+    "hangs_in_second_stop": "late-addition-is-connected",
+    "messages_share_a_buffer": "burst/2 to 2",
+    "thread_runs_on_after_stop": "self-executing/alone",
+    "unlocks_too_early": "protected passive/one port",
+    "uses_freed_connection": "unforeseen",
+    "uses_freed_member": "whole-life",
+}
+"""What finds some of them out in a second or two: purposes whose name begins so."""
+
+
+@pytest.fixture(scope="module")
+def command(builds: Builds) -> Path:
+    return builds.prefix / "adapters" / "bin" / "reference-cpp-mutants"
+
+
+@pytest.fixture(scope="module")
+def known(command: Path) -> dict[str, NativeMutant]:
+    return native_mutants(command)
+
+
+def test_each_says_what_it_breaks(known: dict[str, NativeMutant]) -> None:
+    requirements = {requirement.id for requirement in load_requirements()}
+    assert len(known) >= 10
+    for mutant in known.values():
+        assert mutant.lie.endswith(".")
+        assert mutant.requirements
+        assert {*mutant.requirements, *mutant.also} <= requirements
+        assert any(p.clause.startswith(mutant.clauses) for p in purposes_for(statement_of(mutant.readings), "core"))
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_mutant_is_found_out(command: Path, known: dict[str, NativeMutant], name: str) -> None:
+    found = Found(known[name])
+    report = run_once(known[name], 1, command, Limits(seconds=1, incident_seconds=2), QUICK[name])
+    found.add(report)
+    assert not found.spills
+    assert set(found.failed) & set(known[name].requirements)
+
+
+def test_nobody_is_no_mutant(command: Path) -> None:
+    done = subprocess.run([command], env={VARIABLE: "nobody"}, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr == f"there is no mutant 'nobody'; {VARIABLE}=list names them all\n"
