@@ -21,7 +21,7 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
     UcmError,
 )
-from ucm_cts.adapters.derived import wrong_10_1_3, wrong_11_2_1, wrong_11_2_2, wrong_11_2_3
+from ucm_cts.adapters.derived import wrong_10_1_3, wrong_11_2_2, wrong_11_2_3
 from ucm_cts.adapters.derived.registry import POLICIES, Base, bind, cheats
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference_py.framework import Container, ContainerManager

@@ -68,10 +68,16 @@ def statement_of(readings: Mapping[str, str]) -> Statement:
     return msgspec.structs.replace(known, readings={**known.readings, **own.readings, **readings})
 
 
-def run_once(mutant: NativeMutant, seed: int, command: Path = COMMAND, limits: Limits = LIMITS) -> Report:
-    """One run of the purposes that are to find ``mutant`` out."""
+def run_once(
+    mutant: NativeMutant, seed: int, command: Path = COMMAND, limits: Limits = LIMITS, beginning: str = ""
+) -> Report:
+    """One run of the purposes that are to find ``mutant`` out, of those whose names have this ``beginning``."""
     statement = statement_of(mutant.readings)
-    purposes = [p for p in purposes_for(statement, "core") if p.clause.startswith(mutant.clauses)]
+    purposes = [
+        purpose
+        for purpose in purposes_for(statement, "core")
+        if purpose.clause.startswith(mutant.clauses) and purpose.id.startswith(beginning)
+    ]
     with being(mutant.name), Driver(locate(str(command)), seed, limits) as driver:
         campaign = Campaign(driver, "core", statement=statement)
         for _ in campaign.check(purposes):
