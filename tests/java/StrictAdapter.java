@@ -1,5 +1,6 @@
 import java.util.ArrayDeque;
 import java.util.ArrayList;
+import java.util.Collections;
 import java.util.Deque;
 import java.util.HashMap;
 import java.util.LinkedHashMap;
@@ -19,8 +20,8 @@ import org.ucmcts.UcmException.NotFound;
 import org.ucmcts.UcmException.UcmError;
 
 /**
- * A UCM framework that does what the Python reference framework does, as far as profile container asks. The same scenarios
- * have to make the same traces behind both SDKs.
+ * A UCM framework that does what the Python reference framework does, as far as profile container asks. The same
+ * scenarios have to make the same traces behind both SDKs.
  */
 public final class StrictAdapter extends Adapter<StrictAdapter.Container> {
     private final Map<String, Implementation> implementations = new HashMap<>();
@@ -225,12 +226,12 @@ public final class StrictAdapter extends Adapter<StrictAdapter.Container> {
                     .filter(one -> container.members.values().stream().anyMatch(member ->
                             connections.get(one).client() == member || leadsTo(member, connections.get(one))))
                     .toList());
-            java.util.Collections.reverse(touched);
+            Collections.reverse(touched);
             touched.forEach(one -> undo(one, failures));
         }
         for (Container container : all) {
             List<Integer> numbers = new ArrayList<>(container.members.keySet());
-            java.util.Collections.reverse(numbers);
+            Collections.reverse(numbers);
             numbers.forEach(number -> remove(container, number, failures));
             container.isRemoved = true;
         }

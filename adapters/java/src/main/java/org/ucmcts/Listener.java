@@ -1,6 +1,8 @@
 package org.ucmcts;
 
 import java.io.IOException;
+import java.io.InputStream;
+import java.io.OutputStream;
 import java.lang.management.ManagementFactory;
 import java.net.InetSocketAddress;
 import java.net.StandardProtocolFamily;
@@ -9,11 +11,8 @@ import java.net.URI;
 import java.net.URISyntaxException;
 import java.net.UnixDomainSocketAddress;
 import java.nio.ByteBuffer;
-import java.nio.channels.Channels;
-import java.nio.channels.ReadableByteChannel;
 import java.nio.channels.ServerSocketChannel;
 import java.nio.channels.SocketChannel;
-import java.nio.channels.WritableByteChannel;
 import java.nio.file.Files;
 import java.nio.file.Path;
 import java.util.ArrayList;
@@ -24,6 +23,7 @@ import java.util.concurrent.TimeUnit;
 
 /** Serves connections, each by a process of its own, so that a crash ends one connection only. */
 final class Listener {
+    private static final int CHUNK = 1 << 16;
     private static final long GRACE = 30; // seconds a host may work on after the other end of its connection has gone
     private static final Set<Process> HOSTS = ConcurrentHashMap.newKeySet();
 
@@ -84,15 +84,15 @@ final class Listener {
             HOSTS.add(host);
             try {
                 background("to host", () -> {
-                    try (WritableByteChannel target = Channels.newChannel(host.getOutputStream())) {
-                        pump(connection, target);
+                    try (OutputStream target = host.getOutputStream()) {
+                        forward(connection, target);
                     } finally {
                         if (!host.waitFor(GRACE, TimeUnit.SECONDS)) {
                             host.destroyForcibly();
                         }
                     }
                 });
-                pump(Channels.newChannel(host.getInputStream()), connection);
+                forward(host.getInputStream(), connection);
             } finally {
                 host.destroyForcibly();
                 host.waitFor();
@@ -112,12 +112,22 @@ final class Listener {
         return command;
     }
 
-    private static void pump(ReadableByteChannel source, WritableByteChannel target) throws IOException {
-        ByteBuffer chunk = ByteBuffer.allocate(1 << 16);
+    // not by the streams of Channels: reading from one keeps others from writing to the same connection
+
+    private static void forward(SocketChannel source, OutputStream target) throws IOException {
+        ByteBuffer chunk = ByteBuffer.allocate(CHUNK);
         while (source.read(chunk.clear()) >= 0) {
-            chunk.flip();
-            while (chunk.hasRemaining()) {
-                target.write(chunk);
+            target.write(chunk.array(), 0, chunk.position());
+            target.flush();
+        }
+    }
+
+    private static void forward(InputStream source, SocketChannel target) throws IOException {
+        byte[] chunk = new byte[CHUNK];
+        for (int size = source.read(chunk); size >= 0; size = source.read(chunk)) {
+            ByteBuffer rest = ByteBuffer.wrap(chunk, 0, size);
+            while (rest.hasRemaining()) {
+                target.write(rest);
             }
         }
     }

@@ -3,6 +3,7 @@ package org.ucmcts;
 import java.io.IOException;
 import java.nio.file.Files;
 import java.nio.file.Path;
+import java.util.function.Supplier;
 import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
@@ -20,12 +21,12 @@ final class SleepWatch {
             Pattern.compile("^State:\\s+S.*^voluntary_ctxt_switches:\\s+(\\d+)", Pattern.MULTILINE | Pattern.DOTALL);
 
     private final Thread thread;
-    private final Path status;
+    private final Supplier<Path> status;
     private String before;
     private int looks;
 
-    /** Watches {@code thread}, which the operating system tells of in {@code status}; null if it does not. */
-    SleepWatch(Thread thread, Path status) {
+    /** Watches {@code thread}, of which {@code status} tells; null where nobody tells, or not yet. */
+    SleepWatch(Thread thread, Supplier<Path> status) {
         this.thread = thread;
         this.status = status;
     }
@@ -54,11 +55,12 @@ final class SleepWatch {
             case BLOCKED, WAITING, TIMED_WAITING -> true;
             default -> false;
         };
-        if (status == null || !waits) {
+        Path file = status.get();
+        if (file == null || !waits) {
             return null;
         }
         try {
-            Matcher found = SLEEPS.matcher(Files.readString(status));
+            Matcher found = SLEEPS.matcher(Files.readString(file));
             return found.find() ? found.group(1) : null;
         } catch (IOException error) {
             return null;

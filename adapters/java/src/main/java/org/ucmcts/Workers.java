@@ -41,7 +41,7 @@ final class Workers {
     String settle(String name, Predicate<Thread> isHeld) {
         Worker worker = find(name);
         long deadline = System.nanoTime() + patience;
-        SleepWatch watch = worker == null ? null : new SleepWatch(worker.thread, worker.status);
+        SleepWatch watch = worker == null ? null : new SleepWatch(worker.thread, () -> worker.status);
         while (worker != null && !worker.waitUntilIdle(0)) {
             if (isHeld.test(worker.thread)) {
                 return "held";
