@@ -132,6 +132,13 @@ def disabled_ports(
     )
 
 
+@rule("replied", "R-11.2.3-02")
+def refused_ports(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
+    """A call that a component makes as soon as it is told to start may be refused: ports were closed until then, too."""
+    if call.caller_hook == "on_startup" and reply.raised and not call.entries:
+        ledger.exercised("R-11.2.3-02")
+
+
 def _called_while_added(ledger: Ledger, window: Window | None, event: Enter, call: BusinessCall | None) -> None:
     """The body is one that add_component is just making, in a container that is not started."""
     step = window.step if window is not None else None

@@ -25,10 +25,11 @@ _TIME = re.compile(rb'"t":\d+')
 
 
 class Judged(NamedTuple):
-    """What the judge says of one trace under no statement: findings, and readings seen by option."""
+    """What the judge says of one trace under no statement: findings, readings seen by option, requirements exercised."""
 
     findings: tuple[Finding, ...]
     readings: Mapping[str, frozenset[str]]
+    exercised: frozenset[str]
 
 
 _known: dict[tuple[bytes, bytes], Judged] = {}
@@ -38,12 +39,14 @@ _known: dict[tuple[bytes, bytes], Judged] = {}
 class Product:
     """A framework that has been through the container profile.
 
-    ``failing`` are the failing requirements, each with an example, ``readings`` what it makes of the freedoms of the text.
+    ``failing`` are the failing requirements, each with an example, ``exercised`` those that were exercised at all,
+    ``readings`` what it makes of the freedoms of the text.
     """
 
     def __init__(self, adapter: type[Adapter]) -> None:
         self.failing: dict[str, str] = {}
         self.readings: dict[str, set[str]] = {}
+        self.exercised: set[str] = set()
         self._telling: list[tuple[str, Scenario, bytes, frozenset[str]]] = []
         engine = Engine(adapter)
         for line, (name, scenario) in _prepared().items():
@@ -52,6 +55,7 @@ class Product:
             if key not in _known:
                 _known[key] = _judged(name, scenario, answer)
             _tell(self.failing, name, _known[key].findings)
+            self.exercised |= _known[key].exercised
             for option, values in _known[key].readings.items():
                 self.readings.setdefault(option, set()).update(values)
             if _known[key].readings:
@@ -101,7 +105,8 @@ def _judged(name: str, scenario: Scenario, answer: bytes) -> Judged:
     problem = contradiction(scenario, traced.events, bool(traced.stuck))
     assert problem is None, (name, problem)
     ledger = _judge().judge(scenario, traced.events)
-    return Judged(tuple(ledger.findings), {option: frozenset(values) for option, values in ledger.readings.items()})
+    readings = {option: frozenset(values) for option, values in ledger.readings.items()}
+    return Judged(tuple(ledger.findings), readings, frozenset(ledger.exercises))
 
 
 @functools.cache

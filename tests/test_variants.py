@@ -17,10 +17,15 @@ def reference() -> Product:
     return Product(ReferenceAdapter)
 
 
+UNDECIDED = {"starts_all_at_a_time": {"R-11.2.2.1-13"}}
+"""What stays undecided of conformant variants: who starts all members at a time has no order to reverse."""
+
+
 @pytest.mark.parametrize("variant", variants_of(CONTAINER).values(), ids=variants_of(CONTAINER).keys())
 def test_conformant_variant_is_not_failed(variant: Variant) -> None:
     product = Product(variant.adapter)
     assert product.failing == {}
+    assert reference().exercised - product.exercised == UNDECIDED.get(variant.name, set())
     assert [option for option, values in product.readings.items() if len(values) > 1] == []
     if product.readings != reference().readings:
         assert product.failing_if({option: value for option, (value,) in product.readings.items()}) == {}

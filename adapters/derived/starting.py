@@ -53,6 +53,29 @@ class lists_unconnected_ports(starts_the_unconfigured):
         return [given.get(port, PortConnection(port, ())) for port in reversed(member.implementation.requires)]
 
 
+class _Entrance(PortElementObject):
+    """Closed until all members of a container have been started."""
+
+    def __init__(self, target: PortElementObject | None, container: Container) -> None:
+        self.target, self.container = target, container
+
+    def exchange(self, value: int) -> int:
+        if self.target is None or not self.container.is_started:
+            raise UcmError("nobody may be called yet")
+        return self.target.exchange(value)
+
+
+@variant
+class refuses_calls_while_it_starts(Base):
+    """Who calls another component in on_startup is refused: ports open when all members have been started."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return [
+            PortConnection(d.from_port, tuple(_Entrance(target, self) for target in d.to_port))
+            for d in super()._dependencies_of(member)
+        ]
+
+
 @variant
 class proxies_between_components(Base):
     """Components are given proxies at start; what get_port_element and on_connect give is the body's own object."""
