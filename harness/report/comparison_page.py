@@ -46,6 +46,8 @@ def to_html(comparison: Comparison, folder: Path) -> str:
         kept_by_all=_unanimous(comparison, "pass"),
         broken_by_all=_unanimous(comparison, "fail"),
         apart=sum(row.differs for row in comparison.shared),
+        asked_of_all=comparison.parts(lambda row: row.is_shared),
+        asked_of_some=comparison.parts(lambda row: not row.is_shared),
         remarkable=comparison.parts(lambda row: not row.is_kept),
         kept=comparison.parts(lambda row: row.is_kept),
         counts=[count(column.report.requirements) for column in comparison.columns],
