@@ -1,0 +1,164 @@
+"""Runs generated mutants: ``python -m ucm_cts.harness.selftest.generated python`` (or ``cpp``)."""
+
+from __future__ import annotations
+
+import random
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import click
+
+from ucm_cts.adapters import reference_cpp
+from ucm_cts.adapters.python.engine import Engine
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.harness.selftest.generated import python_programs
+from ucm_cts.harness.selftest.generated.cpp_programs import CONCERNED, EQUIVALENTS, CppFramework, DoesNotCompile
+from ucm_cts.harness.selftest.generated.glance import Glancer
+from ucm_cts.harness.selftest.generated.mutants import GENERATED, GeneratedMutant
+from ucm_cts.harness.selftest.generated.page import Tally, page
+from ucm_cts.harness.selftest.generated.record import Result, append, read_equivalents, read_results
+from ucm_cts.harness.selftest.generated.trial import Outcome, ordered, stated, try_out
+from ucm_cts.harness.stating.statement import Statement
+
+SEED = 1
+
+INTRO = """Made by universalmutator, run through profile core; what this means stands in docs/detection.md."""
+
+results_option = click.option(
+    "--results", type=click.Path(dir_okay=False, path_type=Path), required=True, help="What is known; it is added to."
+)
+limit_option = click.option("--limit", type=int, help="No more than so many mutants, drawn by chance from all.")
+part_option = click.option(
+    "--part",
+    default="1/1",
+    help="2/3: the second third of them, so that three processes can share one file of results.",
+)
+again_option = click.option("--again", default="", help="Try those out once more whose fate or key contains this.")
+
+
+@click.group()
+def main() -> None:
+    """Mutants that a tool makes of the reference frameworks go through profile core; what is known is kept in a file."""
+
+
+@main.command()
+@results_option
+@limit_option
+@part_option
+@again_option
+@click.option("--glance-only", is_flag=True, help="Leave out what takes the whole pipeline to tell.")
+def python(results: Path, limit: int | None, part: str, again: str, glance_only: bool) -> None:
+    """Mutants of the Python reference framework."""
+    candidates, census = python_programs.candidates()
+    _tell(f"{len(candidates)} mutants to run; {dict(census)}")
+    statement = stated(python_programs.HOME / "ics.toml")
+    glancer = Glancer(statement, ordered(statement, ()), SEED)
+    glancer.learn(Engine(ReferenceAdapter))
+    known = read_results(results)
+    drawn = _drawn(candidates, limit, part)
+    for mutant in _left(drawn, known, again):
+        with python_programs.python_door(mutant) as door:
+            glance = glancer.look(door, python_programs.CONCERNED[mutant.file])
+        known[mutant.key] = Result(mutant, glance.outcome or Outcome("open", glance.suspect))
+        append(results, known[mutant.key])
+    reasons = read_equivalents(python_programs.EQUIVALENTS)
+    for mutant in [] if glance_only else drawn:
+        outcome = known[mutant.key].outcome
+        if outcome.fate == "open" and mutant.key not in reasons:
+            with python_programs.python_door(mutant) as door:
+                outcome = try_out(door, statement, python_programs.CONCERNED[mutant.file], outcome.by, SEED)
+            known[mutant.key] = Result(mutant, outcome)
+            append(results, known[mutant.key])
+            _tell(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")
+
+
+@main.command()
+@results_option
+@limit_option
+@part_option
+@again_option
+@click.option("--root", type=click.Path(exists=True, path_type=Path), default=Path(), help="The source tree.")
+@click.option("--build", type=click.Path(path_type=Path), required=True, help="A folder for what is compiled once.")
+def cpp(results: Path, limit: int | None, part: str, again: str, root: Path, build: Path) -> None:
+    """Mutants of the C++ reference framework."""
+    framework = CppFramework(root.absolute(), build.absolute())
+    _tell("compiling the framework as it is")
+    framework.prepare()
+    statement = stated(reference_cpp.STATEMENT)
+    with framework.door("", None) as door:
+        control = try_out(door, statement, (), "", SEED)
+    if control.fate != "survived":
+        raise click.ClickException(f"the framework as it is does not pass: {control}")
+    candidates = list(framework.candidates())
+    known = read_results(results)
+    _tell(f"{len(candidates)} mutants generated")
+    for mutant in _left(_drawn(candidates, limit, part), known, again):
+        outcome = _try_cpp(framework, mutant, statement)
+        known[mutant.key] = Result(mutant, outcome)
+        append(results, known[mutant.key])
+        if outcome.fate not in ("not compiled", "same program"):
+            _tell(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")
+
+
+@main.command(name="page")
+@click.argument("language", type=click.Choice(("python", "cpp")))
+@results_option
+@click.option("--root", type=click.Path(exists=True, path_type=Path), default=Path(), help="The source tree.")
+@click.option("--out", type=click.Path(dir_okay=False, path_type=Path), required=True, help="A Markdown file.")
+def write_page(language: str, results: Path, root: Path, out: Path) -> None:
+    """Write what is known as a page. Exit status 1 if a survivor is open, or an equivalent one was killed."""
+    known = read_results(results)
+    if language == "python":
+        candidates, census = python_programs.candidates()
+        listed, title = python_programs.EQUIVALENTS, "Generated mutants of the Python reference framework"
+    else:
+        candidates = list(CppFramework(root.absolute(), Path()).candidates())
+        census = Counter({GENERATED: len(candidates)})
+        listed, title = EQUIVALENTS, "Generated mutants of the C++ reference framework"
+    keys = {mutant.key for mutant in candidates}
+    told = Tally(census, len(candidates), [r for key, r in known.items() if key in keys], read_equivalents(listed))
+    out.write_text(page(title, INTRO, told), encoding="utf-8")
+    _tell(f"{told.rate:.1f} % killed of those that are not equivalent, {len(told.open)} open: {out}")
+    sys.exit(1 if told.open or told.wrongly_listed else 0)
+
+
+def _try_cpp(framework: CppFramework, mutant: GeneratedMutant, statement: Statement) -> Outcome:
+    with TemporaryDirectory(prefix="mutant-") as folder:
+        try:
+            made = framework.compile(mutant, Path(folder))
+            if framework.is_same(mutant.file, made):
+                return Outcome("same program")
+            with framework.door(mutant.file, made) as door:
+                return try_out(door, statement, CONCERNED.get(mutant.file, ()), "", SEED)
+        except DoesNotCompile as error:
+            return Outcome("not compiled", told=str(error))
+
+
+def _drawn(candidates: list[GeneratedMutant], limit: int | None, part: str) -> list[GeneratedMutant]:
+    """By chance, but the same ones and in the same order each time."""
+    shuffled = sorted(candidates, key=lambda mutant: mutant.key)
+    random.Random(SEED).shuffle(shuffled)
+    number, _, parts = part.partition("/")
+    return shuffled[:limit][int(number) - 1 :: int(parts)]
+
+
+def _left(drawn: list[GeneratedMutant], known: dict[str, Result], again: str) -> Iterator[GeneratedMutant]:
+    done = 0
+    for number, mutant in enumerate(drawn, 1):
+        result = known.get(mutant.key)
+        if result is None or (again and (again == result.outcome.fate or again in mutant.key)):
+            yield mutant
+            done += 1
+            if done % 50 == 0:
+                _tell(f"{number} of {len(drawn)}")
+
+
+def _tell(line: str) -> None:
+    click.echo(line, err=True)
+
+
+if __name__ == "__main__":
+    main()
