@@ -14,7 +14,7 @@ from typing import Self, TypeVar
 import msgspec
 
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced, Welcome
-from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.scenario import Scenario, Stress
 from ucm_cts.adapters.contract.trace import Event, Trace
 from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosting.hosts import Hosts, Limits
@@ -139,7 +139,7 @@ class Driver:
 
         The trace is empty if there is none that can be believed. May be called between two answers of a ``run``.
         """
-        asked = msgspec.structs.replace(scenario, patience=round(scenario.patience * circumstances.patience))
+        asked = _lasting(scenario, circumstances.patience)
         disguised = self.disguise.scenario(asked)
         reply = self._hosts.look_again(Run(next(self._numbers), disguised), circumstances.one_core).reply
         if not isinstance(reply, Traced) or contradiction(disguised, reply.events, bool(reply.stuck)) is not None:
@@ -197,6 +197,17 @@ class Driver:
                 second.reply, stacks=second.reply.stacks or first.stacks
             )
         return (), msgspec.structs.replace(first, reproduced=False)
+
+
+def _lasting(scenario: Scenario, times: float) -> Scenario:
+    """``scenario`` so many times as patient; whoever is stressed is stressed so many times as long."""
+    steps = tuple(
+        msgspec.structs.replace(step, milliseconds=round(step.milliseconds * times))
+        if isinstance(step, Stress)
+        else step
+        for step in scenario.steps
+    )
+    return msgspec.structs.replace(scenario, steps=steps, patience=round(scenario.patience * times))
 
 
 @dataclass(frozen=True)
