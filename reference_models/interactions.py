@@ -5,7 +5,7 @@ which entry into a body belongs to which call (10.1.5, 10.1.6). Calls of policie
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import (
@@ -27,10 +27,16 @@ from ucm_cts.reference_models.carriage import distance
 from ucm_cts.reference_models.executions import BusinessCall, connections_behind
 from ucm_cts.reference_models.runtime import NO_ID, Connection, Container, Member, Runtime
 
+if TYPE_CHECKING:
+    from ucm_cts.reference_models.services import ServiceCall
+
 Fit = Literal["same", "altered", "repeated", "stray"]
 """How an entry fits the calls made so far: as one was made; as one was made, but for its values; like one that had been
 delivered here before; like none.
 """
+
+_WITHOUT_EFFECT = frozenset((s.Invoke, s.GetPortElement, s.GetComponents, s.ReadLog))
+"""Operations that change nothing about who is operational."""
 
 _SENDERS = ("client", "emitter")
 _TAKERS = ("server", "receiver")
@@ -118,8 +124,8 @@ class Wait:
 class MethodCall:
     """A body's call of a method. ``broken`` says where its link was broken when it was made, ``targets`` are the other ends
     that were attached then, with whether each was operational. ``idle`` are those that certainly were not. ``ready`` says
-    that the caller was operational, ``prepared`` that all ends were attached before the components there were started. A
-    message is ``crowded`` if another one was on its way when it was pushed, or pushed before it was answered.
+    that the caller was operational, ``prepared`` that all ends were attached before the components there were started.
+    ``is_message`` says that it was pushed through a message connector. A message is ``crowded`` if another one was on its way when it was pushed, or pushed before it was answered.
     """
 
     request: Request
@@ -134,11 +140,11 @@ class MethodCall:
     crowded: bool = False
     deliveries: list[Delivery] = field(default_factory=list)
     reply: Reply | None = None
+    is_message: bool = False
 
-    @property
-    def is_message(self) -> bool:
-        """Was it pushed through a message connector?"""
-        return self.link is not None and self.link.connector == s.MESSAGE_CONNECTOR and self.request.method == s.PUSH
+    def __post_init__(self) -> None:
+        connector = self.link.connector if self.link is not None else ""
+        self.is_message = connector == s.MESSAGE_CONNECTOR and self.request.method == s.PUSH
 
     @property
     def code(self) -> object:
@@ -162,7 +168,9 @@ class PushedBurst:
 
 class Interactions:
     """All links, calls, deliveries and bursts of one trace. ``held`` are bodies at gates that are closed, ``released_at`` is when the
-    last of them was let go. ``operations`` are the steps handed to the framework, ``settled`` where workers were found,
+    last of them was let go. ``operations`` are the steps handed to the framework, ``changes`` those that may change who is
+    operational, ``in_progress`` those that have not ended, by step; ``settled`` where workers were found,
+    ``is_over`` says that nothing follows, ``services`` is what services.service_calls has found then;
     ``waits`` those that ran out of patience, and ``latest`` is when something happened last. ``pauses`` show the calendar
     clock.
     """
@@ -176,11 +184,16 @@ class Interactions:
         self.held: list[Held] = []
         self.released_at = 0
         self.operations: list[Operation] = []
+        self.changes: list[Operation] = []
+        self.in_progress: dict[int, Operation] = {}
         self.settled: list[Settled] = []
         self.waits: list[Wait] = []
         self.latest = 0
         self.pauses: list[Paused] = []
+        self.is_over = False
+        self.services: list[ServiceCall] | None = None
         self._opened: set[str] = set()
+        self._under_way: list[MethodCall] = []
         self._open: dict[int, list[MethodCall]] = {}
         self._inside: dict[int, list[Delivery]] = {}
 
@@ -205,19 +218,21 @@ class Interactions:
 
     def operate(self, step: s.Step, begin: Call) -> None:
         """A step is handed to the framework."""
-        self.operations.append(Operation(step, begin))
+        operation = self.in_progress[begin.step] = Operation(step, begin)
+        self.operations.append(operation)
+        if type(step) not in _WITHOUT_EFFECT:
+            self.changes.append(operation)
 
     def operated(self, end: Return | Raise) -> None:
         """A step has ended."""
-        for operation in reversed(self.operations):
-            if operation.begin.step == end.step:
-                operation.end = end
-                return
+        operation = self.in_progress.pop(end.step, None)
+        if operation is not None:
+            operation.end = end
 
     @property
     def is_joining(self) -> bool:
         """Is somebody just being made an end of a connector, or does somebody stop being one?"""
-        return any(o.end is None and isinstance(o.step, s.Attach | s.Detach) for o in self.operations)
+        return any(isinstance(o.step, s.Attach | s.Detach) for o in self.in_progress.values())
 
     def has_left(self, delivery: Delivery) -> bool:
         """Had who was entered been detached from the link, or removed, before this was called, or anything like it?"""
@@ -367,11 +382,13 @@ class Interactions:
 
     def _look_around(self, call: MethodCall) -> None:
         """Is another message on its way?"""
-        for other in self.calls:
-            if other.is_message and other.reply is None:
+        self._under_way = [other for other in self._under_way if not _has_come(other)]
+        for other in self._under_way:
+            if other.reply is None:
                 call.crowded = other.crowded = True
-            elif other.is_message and not other.broken and other.code == "ok":
+            else:
                 call.crowded = call.crowded or any(ready and not _is_done(other, end) for end, ready in other.targets)
+        self._under_way.append(call)
 
     def _link_of(self, member: Member | None, port: str, roles: tuple[str, ...]) -> LinkState | None:
         """The link that ``port`` of ``member`` is, or was last, an end of."""
@@ -417,6 +434,8 @@ class Interactions:
         call = mistaken.call
         if call is not None:
             call.deliveries.remove(mistaken)
+            if call.is_message and call not in self._under_way:
+                self._under_way.append(call)
         others = [c for c in candidates if c is not call and not c.delivered_to(mistaken.receiver, mistaken.enter.port)]
         mistaken.call = _nearest(others, mistaken.enter)
         if mistaken.call is not None:
@@ -458,6 +477,18 @@ def _is_idle(runtime: Runtime, member: Member) -> bool:
     """Is it certain that it is not operational, and not being started?"""
     being_started = (member.component, member.instance or 0) in runtime.startups and not member.closing
     return member.container.started is False and not (member.operational or member.suspended or being_started)
+
+
+def _has_come(call: MethodCall) -> bool:
+    """Is a message answered, and not on its way any more, whatever happens?"""
+    if call.reply is None:
+        return False
+    if call.broken or call.code != "ok":
+        return True
+    return all(
+        not ready or any(delivery.exit is not None for delivery in call.delivered_to(end.member, end.port))
+        for end, ready in call.targets
+    )
 
 
 def _is_done(call: MethodCall, end: End) -> bool:

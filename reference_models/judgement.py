@@ -206,8 +206,10 @@ class _Reading:
 
     def close(self) -> None:
         """The trace is over."""
-        for check in self.watch.closed if self.interactions is not None else ():
-            check(self.ledger, self.runtime)
+        if self.interactions is not None:
+            self.interactions.is_over, self.interactions.services = True, None
+            for check in self.watch.closed:
+                check(self.ledger, self.runtime)
         self.ledger.close()
 
     def thread(self, number: int) -> _Thread:

@@ -17,9 +17,6 @@ CODES = (OK, INTERNAL_ERROR, COMM_ERROR)
 _NANOSECONDS = 1_000_000
 """In a millisecond."""
 
-_WITHOUT_EFFECT = (s.Invoke, s.GetPortElement, s.GetComponents, s.ReadLog)
-"""Operations that change nothing about who is operational."""
-
 _LONGEST = 200
 """Characters of what a message carries that people are shown."""
 
@@ -102,8 +99,8 @@ def is_healthy(runtime: Runtime, call: MethodCall) -> bool:
 
 def is_calm(runtime: Runtime, call: MethodCall) -> bool:
     """Has nothing been started, stopped or changed since it was pushed?"""
-    changes = [o for o in interactions_of(runtime).operations if not isinstance(o.step, _WITHOUT_EFFECT)]
-    return not any(operation.end is None or operation.end.n > call.request.n for operation in changes)
+    changes, since = interactions_of(runtime).changes, call.request.n
+    return not any(operation.end is None or operation.end.n > since for operation in changes)
 
 
 def was_delivered(call: MethodCall, end: End) -> bool:

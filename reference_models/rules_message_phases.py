@@ -33,8 +33,8 @@ def message_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None
         return
     if delivery.link is None or delivery.link.connector != s.MESSAGE_CONNECTOR:
         return
-    starting = any(o.end is None and isinstance(o.step, s.Start) for o in interactions_of(runtime).operations)
-    if receiver.operational or starting:
+    in_progress = interactions_of(runtime).in_progress.values()
+    if receiver.operational or any(isinstance(o.step, s.Start) for o in in_progress):
         if call is not None and _was_kept_waiting(runtime, call, receiver):
             ledger.exercised("R-10.1.6.1-09")
         return

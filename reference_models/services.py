@@ -75,7 +75,13 @@ class ServiceCall:
 def service_calls(runtime: Runtime) -> list[ServiceCall]:
     """All calls through service connectors that may rely on a server."""
     interactions = runtime.interactions
-    return [c for call in interactions.calls if (c := _service_call(runtime, call))] if interactions is not None else []
+    if interactions is None:
+        return []
+    if interactions.is_over and interactions.services is not None:
+        return interactions.services
+    found = [c for call in interactions.calls if (c := _service_call(runtime, call))]
+    interactions.services = found
+    return found
 
 
 def _service_call(runtime: Runtime, call: MethodCall) -> ServiceCall | None:
