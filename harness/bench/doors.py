@@ -76,13 +76,19 @@ def tables() -> Iterator[Table]:
     """What the doors cost, one table after the other."""
     module: Any = importlib.import_module("ucm_cts.adapters._reference_cpp")
     cases: dict[str, Callable[[], float]] = {}
-    with Hosts(locate("reference-cpp")) as hosts, Hosts(locate("reference-py")) as python:
+    trace = module.answer(encode(Run(0, LIFE_CYCLE)))
+    with (
+        Hosts(locate("reference-cpp")) as hosts,
+        Hosts(locate("reference-py")) as python,
+        _raw_pipe(trace) as pipe,
+    ):
         hosts.welcome  # noqa: B018 - starts the host outside the measurement
         python.welcome  # noqa: B018
         cases["direct C++ loop"] = lambda: float(module.life_cycles(BATCH * 10)) / 1000
         cases[DIRECT] = lambda: timed(lambda: _direct(module), BATCH)
         cases[TRACED] = lambda: timed(lambda: _traced(module.answer), BATCH)
         cases["pybind11, in process, with trace and judge"] = lambda: timed(lambda: _judged(module.answer), BATCH)
+        cases["raw pipe, as many bytes as the trace has"] = lambda: timed(pipe, BATCH)
         cases["wire, one at a time"] = lambda: timed(lambda: _wire(hosts, 1, False), 1, BATCH)
         cases["wire, one at a time, with judge"] = lambda: timed(lambda: _wire(hosts, 1, True), 1, BATCH)
         cases[PIPELINED] = lambda: timed(lambda: _wire(hosts, 32, False), 1, BATCH)
@@ -94,7 +100,7 @@ def tables() -> Iterator[Table]:
     yield _life_cycle_table(costs)
     others = {STATE_MACHINE: state_machine, PARAMETRISED: parametrised_test}
     yield _alternatives_table(costs[JUDGED], medians(others, _ROUNDS_OF_ALTERNATIVES))
-    with _pinned(), _raw_pipe() as ping, Hosts(locate("reference-cpp")) as hosts:
+    with _pinned(), _raw_pipe(encode(Run(0, ONE_CALL)) + b"\n") as ping, Hosts(locate("reference-cpp")) as hosts:
         hosts.welcome  # noqa: B018
         calls = medians(
             {
@@ -255,12 +261,11 @@ def _pinned() -> Iterator[None]:
 
 
 @contextmanager
-def _raw_pipe() -> Iterator[Callable[[], None]]:
-    """A process that echoes bytes, and a function that sends as many as one call's message has and waits for them."""
+def _raw_pipe(line: bytes) -> Iterator[Callable[[], None]]:
+    """A process that echoes bytes, and a function that sends these and waits for them."""
     process = subprocess.Popen([sys.executable, "-c", _ECHO], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0)
     assert process.stdin is not None
     assert process.stdout is not None
-    line = encode(Run(0, s.Scenario({}, (s.GetComponents(),)))) + b"\n"
     out, back = process.stdin.fileno(), process.stdout.fileno()
 
     def ping() -> None:
