@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -12,7 +14,15 @@ from ucm_cts.harness.documents import DocumentError
 from ucm_cts.harness.scenarios.purposes import select
 from ucm_cts.harness.selftest.generated import cpp_programs, python_programs
 from ucm_cts.harness.selftest.generated.glance import Glancer
-from ucm_cts.harness.selftest.generated.mutants import GeneratedMutant
+from ucm_cts.harness.selftest.generated.mutants import (
+    DUPLICATE,
+    GENERATED,
+    NO_PROGRAM,
+    NONSENSE,
+    SAME,
+    GeneratedMutant,
+    generate,
+)
 from ucm_cts.harness.selftest.generated.page import Tally, page
 from ucm_cts.harness.selftest.generated.record import Result, append, read_equivalents, read_results
 from ucm_cts.harness.selftest.generated.trial import Outcome, ordered, stated
@@ -35,6 +45,58 @@ def test_one_line_is_another_one() -> None:
     expected = "def f(a: int) -> int:\n    x = a\n    if a:\n        x = 0\n        break;\n    return x\n"
     assert second.source(SOURCE.splitlines(keepends=True)) == expected
     assert second.key == "framework.py: x = a (2) ==> x = 0\nbreak;"
+
+
+class Tool:
+    """Stands for universalmutator: rewrites each line by ``rules``, and says so while it works."""
+
+    def __init__(self, *rules: tuple[str, str]) -> None:
+        self.rules = rules
+
+    def mutants_regexp(self, source: list[str], **options: object) -> list[tuple[int, str, tuple[str, str]]]:
+        print("MUTATING")
+        return [
+            (number, line.replace(old, new), (f"{old} ==> {new}", "here"))
+            for number, line in enumerate(source, 1)
+            for old, new in self.rules
+            if old in line
+        ]
+
+
+@pytest.fixture
+def tool(monkeypatch: pytest.MonkeyPatch) -> Tool:
+    found = Tool(
+        ("manager.numbers", "manager.thumbs"),
+        ("itertools.count(1)", "itertools.count(2)"),
+        ("itertools.count(1)", "itertools.count( 2 )"),
+        ("itertools.count(1)", "itertools.count("),
+        ("class State(Enum):", "class State(Enum):  # it is"),
+    )
+    module = ModuleType("universalmutator")
+    module.__dict__["mutator"] = found
+    monkeypatch.setitem(sys.modules, "universalmutator", module)
+    return found
+
+
+def test_what_the_tool_makes_is_sorted_out(tool: Tool, capsys: pytest.CaptureFixture[str]) -> None:
+    candidates, census = python_programs.candidates()
+    assert [(m.file, m.becomes, m.rule) for m in candidates] == [
+        ("framework.py", "self.numbers = itertools.count(2)", "itertools.count(1) ==> itertools.count(2)")
+    ]
+    assert census == {GENERATED: 5, NONSENSE: 1, DUPLICATE: 1, NO_PROGRAM: 1, SAME: 1}
+    assert capsys.readouterr().out == ""
+
+
+def test_the_same_line_is_told_apart_by_its_number(tool: Tool, tmp_path: Path) -> None:
+    tool.rules = (("a", "b"), ("a", "b"), ("a", "c\n    break;"))
+    (tmp_path / "x.py").write_text("    a\nif a:\n    a\n")
+    made = list(generate(tmp_path / "x.py", ()))
+    assert [m.key for m in made if m.number != 2] == [
+        "x.py: a ==> b",
+        "x.py: a ==> c\nbreak;",
+        "x.py: a (2) ==> b",
+        "x.py: a (2) ==> c\nbreak;",
+    ]
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from ucm_cts.harness.results import FRAMEWORK_INCIDENTS
 from ucm_cts.harness.selftest.generated.mutants import GENERATED, NO_PROGRAM, SAME
 from ucm_cts.harness.selftest.generated.record import Result
 from ucm_cts.harness.selftest.generated.trial import Fate
@@ -67,13 +68,16 @@ def page(title: str, intro: str, tally: Tally) -> str:
 
 def _figures(tally: Tally) -> list[str]:
     fates = Counter(result.outcome.fate for result in tally.results)
+    incidents = [result for result in tally.results if result.outcome.fate == "incident"]
+    nonsense = [result for result in incidents if result.outcome.by not in FRAMEWORK_INCIDENTS]
     rows: list[tuple[str, object]] = [(GENERATED, tally.census[GENERATED])]
     rows += [(f"of these {what}", n) for what, n in tally.census.items() if what != GENERATED]
     rows += [("that can be run", tally.candidates), ("drawn and tried", len(tally.results))]
     rows += [(f"of these {NO_PROGRAM}", fates["not compiled"]), (f"of these {SAME}", fates["same program"])]
     rows += [
         ("killed: a requirement failed", fates["failed"]),
-        ("killed: it crashed, hung or lied", fates["incident"]),
+        ("killed: it crashed or hung", fates["incident"] - len(nonsense)),
+        ("killed: what it answered was no answer, so that it was not certified", len(nonsense)),
         ("killed: it could not be loaded", fates["not loaded"]),
         ("survived, equivalent", len(tally.equivalent)),
         ("survived, open", len(tally.open)),
