@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+import msgspec
 import pytest
 from command_line import report_of, ucm_cts, within
 
@@ -13,9 +14,12 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Skip
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.results import Incident
+from ucm_cts.harness.running.campaign import Campaign
 from ucm_cts.harness.running.driver import Driver, Limits
 from ucm_cts.harness.running.incidents import Patience
 from ucm_cts.harness.scenarios.purposes import load_purposes, select
+from ucm_cts.harness.stating.applicability import purposes_for
+from ucm_cts.harness.stating.files import stated_by
 
 STARTS = Scenario({}, (s.Start(),))
 STOPS = Scenario({}, (s.Start(), s.Stop()))
@@ -118,3 +122,20 @@ def test_connector_that_is_not_offered_is_not_asked_for_again(connector: str) ->
     assert connector in refused.detail
     assert [patience.not_tried(other) for kind, other in asked.items() if kind != connector] == [None]
     assert patience.not_tried(STARTS) is None
+
+
+def test_threads_that_never_come_back_fail_the_requirement_that_forbids_it() -> None:
+    statement = stated_by(None, "reference-py")
+    statement = msgspec.structs.replace(statement, ixit={**statement.ixit, "patience": 200})
+    some = [p for p in purposes_for(statement, "core") if "R-10.1.3.2-17" in p.requirements][:3]
+    assert some
+    with Driver(locate("ucm_cts.adapters.derived:forgets_who_waits"), seed=1) as driver:
+        campaign = Campaign(driver, "core", (), statement)
+        for _ in campaign.check(some):
+            pass
+        report = campaign.report()
+    assert {item.incident.kind for item in report.incidents} == {"hang"}
+    (result,) = (r for r in report.requirements if r.id == "R-10.1.3.2-17")
+    assert (result.verdict, report.verdict) == ("fail", "not conformant")
+    assert result.exercised > 0
+    assert result.findings[0].finding.rule != "declared_errors"

@@ -119,6 +119,8 @@ class Campaign:
             execution = self._driver.revealed(answer)
             self._tally.add_incident(execution, purpose.requirements)
             yield finding_of_incident(execution), execution
+            if answer.is_whole:
+                yield from self._judge_who_hung(answer, execution)
             return
         ledger = self._judge.judge(answer.disguised, answer.trace)
         if self._watch is not None:
@@ -135,6 +137,15 @@ class Campaign:
         self._doubt(execution, doubted)
         for finding in findings:
             yield finding, execution
+
+    def _judge_who_hung(self, answer: Answer, execution: Execution) -> Iterator[tuple[Finding, Execution]]:
+        """Threads that never came back may be what a rule forbids; the trace tells."""
+        stand, doubted = self._doubts.sort(answer, self._judge.judge(answer.disguised, answer.trace).findings)
+        for finding in map(self._driver.reveal, stand):
+            self._tally.exercised[finding.requirement] += 1
+            self._tally.add_failure(finding, execution)
+            yield finding, execution
+        self._doubt(execution, doubted)
 
     def look_again(self, at_passes: bool = True) -> None:
         """Take a second look at each failure that was seen once, and at each requirement that was kept and depends on time,

@@ -34,13 +34,17 @@ _HOST_IS_GONE: frozenset[IncidentKind] = FRAMEWORK_INCIDENTS | {"flood", "garbag
 
 @dataclass(frozen=True)
 class Answer:
-    """One scenario and what came of it. ``trace`` is spelled as ``disguised`` is; after an incident it is what is known."""
+    """One scenario and what came of it. ``trace`` is spelled as ``disguised`` is; after an incident it is what is known.
+
+    That is everything if ``is_whole``: the host itself told it, and which of its threads never came back.
+    """
 
     name: str
     scenario: Scenario
     disguised: Scenario
     trace: Trace
     incident: Incident | None = None
+    is_whole: bool = False
 
 
 @dataclass(frozen=True)
@@ -117,7 +121,8 @@ class Driver:
                     lost = incident is not None and incident.kind in _HOST_IS_GONE
                     if incident is not None and lost:
                         self._patience.spend(time.monotonic() - began, case.run.scenario, incident, trace)
-                    yield Answer(case.name, case.scenario, case.run.scenario, trace, incident)
+                    told = isinstance(reply.reply, Traced) and incident is not None and incident.kind == "hang"
+                    yield Answer(case.name, case.scenario, case.run.scenario, trace, incident, told)
                     if lost:
                         break
                     began = time.monotonic()

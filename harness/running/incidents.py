@@ -10,7 +10,7 @@ from collections import Counter
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.contract.trace import Call, Raise, Return, Skip, Trace
+from ucm_cts.adapters.contract.trace import Call, Create, Enter, Exit, Raise, Reply, Request, Return, Skip, Trace
 from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.rules_operations import DECLARED
@@ -86,6 +86,8 @@ def finding_of_incident(execution: Execution) -> Finding | None:
     call = last_open_call(execution.trace)
     if call is None or incident is None or incident.kind not in FRAMEWORK_INCIDENTS:
         return None
+    if incident.kind == "hang" and may_wait(execution.scenario, execution.trace):
+        return None
     operation = s.operation(execution.scenario.steps[call.step])
     if operation not in DECLARED:
         return None
@@ -99,6 +101,30 @@ def finding_of_incident(execution: Execution) -> Finding | None:
         (call.n,),
         call.step,
     )
+
+
+def may_wait(scenario: Scenario, trace: Trace) -> bool:
+    """Was a call under way when ``trace`` broke off, while a component was not operational, so that it may have to wait for
+    the start (11.2.3)?
+    """
+    pending: Counter[tuple[str, int, int]] = Counter()
+    ready: dict[tuple[str, int], bool] = {}
+    invoked = set()
+    for event in trace:
+        match event:
+            case Call() if isinstance(scenario.steps[event.step], s.Invoke):
+                invoked.add(event.step)
+            case Return() | Raise():
+                invoked.discard(event.step)
+            case Request() | Reply():
+                pending[event.component, event.instance, event.thread] += 1 if isinstance(event, Request) else -1
+            case Create():
+                ready[event.component, event.instance] = False
+            case Exit(hook="on_startup"):
+                ready[event.component, event.instance] = not event.raised
+            case Enter(hook="on_shutdown"):
+                ready[event.component, event.instance] = False
+    return bool(invoked or +pending) and not all(ready.values())
 
 
 def last_open_call(trace: Trace) -> Call | None:

@@ -12,6 +12,7 @@ import msgspec
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.derived import CONTAINER, MUTANTS, VARIANTS
+from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.report.failures import length
@@ -22,8 +23,10 @@ from ucm_cts.harness.scenarios.scripts import TestPurpose
 from ucm_cts.harness.selftest.divergence import divergence
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
 from ucm_cts.harness.stating.applicability import purposes_for
-from ucm_cts.harness.stating.statement import Statement, default_statement
+from ucm_cts.harness.stating.files import stated_by
+from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.judgement import Judge
 
 PATIENCE = 500
 """Milliseconds, as a vendor would declare them: mutants often never do what is waited for, and their machine is this one."""
@@ -134,7 +137,7 @@ def _run(subject: Subject, how: Thoroughness) -> _Ran:
     ran = _Ran(how.seed)
     began = time.monotonic()
     profile = "core" if how.whole or subject.clauses != CONTAINER else "container"
-    statement = _statement(subject.readings)
+    statement = _statement(subject)
     try:
         with Driver(locate(subject.adapter), how.seed) as driver:
             campaign = Campaign(driver, profile, (), statement)
@@ -168,10 +171,11 @@ def _purposes(subject: Subject, how: Thoroughness, profile: str, statement: Stat
     return purposes if how.whole else [p for p in purposes if p.clause.startswith(subject.clauses)]
 
 
-def _statement(readings: Mapping[str, str]) -> Statement:
-    usual = default_statement()
+def _statement(subject: Subject) -> Statement:
+    """What is stated of the framework that it was made from, but for its own readings."""
+    usual = stated_by(None, subject.model)
     ixit = {**usual.ixit, "patience": PATIENCE}
-    return msgspec.structs.replace(usual, readings={**usual.readings, **readings}, ixit=ixit)
+    return msgspec.structs.replace(usual, readings={**usual.readings, **subject.readings}, ixit=ixit)
 
 
 def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_at: int) -> Kill:
@@ -180,11 +184,16 @@ def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_
 
 
 def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: Execution) -> bool:
-    """A framework that dies or hangs is named by that alone."""
+    """A framework that dies or hangs is named by that alone, one that says what it does not do by what it says."""
     if execution.incident is not None:
         return True
     right = _right_traces(subject.model, seed).of(execution.scenario)
-    return divergence(execution.scenario, right, execution.trace).explains(finding)
+    parted = divergence(execution.scenario, right, execution.trace)
+    if not parted.steps and subject.readings:  # it lies in its statement: under its model's the finding must vanish
+        usual = Judge(load_life_cycle(), stated_by(None, subject.model).claims)
+        found = usual.judge(execution.scenario, execution.trace).findings
+        return all(other.requirement != finding.requirement for other in found)
+    return parted.explains(finding)
 
 
 class _RightTraces:
