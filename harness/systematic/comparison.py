@@ -134,7 +134,7 @@ def wrong_machines(subject: Subject, extra: int, seed: int, most: int) -> list[F
             subject.extra_states(extra),
         )
     else:
-        kinds = tuple((subject.drawn(kind, draw) for _ in range(most)) for kind in ("output", "transfer"))
+        kinds = tuple([subject.drawn(kind, draw) for _ in range(most)] for kind in ("output", "transfer"))
     pairs = subject.two_faults(min(most, FEW), seed)
     return [fault for kind in (*kinds, pairs) for fault in _at_most(most, kind, draw) if subject.is_wrong(fault)]
 
