@@ -61,7 +61,7 @@ def check_here(adapter: type[Adapter]) -> None:
 
 
 def test_each_row_is_read() -> None:
-    assert {"GStreamer 1.22.0", "iPOPO 3.2.4"} <= set(HABITS)
+    assert {"GStreamer 1.22.0", "iPOPO 3.2.4", "Fractal Julia 2.5.2"} <= set(HABITS)
     assert sum(map(len, HABITS.values())) == len(re.findall(r"(?m)^\| .*R-\d", PAGE))
 
 
