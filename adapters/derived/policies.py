@@ -189,7 +189,7 @@ class manages_whole_components(Base):
         if any(policy.definition == ACTIVE and policy.port is not None for policy in implementation.policies):
             raise UcmError(f"{ACTIVE!r} applies to components")
         others = tuple(policy for policy in implementation.policies if policy.definition != ACTIVE)
-        if len(implementation.policies) > 1:
+        if others and others != implementation.policies:
             raise UcmError(f"{implementation.name!r} has more than one execution policy")
         super()._check_policies(dataclasses.replace(implementation, policies=others))
 

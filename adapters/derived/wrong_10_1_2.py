@@ -187,7 +187,7 @@ class _Losing(Link):
             super()._post(taker, method, arguments)
 
 
-@breaks("R-10.1.2-10", clauses=_MESSAGES, also=("R-10.1.6.1-04", "R-10.1.6.1-03"))
+@breaks("R-10.1.2-10", clauses=_MESSAGES, also=("R-10.1.6.1-04", "R-10.1.6.1-03", "R-10.1.6.1-08"))
 class loses_every_third_message(Base):
     """Every third message does not come, whatever was answered."""
 

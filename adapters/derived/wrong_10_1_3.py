@@ -222,7 +222,7 @@ class unlocks_for_nested_calls(Base):
         return [PortConnection(d.from_port, tuple(_Unlocked(t, member) for t in d.to_port if t)) for d in given]
 
 
-@breaks_policy("R-10.1.3.2-05")
+@breaks_policy("R-10.1.3.2-05", also=("R-10.1.3.2-06",))
 class runs_before_run_has_ended(Base):
     """Every run has a thread of its own and waits for none."""
 
@@ -273,11 +273,12 @@ class _Meets(Base):
         raise NotImplementedError
 
 
+_THROUGH_CONNECTORS = ("R-10.1.2-10", "R-10.1.5.1-01", "R-10.1.5.1-03")
 _CALLS = ("R-10.1.3.2-08", "R-10.1.3.2-15", "R-11.1.2-02", "R-11.1.3-01", "R-11.2.1.2-07", "R-11.2.3-03")
 """Business calls do not do what they should."""
 
 
-@breaks_policy("R-10.1.3.2-17", also=_CALLS)
+@breaks_policy("R-10.1.3.2-17", also=(*_CALLS, *_THROUGH_CONNECTORS))
 class refuses_who_waited(_Meets):
     """A caller that meets an execution waits for its end and is refused."""
 
@@ -296,7 +297,7 @@ class forgets_who_waits(_Meets):
         raise NotImplementedError
 
 
-@breaks_policy("R-10.1.3.2-17", also=_CALLS)
+@breaks_policy("R-10.1.3.2-17", also=(*_CALLS, *_THROUGH_CONNECTORS))
 class answers_all_who_wait_alike(_Meets):
     """A caller that meets an execution waits and gets its result."""
 

@@ -150,7 +150,7 @@ class _FirstClientOnly(_Services):
             connection.target.link = Link(self.manager, self.connector, self.interface)
 
 
-@breaks(_CLIENTS, clauses=_CLAUSES)
+@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
 class attaches_one_client(Base):
     """Clients after the first are attached to nothing."""
 
@@ -184,7 +184,7 @@ class _Busy(_Services):
             self.busy -= 1
 
 
-@breaks(_CLIENTS, clauses=_CLAUSES)
+@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
 class refuses_while_the_server_is_busy(Base):
     """Who calls while another client is served is sent away."""
 
@@ -223,7 +223,7 @@ class _OneSlot(_Services):
         return self.last if len(self.last) == len(own) else own
 
 
-@breaks(_OWN, clauses=_CLAUSES, also=(_IN_FLIGHT,))
+@breaks(_OWN, clauses=_CLAUSES, also=(_IN_FLIGHT, "R-10.1.5.1-01"))
 class keeps_results_in_one_slot(Base):
     """Who comes back from the server last overwrites the results of those who are on their way."""
 
@@ -406,7 +406,7 @@ class _LosesFields(_Catches):
         raise DeclaredException(error.name, ["" if isinstance(f, str) else 0 for f in error.fields])
 
 
-@breaks(_EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
+@breaks(_EXCEPTIONS, clauses=_CLAUSES, also=("R-10.1.1-07",), readings={"exception-transport": "full"})
 class loses_the_fields_of_exceptions(Base):
     """Exceptions arrive, with nothing in their fields."""
 
@@ -518,7 +518,7 @@ class invents_results_of_stopped_servers(Base):
     link_class = _InventsWhenStopped
 
 
-@breaks(_IN_FLIGHT, clauses=_CLAUSES)
+@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=("R-12.10-10",))
 class never_stops_what_was_called(Base):
     """stop does not end if a server was executing several calls when it came."""
 
