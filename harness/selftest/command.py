@@ -11,9 +11,10 @@ import click
 from rich.table import Table
 
 from ucm_cts.harness.report.order import clause_key
+from ucm_cts.harness.selftest.cheating import all_cheats
 from ucm_cts.harness.selftest.conducting import Conduct, Result
 from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, all_variants, names
-from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, by_clause
+from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult, by_clause
 from ucm_cts.harness.selftest.page import write_matrix
 from ucm_cts.harness.selftest.spoilt_models import declarations
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
@@ -39,18 +40,21 @@ LISTED = 40
 def selftest(
     names_wanted: Sequence[str], quick: bool, whole: bool, jobs: int, seed: int, out: Path, listed: bool
 ) -> None:
-    """Run the suite on frameworks whose verdict is known: mutants, each with one defect, and conformant variants.
+    """Run the suite on subjects whose verdict is known: mutants, each with one defect, conformant variants, and cheats.
 
     A mutant is killed if each requirement that it violates fails, and a finding names the events in which it differs from
-    the framework it was made from. Exit status 1 if one survives or fails something else, or if a variant is failed.
+    the framework it was made from. Exit status 1 if one survives or fails something else, if a variant
+    is failed, or a cheat not found out.
     """
     console = Output()
     mutants, variants = all_mutants(), all_variants()
-    chosen = list(names(mutants | variants, names_wanted))
+    chosen = list(names(mutants | variants, names_wanted, all_cheats()))
     if listed:
         for subject in chosen:
             told = f"breaks {', '.join(subject.breaks)}: {subject.lie}" if subject.breaks else "is conformant"
             console.print(f"{subject.name} {told}", markup=False, soft_wrap=True)
+        for cheat in all_cheats().values() if not names_wanted else ():
+            console.print(f"{cheat.name} cheats: {cheat.lie}", markup=False, soft_wrap=True)
         return
     conduct = Conduct(
         [subject for subject in chosen if subject.breaks],
@@ -58,6 +62,7 @@ def selftest(
         Thoroughness(seed, whole, quick),
         jobs,
         [] if names_wanted else list(declarations()),
+        [name for name in all_cheats() if name in names_wanted or not (names_wanted or quick)],
     )
     interrupted = _conduct(conduct, console)
     write_matrix(conduct.matrix, out)
@@ -73,12 +78,12 @@ def _conduct(conduct: Conduct, console: Output) -> bool:
     """Run everybody; True if interrupted."""
     wrong = 0
     with ends_like_interrupts(), progress_of(console) as progress:
-        task = progress.add_task("examining", total=len(conduct.mutants) + len(conduct.variants) + len(conduct.models))
+        total = len(conduct.mutants) + len(conduct.variants) + len(conduct.models) + len(conduct.cheats)
+        task = progress.add_task("examining", total=total)
 
         def tell(result: Result) -> None:
             nonlocal wrong
-            well = result.is_killed and not result.spills if isinstance(result, MutantResult) else result.is_spared
-            wrong += not well
+            wrong += not is_well(result)
             progress.update(task, advance=1, description=f"{wrong} not as they should be, {result.name[:40]}")
 
         try:
@@ -101,8 +106,23 @@ def summary(matrix: Matrix) -> Table:
     table.add_section()
     table.add_row("all", *_counts(matrix.mutants), str(len(matrix.testable)), str(len(all_due)))
     spared = sum(variant.is_spared for variant in matrix.variants)
-    table.caption = f"{spared} of {len(matrix.variants)} conformant variants spared; {matrix.seconds:.0f} s"
+    found = len(matrix.cheats) - len(matrix.undetected)
+    table.caption = (
+        f"{spared} of {len(matrix.variants)} conformant variants spared; "
+        f"{found} of {len(matrix.cheats)} cheats come out as they should; {matrix.seconds:.0f} s"
+    )
     return table
+
+
+def is_well(result: Result) -> bool:
+    """Is it as it should be?"""
+    match result:
+        case MutantResult():
+            return result.is_killed and not result.spills
+        case VariantResult():
+            return result.is_spared
+        case _:
+            return result.is_as_it_should
 
 
 def _counts(mutants: Sequence[MutantResult]) -> tuple[str, str, str]:
@@ -115,6 +135,10 @@ def _tell_the_rest(matrix: Matrix, console: Output) -> None:
         *(f"{m.name} survives: {m.trouble or ', '.join(m.survives)}" for m in matrix.survivors),
         *(f"{m.name} also fails {k.requirement}: {k.observed}" for m in matrix.spilling for k in m.spills),
         *(f"{v.name} is conformant and fails {k.requirement}: {k.observed}" for v in matrix.wronged for k in v.failed),
+        *(
+            f"{c.name} cheats, and {', '.join(c.came_out) or 'nothing'} comes out: {c.trouble}"
+            for c in matrix.undetected
+        ),
         *(f"{v.name} is conformant: {v.trouble or ', '.join(v.incidents)}" for v in matrix.wronged if not v.failed),
     ]
     for line in lines[:LISTED]:

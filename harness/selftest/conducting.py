@@ -13,17 +13,18 @@ from dataclasses import dataclass, field
 import ucm_cts
 from ucm_cts.harness.catalogue import load_requirements
 from ucm_cts.harness.models.core_models import CHECKS
+from ucm_cts.harness.selftest.cheating import all_cheats, examine_cheat
 from ucm_cts.harness.selftest.killing import (
     Subject,
     Thoroughness,
     examine_mutant,
     examine_variant,
 )
-from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult
+from ucm_cts.harness.selftest.matrix import CheatResult, Matrix, MutantResult, VariantResult
 from ucm_cts.harness.selftest.models_killing import examine_models
 from ucm_cts.reference_models.ledger import RULES
 
-Result = MutantResult | VariantResult
+Result = MutantResult | VariantResult | CheatResult
 
 ALL_CHECKS = RULES.keys() | CHECKS.keys()
 """Rules, which watch traces, and checks of core models."""
@@ -38,6 +39,7 @@ class Conduct:
     how: Thoroughness
     jobs: int
     models: Sequence[str] = ()
+    cheats: Sequence[str] = ()
     _done: dict[str, Result] = field(default_factory=dict)
     _began: float = field(default_factory=time.monotonic)
 
@@ -50,8 +52,9 @@ class Conduct:
         context = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(self.jobs, context, initializer=_leave_interrupts_to_the_parent) as pool:
             due: set[Future[Result]] = set()
-            owners: dict[Future[Result], Subject] = {}
-            for subject in (*self.mutants, *self.variants):
+            owners: dict[Future[Result], Subject | str] = {}
+            subjects: list[Subject | str] = [*self.mutants, *self.variants, *self.cheats]
+            for subject in subjects:
                 future: Future[Result] = pool.submit(_examine, subject, self.how)
                 owners[future] = subject
                 due.add(future)
@@ -78,6 +81,7 @@ class Conduct:
             tuple(sorted((r for r in results if isinstance(r, MutantResult)), key=_by_name)),
             tuple(sorted((r for r in results if isinstance(r, VariantResult)), key=_by_name)),
             self.how.whole,
+            tuple(sorted((r for r in results if isinstance(r, CheatResult)), key=_by_name)),
         )
 
 
@@ -90,17 +94,21 @@ def testable() -> tuple[str, ...]:
     return tuple(r.id for r in load_requirements() if r.level != "may" and any(rule in ALL_CHECKS for rule in r.rules))
 
 
-def _examine(subject: Subject, how: Thoroughness) -> Result:
+def _examine(subject: Subject | str, how: Thoroughness) -> Result:
+    if isinstance(subject, str):
+        return examine_cheat(all_cheats()[subject])
     return examine_mutant(subject, how) if subject.breaks else examine_variant(subject, how)
 
 
-def _result(future: Future[Result], subject: Subject) -> Result:
+def _result(future: Future[Result], subject: Subject | str) -> Result:
     try:
         return future.result()
     except BrokenProcessPool:
         trouble = "the process that examined it, or another one, died"
     except Exception as problem:  # noqa: BLE001 - one subject's trouble is not the others'
         trouble = f"the harness failed: {type(problem).__name__}: {problem}"
+    if isinstance(subject, str):
+        return CheatResult(subject, "", (), (), False, 0.0, trouble)
     if not subject.breaks:
         return VariantResult(subject.name, (), (), 0, 0.0, trouble)
     return MutantResult(subject.name, subject.lie, "", subject.breaks, subject.also, (), (), 0, 0.0, trouble)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import functools
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 
 import msgspec
@@ -12,13 +13,14 @@ import msgspec
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.derived import CONTAINER, MUTANTS, VARIANTS
+from ucm_cts.adapters.derived_cpp import COMMAND, being, native_mutants
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.report.failures import length
 from ucm_cts.harness.results import Execution
 from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.driver import Driver
+from ucm_cts.harness.running.driver import Driver, Limits
 from ucm_cts.harness.scenarios.scripts import TestPurpose
 from ucm_cts.harness.selftest.divergence import divergence
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
@@ -33,6 +35,9 @@ PATIENCE = 500
 
 LOOKS = 25
 """So many findings for one requirement are compared with what the right framework does, those of short scenarios first."""
+
+LIMITS = Limits(seconds=3, incident_seconds=20)
+"""A mutant that hangs is not waited for longer."""
 
 Shown = tuple[Finding, Execution]
 
@@ -52,6 +57,8 @@ class Subject:
     breaks: tuple[str, ...] = ()
     also: tuple[str, ...] = ()
     readings: Mapping[str, str] = field(default_factory=dict)
+    is_native: bool = False
+    is_rare: bool = False
 
 
 @dataclass(frozen=True)
@@ -64,13 +71,19 @@ class Thoroughness:
 
 
 def all_mutants() -> dict[str, Subject]:
-    """Every mutant there is, by name."""
+    """Every mutant there is, by name. Native ones come with an installed suite only."""
     home = "ucm_cts.adapters.derived"
+    native = native_mutants() if COMMAND.is_file() else {}
     return {
         m.name: Subject(
             m.name, m.lie, f"{home}:{m.name}", "reference-py", m.clauses, m.requirements, m.also, m.readings
         )
         for m in MUTANTS.values()
+    } | {
+        m.name: Subject(
+            m.name, m.lie, str(COMMAND), "reference-cpp", m.clauses, m.requirements, m.also, m.readings, True, m.is_rare
+        )
+        for m in native.values()
     }
 
 
@@ -98,6 +111,7 @@ def examine_mutant(subject: Subject, how: Thoroughness) -> MutantResult:
         ran.scenarios,
         ran.seconds,
         ran.trouble,
+        subject.is_rare,
     )
 
 
@@ -139,7 +153,7 @@ def _run(subject: Subject, how: Thoroughness) -> _Ran:
     profile = "core" if how.whole or subject.clauses != CONTAINER else "container"
     statement = _statement(subject)
     try:
-        with Driver(locate(subject.adapter), how.seed) as driver:
+        with _being(subject), Driver(locate(subject.adapter), how.seed, LIMITS) as driver:
             campaign = Campaign(driver, profile, (), statement)
             for checked in campaign.check(_purposes(subject, how, profile, statement)):
                 for finding, execution in checked.failures:
@@ -155,8 +169,12 @@ def _run(subject: Subject, how: Thoroughness) -> _Ran:
     return ran
 
 
+def _being(subject: Subject) -> AbstractContextManager[None]:
+    return being(subject.name) if subject.is_native else nullcontext()
+
+
 def _is_enough(ran: _Ran, subject: Subject) -> bool:
-    return all(
+    return (any if subject.is_rare else all)(
         requirement in ran.shown and ran.kill(subject, requirement).names_the_place for requirement in subject.breaks
     )
 
@@ -175,7 +193,8 @@ def _statement(subject: Subject) -> Statement:
     """What is stated of the framework that it was made from, but for its own readings."""
     usual = stated_by(None, subject.model)
     ixit = {**usual.ixit, "patience": PATIENCE}
-    return msgspec.structs.replace(usual, readings={**usual.readings, **subject.readings}, ixit=ixit)
+    readings = {**usual.readings, **subject.readings, "core-models": "built-in"}  # models have mutants of their own
+    return msgspec.structs.replace(usual, readings=readings, ixit=ixit)
 
 
 def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_at: int) -> Kill:
@@ -218,9 +237,9 @@ def _right_traces(adapter: str, seed: int) -> _RightTraces:
     return _RightTraces(adapter, seed)
 
 
-def names(subjects: Mapping[str, Subject], wanted: Sequence[str]) -> Iterator[Subject]:
-    """The ``wanted`` ones of ``subjects``, all if none is named. Raises ``WrongUse``."""
+def names(subjects: Mapping[str, Subject], wanted: Sequence[str], others: Collection[str] = ()) -> Iterator[Subject]:
+    """The ``wanted`` ones of ``subjects``, all if none is named. Raises ``WrongUse`` if one is not even among ``others``."""
     for name in wanted:
-        if name not in subjects:
+        if name not in subjects and name not in others:
             raise WrongUse(f"there is no mutant or variant '{name}'; 'ucm-cts selftest --list' names them all")
     yield from (subject for name, subject in subjects.items() if not wanted or name in wanted)

@@ -41,11 +41,14 @@ class MutantResult(Value, frozen=True):
     scenarios: int
     seconds: float
     trouble: str = ""
+    is_rare: bool = False
 
     @property
     def survives(self) -> tuple[str, ...]:
-        """The requirements that it was to fail, and did not fail for the right reason."""
+        """The requirements that it was to fail, and did not fail for the right reason. Of a rare defect one is enough."""
         told = {kill.requirement for kill in self.kills if kill.names_the_place}
+        if self.is_rare and told.intersection(self.breaks):
+            return ()
         return tuple(requirement for requirement in self.breaks if requirement not in told)
 
     @property
@@ -57,6 +60,18 @@ class MutantResult(Value, frozen=True):
     def spills(self) -> tuple[Kill, ...]:
         """What it fails although its defect does not break it."""
         return tuple(kill for kill in self.kills if kill.requirement not in (*self.breaks, *self.also))
+
+
+class CheatResult(Value, frozen=True):
+    """What became of an adapter that cheats: ``due`` is what must come out, nothing if no observation can tell it."""
+
+    name: str
+    lie: str
+    due: tuple[str, ...]
+    came_out: tuple[str, ...]
+    is_as_it_should: bool
+    seconds: float
+    trouble: str = ""
 
 
 class VariantResult(Value, frozen=True):
@@ -85,6 +100,12 @@ class Matrix(Value, frozen=True):
     mutants: tuple[MutantResult, ...]
     variants: tuple[VariantResult, ...]
     whole: bool
+    cheats: tuple[CheatResult, ...] = ()
+
+    @property
+    def undetected(self) -> tuple[CheatResult, ...]:
+        """The cheats of which not that came out which must."""
+        return tuple(cheat for cheat in self.cheats if not cheat.is_as_it_should)
 
     @property
     def survivors(self) -> tuple[MutantResult, ...]:
@@ -112,8 +133,8 @@ class Matrix(Value, frozen=True):
 
     @property
     def is_proved(self) -> bool:
-        """Are all mutants killed without spills, and all variants spared?"""
-        return not (self.survivors or self.spilling or self.wronged)
+        """Are all mutants killed without spills, all variants spared, and all cheats found out?"""
+        return not (self.survivors or self.spilling or self.wronged or self.undetected)
 
 
 def by_clause(mutants: Iterable[MutantResult]) -> dict[str, list[MutantResult]]:

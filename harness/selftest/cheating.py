@@ -1,0 +1,80 @@
+"""Adapters that cheat, in the ordinary pipeline: does what must come out come out? (docs/honesty.md)"""
+
+from __future__ import annotations
+
+import importlib
+import time
+from typing import Any
+
+from ucm_cts.adapters.derived import CHEATS, UNSEEN, Cheat
+from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.results import Report
+from ucm_cts.harness.running.campaign import Campaign
+from ucm_cts.harness.running.driver import Driver, Limits
+from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.scenarios.scripts import TestPurpose
+from ucm_cts.harness.selftest.matrix import CheatResult
+
+ENDS_THE_HOST = {"leaves_when_it_fails"}
+CHANGES_THE_SDK = {name for name, cheat in CHEATS.items() if cheat.adapter and "tampering" in cheat.adapter.__module__}
+"""These cannot be run in the harness's own process. The others are: some of them learn from one run for the next."""
+
+FEW, MANY = 30, 40
+"""So many purposes are enough, and so many scenarios of one are left to a run."""
+
+
+def examine_cheat(cheat: Cheat) -> CheatResult:
+    """Is ``cheat`` found out, in the way that its register says?"""
+    began = time.monotonic()
+    report = report_on(cheat)
+    came_out = tuple(sorted(what_came_out(report)))
+    found = report.verdict != "conformant" and set(cheat.detected_by) <= set(came_out)
+    as_it_should = found if cheat.detected_by else not came_out
+    seconds = round(time.monotonic() - began, 3)
+    return CheatResult(cheat.name, cheat.lie, cheat.detected_by, came_out, as_it_should, seconds)
+
+
+def all_cheats() -> dict[str, Cheat]:
+    """Every cheat there is, also those that nothing shows, by name."""
+    return {**CHEATS, **UNSEEN}
+
+
+def report_on(cheat: Cheat) -> Report:
+    """What a run says of ``cheat``, after its rehearsals."""
+    in_process = cheat.name not in ENDS_THE_HOST | CHANGES_THE_SDK
+    _rehearse(cheat, True)
+    for seed in range(1, cheat.rehearsals + 2):
+        if seed > cheat.rehearsals:
+            _rehearse(cheat, False)
+        limits = Limits(seconds=5, incident_seconds=2)
+        with Driver(locate(cheat.door, in_process), seed, limits) as driver:
+            campaign = Campaign(driver, "core")
+            for _ in campaign.check(purposes(cheat)):
+                pass
+            report = campaign.report()
+    return report
+
+
+def purposes(cheat: Cheat) -> list[TestPurpose]:
+    """Those that mean to exercise what the cheat is to fail, or the first ones; and those that nobody foresees."""
+    quick = [
+        purpose
+        for purpose in load_purposes("core")
+        if len(purpose.scenarios) <= MANY
+        and purpose.clause.startswith(cheat.clauses)
+        and not purpose.id.startswith("self-executing")
+    ]
+    concerned = [p for p in quick if set(p.requirements) & set(cheat.detected_by) or p.id == "unforeseen"]
+    return concerned if len(concerned) > 1 else [*quick[:FEW], *concerned]
+
+
+def what_came_out(report: Report) -> set[str]:
+    """The requirements that failed, and the kinds of incidents."""
+    failed = {result.id for result in report.requirements if result.verdict == "fail"}
+    return failed | {item.incident.kind for item in report.incidents}
+
+
+def _rehearse(cheat: Cheat, on: bool) -> None:
+    if cheat.rehearsals:
+        subject: Any = cheat.adapter or importlib.import_module(cheat.door).player
+        subject.rehearsing = on
