@@ -19,6 +19,9 @@ from ucm_cts.harness.selftest.page import write_matrix
 from ucm_cts.harness.selftest.spoilt_models import declarations
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
 
+TOLD_EVERY = 50
+"""Where no progress can be drawn, it is told each time so many have been examined."""
+
 LISTED = 40
 """So many survivors, spills and wronged variants are told in the terminal; the page has them all."""
 
@@ -76,14 +79,17 @@ def selftest(
 
 def _conduct(conduct: Conduct, console: Output) -> bool:
     """Run everybody; True if interrupted."""
-    wrong = 0
+    done = wrong = 0
     with ends_like_interrupts(), progress_of(console) as progress:
         total = len(conduct.mutants) + len(conduct.variants) + len(conduct.models) + len(conduct.cheats)
         task = progress.add_task("examining", total=total)
 
         def tell(result: Result) -> None:
-            nonlocal wrong
+            nonlocal done, wrong
+            done += 1
             wrong += not is_well(result)
+            if not console.is_terminal and done % TOLD_EVERY == 0:
+                console.print(f"{done} of {total} examined, {wrong} not as they should be")
             progress.update(task, advance=1, description=f"{wrong} not as they should be, {result.name[:40]}")
 
         try:
