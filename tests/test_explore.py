@@ -19,6 +19,7 @@ from command_line import ucm_cts, within
 from hypothesis.database import DirectoryBasedExampleDatabase, InMemoryExampleDatabase
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.exploring.changing import LONGEST, changed
@@ -30,6 +31,7 @@ from ucm_cts.harness.exploring.novelty import Guide
 from ucm_cts.harness.exploring.writer import Writer
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.running.driver import Driver
+from ucm_cts.harness.running.incidents import may_wait
 from ucm_cts.harness.scenarios.scripts import Script, problems, to_scenario
 from ucm_cts.harness.stating.statement import default_statement
 
@@ -111,6 +113,41 @@ def test_conformant_frameworks_are_not_failed(here: Path) -> None:
         told = exploration(here / profile)
         assert told["scenarios"] == 60
         assert told["failures"] == told["incidents"] == []
+
+
+def test_calls_may_wait_for_a_start_that_never_comes(here: Path) -> None:
+    variant = "ucm_cts.adapters.derived:calls_wait_for_the_start"
+    arguments = "--budget", "12scenarios", "--seed", "4", "--timeout", "0.5", "--out", "out"
+    outcome = ucm_cts("explore", variant, *arguments)
+    assert (outcome.status, outcome.err) == (0, "")
+    assert "scenarios hung in calls that may wait for a component to be started: no failure" in " ".join(
+        outcome.out.split()
+    )
+    assert {mishap["kind"] for mishap in exploration(here / "out")["incidents"]} == {"hang"}
+
+
+BODY = 1, 1, 0, "one", 1
+STARTED = (t.Create(*BODY), t.Enter(*BODY, "on_startup"), t.Exit(*BODY, "on_startup"))
+STOPPED = (*STARTED, t.Enter(*BODY, "on_shutdown"))
+INVOKED = t.Call(1, 1, 0, 0)
+ASKED = t.Request(*BODY, "out.api", 1)
+
+
+@pytest.mark.parametrize(
+    ("trace", "may"),
+    [
+        ((t.Create(*BODY), INVOKED), True),
+        ((*STARTED, INVOKED), False),
+        ((*STOPPED, INVOKED), True),
+        ((t.Create(*BODY), INVOKED, t.Return(1, 1, 0, 0)), False),
+        ((*STARTED[:2], ASKED), True),
+        ((*STARTED[:2], ASKED, t.Reply(*BODY, "out.api", 1)), False),
+        ((*STARTED, ASKED), False),
+        ((), False),
+    ],
+)
+def test_who_may_wait(trace: t.Trace, may: bool) -> None:
+    assert may_wait(Scenario({}, (s.Invoke("one", 1),)), trace) == may
 
 
 def test_crashes_are_failures_and_do_not_end_it(here: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
@@ -14,15 +15,19 @@ from hypothesis import strategies as st
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event, Trace
-from ucm_cts.adapters.derived import CONTAINER, mutants_of, variants_of
+from ucm_cts.adapters.derived import CONTAINER, CORE, POLICIES, mutants_of, variants_of
 from ucm_cts.adapters.python.engine import ContractBroken, Performance
 from ucm_cts.adapters.python.recorder import Recorder
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.exploring.core_writer import CoreWriter
 from ucm_cts.harness.exploring.writer import scenarios
 from ucm_cts.harness.running.disguise import Disguise
+from ucm_cts.harness.running.doubts import is_timed
 from ucm_cts.harness.running.integrity import contradiction
 from ucm_cts.harness.scenarios.scripts import read_scripts, to_scenario
+from ucm_cts.harness.stating.applicability import fitting
+from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.judgement import Judge
 
@@ -33,6 +38,7 @@ CONFORMANT: dict[str, type[Adapter]] = {"reference": ReferenceAdapter}
 CONFORMANT |= {name: variant.adapter for name, variant in variants_of(CONTAINER).items()}
 for waiting in WAITING:
     CONFORMANT.pop(waiting, None)
+CORE_VARIANTS = variants_of((*POLICIES, *CORE))
 WRONG = [mutant.adapter for mutant in mutants_of(CONTAINER).values()]
 SOME = 20
 """One of so many wrong subjects takes part in each example."""
@@ -92,6 +98,21 @@ def assert_nobody_fails(scenario: Scenario) -> None:
 @given(scenarios())
 def test_no_conformant_variant_is_ever_failed(scenario: Scenario) -> None:
     assert_nobody_fails(scenario)
+
+
+@pytest.mark.parametrize("name", CORE_VARIANTS)
+def test_no_variant_of_core_is_failed_for_what_joins_components(name: str) -> None:
+    """What depends on time is left out here: who runs a scenario looks at that twice."""
+    variant = CORE_VARIANTS[name]
+    usual = default_statement()
+    stated = msgspec.structs.replace(usual, readings=usual.readings | variant.readings)
+    its_judge = Judge(load_life_cycle(), stated.claims)
+    writing = random.Random(name)
+    for _ in range(2):
+        ((_, scenario),) = fitting([("", CoreWriter(writing.choice).scenario())], stated)
+        trace, stuck = perform(variant.adapter, scenario)
+        assert contradiction(scenario, trace, stuck) is None
+        assert [finding for finding in its_judge.judge(scenario, trace).findings if not is_timed(finding)] == []
 
 
 @pytest.mark.parametrize("name", ONCE_FAILED)

@@ -9,10 +9,12 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
-from ucm_cts.adapters.contract.scenario import ACTIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Policy
+from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Policy
 from ucm_cts.adapters.derived.registry import POLICIES, Base, variant_of
 from ucm_cts.adapters.reference_py.framework import Failures, Member
 from ucm_cts.adapters.reference_py.policies import Executor, Trigger
+
+_EXECUTION = frozenset((SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE, UNPROTECTED_PASSIVE))
 
 T = TypeVar("T")
 
@@ -189,7 +191,7 @@ class manages_whole_components(Base):
         if any(policy.definition == ACTIVE and policy.port is not None for policy in implementation.policies):
             raise UcmError(f"{ACTIVE!r} applies to components")
         others = tuple(policy for policy in implementation.policies if policy.definition != ACTIVE)
-        if others and others != implementation.policies:
+        if len([policy for policy in implementation.policies if policy.definition in _EXECUTION]) > 1:
             raise UcmError(f"{implementation.name!r} has more than one execution policy")
         super()._check_policies(dataclasses.replace(implementation, policies=others))
 

@@ -22,6 +22,7 @@ from ucm_cts.harness.exploring.writer import Writer
 from ucm_cts.harness.results import Report
 from ucm_cts.harness.running.campaign import Campaign, Checked
 from ucm_cts.harness.running.driver import Answer, Driver
+from ucm_cts.harness.running.incidents import may_wait
 from ucm_cts.harness.scenarios.purposes import PARTS
 from ucm_cts.harness.scenarios.scripts import TestPurpose
 from ucm_cts.harness.stating.applicability import fitting
@@ -125,7 +126,7 @@ class Exploration:
             for finding, execution in checked.failures:
                 if finding is not None:
                     self._causes.add(cause_of(finding))
-                elif execution.incident is not None:
+                elif execution.incident is not None and not may_wait(execution.scenario, execution.trace):
                     self._incidents += execution.incident.kind != "untried"
             yield checked
 

@@ -16,7 +16,8 @@ from ucm_cts.harness.exploring.exploration import Progress, Replayed
 from ucm_cts.harness.report.failures import file_name, incident_file, replay_command, shortest_first
 from ucm_cts.harness.report.foreign import clean_report, one_line
 from ucm_cts.harness.report.write import write_whole
-from ucm_cts.harness.results import Execution, FailedExecution, Report, RequirementResult
+from ucm_cts.harness.results import Execution, FailedExecution, IncidentReport, Report, RequirementResult
+from ucm_cts.harness.running.incidents import may_wait
 
 FILE = "exploration.json"
 
@@ -81,9 +82,29 @@ class Found(Value, frozen=True):
 
 
 def is_found(report: Report) -> bool:
-    """Did anything fail, or not come back?"""
-    mishaps = any(item.incident.kind != "untried" for item in report.incidents)
-    return mishaps or any(result.verdict == "fail" for result in report.requirements)
+    """Did anything fail, or not come back although nobody may wait for ever?"""
+    return bool(_mishaps(report)) or any(result.verdict == "fail" for result in report.requirements)
+
+
+def _mishaps(report: Report) -> list[tuple[int, IncidentReport]]:
+    """Incidents with their numbers, less what was not tried, and less calls that may wait for a start that never comes.
+
+    Once such calls have been seen waiting, a hang of which nothing more is known is taken for another one.
+    """
+    waiting = [is_waiting(item.execution) for item in report.incidents]
+    return [
+        (number, item)
+        for number, item in enumerate(report.incidents)
+        if item.incident.kind != "untried"
+        and not waiting[number]
+        and not (any(waiting) and item.incident.kind == "hang" and not item.execution.trace)
+    ]
+
+
+def is_waiting(execution: Execution) -> bool:
+    """Did it hang in a call that may wait for a component to be started?"""
+    hangs = execution.incident is not None and execution.incident.kind == "hang"
+    return hangs and may_wait(execution.scenario, execution.trace)
 
 
 def write_exploration(report: Report, far: Progress, known: Sequence[Replayed], out: Path) -> None:
@@ -151,7 +172,7 @@ def found_text(report: Report, far: Progress, out: Path) -> RenderableType:
     """The end of an exploration: how much was run, then each cause of failure in a few lines."""
     failures = _failures(report)
     standing = [failure for failure in failures if not failure.unstable]
-    incidents = [(n, item) for n, item in enumerate(report.incidents) if item.incident.kind != "untried"]
+    incidents = _mishaps(report)
     found = f"{len(standing)} causes of failure" if standing else "nothing found"
     if incidents:
         found = f"{len(standing)} causes of failure, {len(incidents)} incidents"
@@ -178,6 +199,11 @@ def found_text(report: Report, far: Progress, out: Path) -> RenderableType:
         lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), told)))
     if len(incidents) > SHOWN:
         lines.append(Text(f"and {len(incidents) - SHOWN} more incidents"))
+    waiting = sum(is_waiting(item.execution) for item in report.incidents)
+    if waiting:
+        lines.append(
+            Text(f"{waiting} scenarios hung in calls that may wait for a component to be started: no failure", "dim")
+        )
     if failures or incidents:
         lines += [Text(), Text.assemble("all     ", (str(out / FILE), "bold"), overflow="fold")]
     return Group(*lines)
