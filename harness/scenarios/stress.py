@@ -7,7 +7,7 @@ from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario
 from ucm_cts.harness.scenarios.scripts import TestPurpose
 
 MILLISECONDS = 200
-"""How long a component is stressed: a lock that is missing on one of 1,000 calls is found in less (docs/reentrancy.md)."""
+"""How long a component is stressed: what that finds stands in docs/reentrancy.md."""
 
 _PORTS = ("in.api", "aux.api")
 
