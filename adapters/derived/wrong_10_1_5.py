@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Sequence
-from typing import ClassVar
+from collections.abc import Callable, Sequence
+from typing import ClassVar, TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum, Interface, Parameter
 from ucm_cts.adapters.contract.programming_model import DeclaredException, NotFound, UcmError
@@ -13,6 +13,8 @@ from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SERVICE_CONNEC
 from ucm_cts.adapters.derived.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference_py.connectors import Link, LinkElement, Taker
 from ucm_cts.adapters.reference_py.framework import Container, Member
+
+T = TypeVar("T")
 
 _CLAUSES = ("10.1.5",)
 _CALLS, _CLIENTS, _OWN, _ONE_SERVER = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-05"
@@ -436,6 +438,17 @@ class raises_its_own_exceptions(Base):
     """Exceptions arrive as one of the framework's; they were declared to arrive as they are."""
 
     link_class = _RaisesItsOwn
+
+
+@breaks(_EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
+class raises_its_own_exceptions_on_threads_of_components(Base):
+    """What a method raises on the thread of its active component becomes an exception of the framework's own."""
+
+    def _execute_on_own_thread(self, member: Member, work: Callable[[], T]) -> T:
+        try:
+            return super()._execute_on_own_thread(member, work)
+        except DeclaredException as error:
+            raise UcmError(error.name) from None
 
 
 class _SwallowsOthers(_Services):
