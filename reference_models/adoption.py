@@ -28,7 +28,9 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
 
 def received(window: Window, member: Member, hook: s.Hook) -> list[Enter]:
     """The ``hook`` callbacks that ``member``'s body received during the window."""
-    heard = window.by_body.get((member.component, member.instance)) if window.callbacks else None
+    if hook not in window.hooks:
+        return []
+    heard = window.by_body.get((member.component, member.instance))
     return [c for c in heard if c.hook == hook] if heard is not None else []
 
 

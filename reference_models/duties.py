@@ -55,6 +55,7 @@ class Duties:
         self._table = table
         self._duties: dict[tuple[str, str], CallbackDuty] = {}
         self._answers: dict[int, frozenset[str]] = {}
+        self._calls: dict[tuple[int, str], bool] = {}
         self._fits: dict[tuple[int, str, Listener, tuple[str, ...]], Fit | None] = {}
 
     def of(self, callback: str, operation: str) -> CallbackDuty:
@@ -71,6 +72,14 @@ class Duties:
         known = self._answers.get(id(row))
         if known is None:
             known = self._answers[id(row)] = frozenset(a for outcome in row.outcomes for a in outcome.answer)
+        return known
+
+    def always_calls(self, row: Row, hook: str) -> bool:
+        """Does the instance receive ``hook`` in whichever way ``row`` lets the operation return?"""
+        known = self._calls.get((id(row), hook))
+        if known is None:
+            known = all(hook in outcome.callbacks for outcome in row.outcomes if "return" in outcome.answer)
+            self._calls[id(row), hook] = known
         return known
 
     def fit(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> Fit | None:

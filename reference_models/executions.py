@@ -51,12 +51,15 @@ class BusinessCall:
 
     ``caller`` is the execution that makes it, if a body does; ``waited`` says that it was seen waiting to get in.
     ``entries`` are the bodies it entered, with how they were left. ``callee`` is whose port element ``port`` the test
-    called; ``possible`` says that all who could be called were operational when the call was made.
+    called; ``possible`` says that all who could be called were operational when the call was made, and ``behind`` is what was
+    behind the port element since so many changes of the runtime.
     """
 
     callee: Member | None = None
     port: str | None = None
     possible = False
+    behind: Behind | None = None
+    behind_since = 0
     caller: Execution | None = None
     waited = False
 
@@ -88,7 +91,9 @@ class BusinessCall:
             self.possible = self.callee is not None and self.callee.serving
         elif request is not None:
             self.possible = True
-            for provider in behind(runtime, request.component, request.instance, request.port).providers:
+            self.behind = behind(runtime, request.component, request.instance, request.port)
+            self.behind_since = runtime.changes
+            for provider in self.behind.providers:
                 if provider.closing or provider.suspended or not provider.operational:
                     self.possible = False
                     break
@@ -307,6 +312,13 @@ def providers_of(runtime: Runtime, call: BusinessCall) -> tuple[Member, ...]:
 
 
 _NOTHING_KNOWN = Behind((), True, frozenset())
+
+
+def behind_call(runtime: Runtime, call: BusinessCall, request: Request) -> Behind:
+    """What is now behind the port element that a body called through."""
+    if call.behind is not None and call.behind_since == runtime.changes:
+        return call.behind
+    return behind(runtime, request.component, request.instance, request.port)
 
 
 def behind(runtime: Runtime, component: str, instance: int, port: str) -> Behind:

@@ -186,7 +186,7 @@ def _manager_forgot_its_own(ledger: Ledger, window: Window, answer: str, end: in
         if m is not None
         and not row.missing
         and m.container is window.container
-        and all(hook in o.callbacks for o in row.outcomes if "return" in o.answer)
+        and ledger.duties.always_calls(row, hook)
     ]
     if not due:
         return False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply, Return
-from ucm_cts.reference_models.executions import BusinessCall, behind, calls_promised
+from ucm_cts.reference_models.executions import BusinessCall, behind_call, calls_promised
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
@@ -19,7 +19,9 @@ def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return |
     if port is not None and calls_promised(member.declaration, port):
         return  # its execution policy's matter
     component, instance = member.component, member.instance
-    own = [(e, x) for e, x in call.entries if e.instance == instance and e.component == component]
+    own = call.entries
+    if len(own) != 1 or own[0][0].instance != instance or own[0][0].component != component:
+        own = [(e, x) for e, x in own if e.instance == instance and e.component == component]
     if not own or isinstance(end, Raise):
         expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
         observed = f"it raised {end.error} {end.detail}" if isinstance(end, Raise) else "the body was not entered"
@@ -49,11 +51,17 @@ def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Repl
     request = call.request
     if request is None or reply.raised:
         return
-    providers, fragments, targets = behind(runtime, request.component, request.instance, request.port)
+    providers, fragments, targets = behind_call(runtime, call, request)
     if not providers:
         return
     requirement = "R-11.1.2-02" if fragments else "R-11.1.3-01"
     wanted = call.value
+    if len(call.entries) == 1:  # the common case: it reached one body, the right one
+        enter, exit_ = call.entries[0]
+        came_to = enter.component, enter.instance, enter.port
+        if enter.value == wanted and came_to in targets and (exit_ is None or exit_.value == reply.value):
+            ledger.exercised(requirement)
+            return
     reached = [(e, x) for e, x in call.entries if e.value == wanted and (e.component, e.instance, e.port) in targets]
     came_back = [x for _, x in reached if x is None or x.value == reply.value]
     if len(reached) == 1 and came_back:
@@ -81,7 +89,7 @@ def interactions(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Re
     caller = runtime.bodies.get((reply.component, reply.instance))
     if caller is None or not caller.serving:
         return
-    providers = behind(runtime, request.component, request.instance, request.port).providers
+    providers = behind_call(runtime, call, request).providers
     if not providers:
         return
     for provider in providers:

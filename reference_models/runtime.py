@@ -196,6 +196,7 @@ class Window:
         "created",
         "fitted",
         "forgiving",
+        "hooks",
         "judged",
         "lost",
         "operation",
@@ -216,6 +217,7 @@ class Window:
         self.forgiving = False
         self.lost = False
         self.callbacks: list[Enter] = []
+        self.hooks: set[Hook] = set()
         self.by_body: dict[tuple[str, int | None], list[Enter]] = {}
         self.created: list[tuple[str, int]] = []
         self.fitted: list[tuple[Member | None, Row, Fit]] = []
@@ -225,6 +227,7 @@ class Window:
     def hear(self, callback: Enter) -> None:
         """A body was entered while the operation was in progress."""
         self.callbacks.append(callback)
+        self.hooks.add(callback.hook)
         body = callback.component, callback.instance
         heard = self.by_body.get(body)
         if heard is None:
@@ -273,7 +276,7 @@ class Runtime:
     whose on_startup has returned during the operation in progress, ``last_run`` when run was entered last. ``inside`` are
     the bodies in which a thread is carrying out business methods or run, the innermost last. ``not_offered`` tells of
     operations that the adapter does not offer.
-    ``behind`` is what executions.behind has worked out since anything ``changed``.
+    ``behind`` is what executions.behind has worked out since anything ``changed``, and ``changes`` how often that was so.
     ``interactions`` are followed where port elements have interfaces or components policies, ``executions`` where
     components have policies.
     """
@@ -297,10 +300,12 @@ class Runtime:
         self.destroyed = False
         self.interactions: Interactions | None = None
         self.executions: Executions | None = None
+        self.changes = 0
         self.behind: dict[tuple[str, int, str], Behind] = {}
 
     def changed(self) -> None:
         """What is behind the port elements of instances may have changed."""
+        self.changes += 1
         if self.behind:
             self.behind.clear()
 
