@@ -240,6 +240,8 @@ def test_more_extra_states_make_more_scenarios() -> None:
     plain, more = ({p.id: len(p.scenarios) for p in systematic_purposes({}, extra)} for extra in (0, 1))
     assert all(more[name] > 4 * plain[name] for name in plain)
     assert more.keys() - plain.keys() == {"systematic/relays-3"}
+    for counts in (plain, more):
+        assert f"{sum(counts.values()):,} scenarios" in PAGE.read_text()
 
 
 def failing(adapter: type[Adapter], readings: dict[str, str]) -> set[str]:
