@@ -140,6 +140,15 @@ class delivers_after_stop(Base):
                 taker.entrance.close()
 
 
+@breaks("R-10.1.6.1-09", clauses=_MESSAGES)
+class stop_closes_the_first_member_only(Base):
+    """Who is stopped gets no more messages if it was the first to be started; all others do."""
+
+    def _close_entrances(self, member: Member) -> None:
+        if member is self.started[0]:
+            super()._close_entrances(member)
+
+
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES, readings={"receiver-not-ready": "hold"})
 class forgets_what_it_said_it_holds(Base):
     """Messages for receivers that are not operational were declared to be held, and are dropped."""
