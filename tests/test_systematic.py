@@ -15,7 +15,7 @@ from command_line import report_of, ucm_cts
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
-from ucm_cts.adapters.derived.registry import MUTANTS, VARIANTS
+from ucm_cts.adapters.derived import MUTANTS, VARIANTS
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle, load_options
