@@ -220,6 +220,16 @@ class has_no_negative_enumerators(Base):
     """An enumerator with a negative index arrives as the first that has none."""
 
 
+def _of_short_index(of: AnyType, value: Datum) -> Datum:
+    assert isinstance(of, Enumeration)
+    return next(iter(of.values)) if of.index in ("LONGLONG", "ULONGLONG") else value
+
+
+@carries(made_to(Enumeration, _of_short_index), "R-10.1.1-12")
+class has_no_enumerations_with_long_indices(Base):
+    """Where the index type has 64 bits the first enumerator arrives, whichever was sent."""
+
+
 # attributes
 
 

@@ -34,6 +34,9 @@ WITH_GAPS = Enumeration("with_gaps", "LONG", {"none": 0, "few": 10, "many": 11, 
 NEGATIVE = Enumeration("negative", "BYTE", {"lowest": -128, "below": -1, "zero": 0, "above": 1, "highest": 127})
 DISORDERED = Enumeration("disordered", "USHORT", {"third": 3, "first": 1, "last": 65535, "second": 2})
 LONELY = Enumeration("lonely", "UBYTE", {"only": 7})
+SHORTER = Enumeration("shorter", "SHORT", {"least": -(2**15), "middle": 0, "most": 2**15 - 1})
+LONGER = Enumeration("longer", "LONGLONG", {"least": -(2**31), "middle": 0, "most": 2**31 - 1})
+LONGEST = Enumeration("longest", "ULONGLONG", {"none": 0, "some": 77, "most": 2**31 - 1})
 
 POINT = Structure("point", {"x": LONG, "y": LONG, "z": LONG})
 MIXED = Structure(
@@ -126,7 +129,7 @@ CATALOGUE = (
     TypesUnderTest(
         "enumerations",
         "R-10.1.1-12",
-        {e.name: e for e in (COLOUR, WITH_GAPS, NEGATIVE, DISORDERED, LONELY)},
+        {e.name: e for e in (COLOUR, WITH_GAPS, NEGATIVE, DISORDERED, LONELY, SHORTER, LONGER, LONGEST)},
     ),
     TypesUnderTest("structures", "R-10.1.1-13", {s.name: s for s in (POINT, MIXED, SINGLE)}),
     TypesUnderTest("unions", "R-10.1.1-14", {u.name: u for u in (SHAPE, SIDES, ALL_DEFAULT)}),
