@@ -1,7 +1,9 @@
 """Scenarios that nobody can foresee: small applications drawn from a run's seed, so that no adapter can know them by heart.
 
 Who answers by what it remembers of the suite, or only for scenarios of known shape, is found out here (docs/honesty.md).
-Nothing is asked that a framework may wait for for ever: calls go down, and only while all containers are started.
+Nothing is asked that a framework may wait for for ever: calls go down, and only while all containers are started. And
+nothing is asked that other purposes do not ask each time: all components are in one container, so that what a framework does
+wrong between containers does not depend on the seed.
 """
 
 from __future__ import annotations
@@ -38,6 +40,7 @@ class _Application:
         self.components: dict[str, Declaration] = {}
         self.steps: list[Step] = []
         self.boxes: list[str] = []
+        self.home = s.MANAGER
         self.where: dict[str, str] = {}
         self.links: dict[tuple[str, str], str] = {}
         self.connections = 0
@@ -48,6 +51,7 @@ class _Application:
         for number in range(self.random.choice((0, 0, 1, 2))):
             self.boxes.append(f"box {number}")
             self.steps.append(s.CreateContainer(self.boxes[-1]))
+        self.home = self.random.choice((s.MANAGER, *self.boxes))
         for number in range(self.random.randint(2, 5)):
             self.add(f"c{number}")
         for _ in range(self.random.choice(_PHASES)):
@@ -70,7 +74,7 @@ class _Application:
         if is_fragment:
             plan["exchange"] = (*plan.get("exchange", ()), s.QuerySiblings())
         self.components[name] = Declaration(provides, requires, attributes, is_connectable, is_fragment, plan)
-        self.where[name] = self.random.choice((s.MANAGER, *self.boxes))
+        self.where[name] = self.home
         self.steps.append(s.AddComponent(name, self.where[name]))
         for port, goal in zip(requires, goals, strict=True):
             self.connect(name, port, goal)
