@@ -82,6 +82,16 @@ class announces_the_first_port(Base):
         self.manager.connections[connection.id] = connection
 
 
+@breaks("R-11.2.1.3-05")
+class destroys_connections_of_one_container(Base):
+    """Destroying a runtime with sub-containers undoes the connections of the first one, and forgets all others."""
+
+    def _disconnect_members(self, failures: Failures) -> None:
+        first = next(iter(self.manager.sub_containers), self)
+        if self is first or not all(container.members for container in (first, self)):
+            super()._disconnect_members(failures)
+
+
 @breaks("R-11.2.1.3-05", also=("R-11.1.3-04",))
 class tells_providers_too(Base):
     """on_disconnect also comes to the component that provided, if it is Connectable."""
