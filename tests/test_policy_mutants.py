@@ -7,10 +7,10 @@ from collections.abc import Mapping
 
 import msgspec
 import pytest
-from performing import answer, scenario
+from performing import answer
 
 from ucm_cts.adapters.contract.messages import Traced
-from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Scenario
+from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.derived import POLICIES, Mutant, Variant, mutants_of, variants_of
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle
@@ -21,37 +21,12 @@ from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.judgement import Judge
 
-PASSIVE = {"provides": ["in.api"], "policies": [{"definition": PROTECTED_PASSIVE}]}
-OPEN = {"provides": ["in.api"], "policies": [{"definition": UNPROTECTED_PASSIVE}]}
-RUNNING = {"provides": ["in.api"], "policies": [{"definition": SELF_EXECUTING}]}
-HOLD = {"do": "hold", "gate": "inside"}
-CALL = {"do": "call", "port": "out.api", "value": 3}
-SERVER = ["add_component component=server", "get_port_element id=server port=in.api bind=in"]
-TWO = ["invoke ref=in value=1 thread=v", "reach gate=inside", "invoke ref=in value=2 thread=w", "settle worker=w",
-       "open gate=inside", "join worker=v", "join worker=w"]  # fmt: skip
-
-OWN = {
-    "the first fails": scenario(
-        {"server": PASSIVE | {"plan": {"exchange": [HOLD, {"do": "raise"}]}}}, [*SERVER, "start", *TWO, "stop"]
-    ),
-    "the first calls somebody": scenario(
-        {"server": PASSIVE | {"requires": ["out.api"], "plan": {"exchange": [CALL]}},
-         "other": {"provides": ["in.api"], "plan": {"exchange": [HOLD]}}},
-        [*SERVER, "add_component component=other", "get_port_element id=other port=in.api bind=goal",
-         "connect id=server port=out.api to=goal bind=link", "start", *TWO, "stop"],
-    ),
-    "nobody calls": scenario(
-        {"server": PASSIVE, "library": OPEN, "running": RUNNING | {"plan": {"run": [HOLD]}}},
-        ["add_component component=server", "add_component component=library", "add_component component=running",
-         "start", "reach gate=inside", "open gate=inside", "stop", "get_components", "start", "stop"],
-    ),
-    "run fails": scenario(
-        {"running": RUNNING | {"plan": {"run": [HOLD, {"do": "raise"}]}}, "server": PASSIVE},
-        ["add_component component=running", "get_port_element id=running port=in.api bind=in", "start",
-         "reach gate=inside", "invoke ref=in value=1 thread=v", "settle worker=v", "open gate=inside", "join worker=v",
-         "stop"],
-    ),
-}  # fmt: skip
+SCRIPTED = {
+    "waits-for-one-who-fails",
+    "entered-while-it-waits-for-another",
+    "run-that-fails",
+    "executes-by-itself-while-nobody-calls",
+}
 
 
 @functools.cache
@@ -59,11 +34,11 @@ def scenarios(*declared: tuple[str, str]) -> dict[str, Scenario]:
     """Callers of the test and of a component, and run, met by another one; with a patience that wrong subjects try."""
     default = default_statement()
     statement = msgspec.structs.replace(default, readings={**default.readings, **dict(declared)})
-    own = {purpose.id for purpose in overlap_purposes()}
+    own = {purpose.id for purpose in overlap_purposes()} | SCRIPTED
     purposes = [purpose for purpose in purposes_for(statement, "core") if purpose.id in own]
     met = {name: plain for purpose in purposes for name, plain in purpose.scenarios}
     short = {name: plain for name, plain in met.items() if "elsewhere" not in name and name.count(",") < 2}
-    return {name: msgspec.structs.replace(plain, patience=300) for name, plain in (short | OWN).items()}
+    return {name: msgspec.structs.replace(plain, patience=300) for name, plain in short.items()}
 
 
 def failing(
