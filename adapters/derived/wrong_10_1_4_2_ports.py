@@ -158,6 +158,22 @@ class traces_all_ports(Base):
 
 
 @breaks("R-10.1.4.2-33", clauses=HERE)
+class traces_ports_with_later_names(Base):
+    """The policy of one port is applied to all ports of its component whose names sort after it."""
+
+    def _port_traces(self, member: Member, port: str) -> list[Policy]:
+        return [p for p in member.implementation.policies if p.definition == PORT_TRACE and (p.port or "") <= port]
+
+
+@breaks("R-10.1.4.2-33", clauses=HERE)
+class traces_ports_with_earlier_names(Base):
+    """The same the other way round."""
+
+    def _port_traces(self, member: Member, port: str) -> list[Policy]:
+        return [p for p in member.implementation.policies if p.definition == PORT_TRACE and (p.port or "") >= port]
+
+
+@breaks("R-10.1.4.2-33", clauses=HERE)
 class notes_every_call(Base):
     """Calls of methods that are not named leave a record that says nothing."""
 

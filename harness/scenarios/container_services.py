@@ -358,7 +358,7 @@ def _both_kinds() -> Scenario:
 
 
 def _two_ports() -> Scenario:
-    calls = [("out.api", "alpha"), *[("aux.api", "beta")] * 2, *[("aux.api", "alpha")] * 2]
+    calls = [("out.api", "alpha"), *[("aux.api", "beta")] * 2, *[("aux.api", "alpha")] * 2, *[("out.api", "beta")] * 3]
     traces = (_trace("out.api", "alpha", "info"), _trace("aux.api", "beta", "error"))
     return _Cast(calls, {"out.api": "server", "aux.api": "other"}, {"client": traces}).scenario(*_read(3))
 
