@@ -26,6 +26,7 @@ from ucm_cts.reference_models.runtime import Runtime, Window, lane
 from ucm_cts.reference_models.service_policies import has_several_clocks, only_service, policies_of
 
 _LARGEST_MICROSECONDS = 999_999
+_LARGEST_SECONDS = 2**32 - 1
 _LONG_ENOUGH = 3
 """So many tolerances must lie between two readings; less would not show a clock that stands still or runs double."""
 
@@ -60,19 +61,21 @@ def _has_told(runtime: Runtime, call: MethodCall, *methods: str) -> bool:
 
 @rule("completed", "R-10.1.4.2-14")
 def time_range(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
-    """The microseconds of a time are those of one second."""
+    """The microseconds of a time are those of one second, and its seconds have 32 bits without sign."""
     told = time_told(call) if clock_call(call, runtime.scenario.components) else None
     if told is None or call.reply is None:
         return
-    if 0 <= told[1] <= _LARGEST_MICROSECONDS:
+    seconds, microseconds = told
+    if 0 <= microseconds <= _LARGEST_MICROSECONDS and 0 <= seconds <= _LARGEST_SECONDS:
         ledger.exercised("R-10.1.4.2-14")
         return
+    part, value = ("seconds", seconds) if not 0 <= seconds <= _LARGEST_SECONDS else ("microseconds", microseconds)
     ledger.violated(
         "R-10.1.4.2-14",
         "time_range",
-        "negative" if told[1] < 0 else "a second or more",
-        f"microseconds from 0 to {_LARGEST_MICROSECONDS}",
-        f"{call.request.method} told {told[0]} s and {told[1]} µs",
+        f"negative {part}" if value < 0 else f"too many {part}",
+        f"seconds from 0 to {_LARGEST_SECONDS}, microseconds from 0 to {_LARGEST_MICROSECONDS}",
+        f"{call.request.method} told {seconds} s and {microseconds} µs",
         (call.request.n, call.reply.n),
     )
 

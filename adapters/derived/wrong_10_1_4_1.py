@@ -219,6 +219,15 @@ class tells_too_many_microseconds(Base):
 
 
 @breaks("R-10.1.4.2-14", clauses=HERE)
+class tells_seconds_beyond_their_type(Base):
+    """Seconds are counted from a time so long ago that they need 33 bits."""
+
+    def _time_value(self, nanoseconds: int) -> list[Datum]:
+        seconds, microseconds = super()._time_value(nanoseconds)
+        return [int(seconds) + 2**32, microseconds]  # type: ignore[arg-type]
+
+
+@breaks("R-10.1.4.2-14", clauses=HERE)
 class tells_negative_microseconds(Base):
     """Microseconds count down to the next second."""
 
