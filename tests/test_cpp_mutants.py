@@ -10,9 +10,8 @@ from cpp_builds import Builds
 
 from ucm_cts.adapters.derived_cpp import VARIABLE, NativeMutant, native_mutants
 from ucm_cts.harness.catalogue import load_requirements
-from ucm_cts.harness.hosting.hosts import Limits
-from ucm_cts.harness.selftest.native import Found, run_once, statement_of
-from ucm_cts.harness.stating.applicability import purposes_for
+from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.selftest.killing import Thoroughness, examine_mutant, native_subject
 
 QUICK = {
     "crashes_in_remove": "whole-life",
@@ -43,16 +42,14 @@ def test_each_says_what_it_breaks(known: dict[str, NativeMutant]) -> None:
         assert mutant.lie.endswith(".")
         assert mutant.requirements
         assert {*mutant.requirements, *mutant.also} <= requirements
-        assert any(p.clause.startswith(mutant.clauses) for p in purposes_for(statement_of(mutant.readings), "core"))
+        assert any(purpose.clause.startswith(mutant.clauses) for purpose in load_purposes("core"))
 
 
 @pytest.mark.parametrize("name", QUICK)
 def test_mutant_is_found_out(command: Path, known: dict[str, NativeMutant], name: str) -> None:
-    found = Found(known[name])
-    report = run_once(known[name], 1, command, Limits(seconds=1, incident_seconds=2), QUICK[name])
-    found.add(report)
-    assert not found.spills
-    assert set(found.failed) & set(known[name].requirements)
+    result = examine_mutant(native_subject(known[name], command), Thoroughness(beginning=QUICK[name]))
+    assert not result.spills
+    assert {kill.requirement for kill in result.kills if kill.names_the_place} & set(known[name].requirements)
 
 
 def test_nobody_is_no_mutant(command: Path) -> None:

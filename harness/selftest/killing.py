@@ -7,13 +7,14 @@ import time
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import msgspec
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.adapters.derived import CONTAINER, MUTANTS, VARIANTS
-from ucm_cts.adapters.derived_cpp import COMMAND, being, native_mutants
+from ucm_cts.adapters.derived_cpp import COMMAND, NativeMutant, being, native_mutants
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
@@ -63,11 +64,14 @@ class Subject:
 
 @dataclass(frozen=True)
 class Thoroughness:
-    """How much is run: ``whole`` profiles instead of the subject's own clauses; ``quick`` ends when a mutant is killed."""
+    """How much is run: ``whole`` profiles instead of the subject's own clauses; ``quick`` ends when a mutant is killed; only
+    purposes whose names have this ``beginning``.
+    """
 
     seed: int = 1
     whole: bool = False
     quick: bool = False
+    beginning: str = ""
 
 
 def all_mutants() -> dict[str, Subject]:
@@ -79,12 +83,14 @@ def all_mutants() -> dict[str, Subject]:
             m.name, m.lie, f"{home}:{m.name}", "reference-py", m.clauses, m.requirements, m.also, m.readings
         )
         for m in MUTANTS.values()
-    } | {
-        m.name: Subject(
-            m.name, m.lie, str(COMMAND), "reference-cpp", m.clauses, m.requirements, m.also, m.readings, True, m.is_rare
-        )
-        for m in native.values()
-    }
+    } | {name: native_subject(mutant) for name, mutant in native.items()}
+
+
+def native_subject(mutant: NativeMutant, command: Path = COMMAND) -> Subject:
+    """The native ``mutant`` that is in the executable ``command``."""
+    model, clauses = "reference-cpp", mutant.clauses
+    own = mutant.requirements, mutant.also, mutant.readings
+    return Subject(mutant.name, mutant.lie, str(command), model, clauses, *own, True, mutant.is_rare)
 
 
 def all_variants() -> dict[str, Subject]:
@@ -185,7 +191,7 @@ def _told(campaign: Campaign) -> tuple[str, ...]:
 
 
 def _purposes(subject: Subject, how: Thoroughness, profile: str, statement: Statement) -> Sequence[TestPurpose]:
-    purposes = purposes_for(statement, profile)
+    purposes = [p for p in purposes_for(statement, profile) if p.id.startswith(how.beginning)]
     return purposes if how.whole else [p for p in purposes if p.clause.startswith(subject.clauses)]
 
 
