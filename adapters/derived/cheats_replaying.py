@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Literal
 
 from ucm_cts.adapters.derived import wrong_11_2_2
 from ucm_cts.adapters.derived.cheats import before
-from ucm_cts.adapters.derived.registry import CHEATS, Cheat
+from ucm_cts.adapters.derived.registry import CHEATS, CONTAINER, Cheat
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 
@@ -90,6 +90,6 @@ def _filled(template: str, names: list[str]) -> str:
     return re.sub(r"<(~?)(\d+)>", name, template)
 
 
-def plays(name: str, lie: str, *detected_by: str) -> None:
+def plays(name: str, lie: str, *detected_by: str, clauses: tuple[str, ...] = CONTAINER) -> None:
     """Register the module ``name`` of this package as a cheat."""
-    CHEATS[name] = Cheat(name, f"{__package__}.{name}", lie, detected_by, rehearsals=1)
+    CHEATS[name] = Cheat(name, f"{__package__}.{name}", lie, detected_by, clauses, rehearsals=1)

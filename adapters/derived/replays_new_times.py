@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.derived.cheats_replaying import Player, plays
 
-plays("replays_new_times", __doc__ or "", "contradiction")
+plays("replays_new_times", __doc__ or "", "contradiction", clauses=("10.1.4.1",))  # where time is let pass
 
 player = Player("new")
 answer = player.answer
