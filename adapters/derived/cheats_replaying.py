@@ -48,7 +48,7 @@ class Player:
         if self.rehearsing:
             answer = self._honest.answer(line, emit)
             if json.loads(answer)["type"] == "trace":
-                self.memory[shape] = _template(answer.decode(), names)[0]
+                self.memory[shape] = _template(answer.decode(), names, tuple(names))[0]
             return answer
         known = self.memory.get(shape)
         if known is None:
@@ -67,14 +67,18 @@ class Player:
             event["t"] += later
 
 
-def _template(text: str, names: list[str]) -> tuple[str, list[str]]:
-    """``text`` with numbers in place of what is another one in each run, and what that was."""
+def _template(text: str, names: list[str], known: tuple[str, ...] | None = None) -> tuple[str, list[str]]:
+    """``text`` with numbers in place of what is another one in each run, and what that was. With ``known`` ones no other
+    is replaced.
+    """
 
     def number(found: re.Match[str]) -> str:
         name, sign = found.group(), ""
         if name.lstrip("-").isdigit():
             value = int(name)
             name, sign = str(max(value, ~value)), "~" if value < 0 else ""
+        if known is not None and name not in known:
+            return found.group()
         if name not in names:
             names.append(name)
         return f"<{sign}{names.index(name)}>"

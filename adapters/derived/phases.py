@@ -1,12 +1,13 @@
-"""Conformant variants that see the two phases of 11.2.3 their own way: the application's, or in parallel."""
+"""Conformant variants that see the two phases of 11.2.3 their own way: the application's, in parallel, or not over yet."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from ucm_cts.adapters.contract.programming_model import PortElementObject, UcmError
-from ucm_cts.adapters.derived.registry import Base, GivesOutProxies, Proxy, variant
+from ucm_cts.adapters.derived.readings import manager_reaches_down
+from ucm_cts.adapters.derived.registry import CONTAINER, Base, GivesOutProxies, Proxy, is_below, variant, variant_of
 from ucm_cts.adapters.reference_py.framework import Container, Failures, State
 
 
@@ -97,7 +98,7 @@ def _changes_of(container: Container) -> threading.Condition:
     return container.manager.__dict__.setdefault("changes", threading.Condition())  # type: ignore[no-any-return]
 
 
-@variant
+@variant_of(*CONTAINER, readings={"start-order": "at-once"})
 class starts_all_at_a_time(Base):
     """Members are started by a thread each, and stopped in the order they were added in reverse."""
 
@@ -128,6 +129,42 @@ class starts_all_at_a_time(Base):
                 return
             self._shut_down_started(Failures())
             next(own for own in failures if own.first).report()
+
+
+@variant
+class stays_operational_when_shutdown_fails(Base):
+    """Whose on_shutdown raises stays operational: the next stop tries again, a start starts only the others."""
+
+    def stop(self) -> None:
+        with self._operation():
+            failures = Failures()
+            for member in reversed(tuple(self.started)):
+                if failures.attempt(member.body.on_shutdown):
+                    member.state = State.CONFIGURING
+                    self.started.remove(member)
+            self.is_started = bool(self.started)
+            failures.report()
+
+    def start(self) -> None:
+        with self._operation():
+            self._check_startable()
+            failures = Failures()
+            for member in self._start_order():
+                if member not in self.started and not self._start_up(member, failures):
+                    self._shut_down_started(failures)
+                    failures.report()
+            self._begin_operation()
+
+
+@variant
+class stays_operational_below(manager_reaches_down, stays_operational_when_shutdown_fails):
+    """The same, and a stop of the manager that has failed leaves the sub-containers that are not stopped yet alone."""
+
+    def _also(self, own: Callable[[], None], below: Callable[[Container], None]) -> None:
+        own()
+        if not is_below(self):
+            for container in self.manager.sub_containers:
+                getattr(container, below.__name__)()
 
 
 @variant

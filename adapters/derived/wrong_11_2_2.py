@@ -13,6 +13,7 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
     UcmError,
 )
+from ucm_cts.adapters.derived.phases import starts_all_at_a_time
 from ucm_cts.adapters.derived.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference_py.framework import Container, ContainerManager, Failures, Member, State
 
@@ -156,6 +157,16 @@ class stops_in_startup_order(Base):
     def _shut_down_started(self, failures: Failures) -> None:
         self.started.reverse()
         super()._shut_down_started(failures)
+
+
+@breaks("R-11.2.2.1-13", readings={"start-order": "at-once"})
+class claims_to_start_at_once(Base):
+    """Its vendor declares that start calls members at once; it calls them one after the other."""
+
+
+@breaks("R-11.2.2.1-13", readings={"start-order": "one-by-one"})
+class claims_to_start_one_by_one(starts_all_at_a_time):
+    """Its vendor declares that start calls one member after the other; it calls them at once."""
 
 
 @breaks("R-11.2.2.1-14", also=("R-12.10-22",))
