@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import msgspec
@@ -49,11 +49,6 @@ def append(path: Path, result: Result) -> None:
     """Keep ``result``, so that a run that is broken off goes on after it."""
     with path.open("ab") as file:
         file.write(msgspec.json.encode(result) + b"\n")
-
-
-def rewrite(path: Path, results: Iterable[Result]) -> None:
-    """Keep exactly these."""
-    path.write_bytes(b"".join(msgspec.json.encode(result) + b"\n" for result in results))
 
 
 def read_equivalents(path: Path) -> Mapping[str, str]:
