@@ -12,6 +12,8 @@ from ucm_cts.reference_models.runtime import NO_ID, Connection, Container, Membe
 
 def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """Bring ``runtime`` up to date with the operation that just ended."""
+    if window.callbacks:
+        _linger(runtime, window, end)
     _TAKEN_OVER[window.operation](runtime, window, window.step, end)
     if window.lost:
         _lose_track(window)
@@ -24,6 +26,20 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
                 member.suspended = True
             if member.suspended:
                 _follow(window, member)
+
+
+def _linger(runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """Whose on_shutdown raised, and the operation with it, may be operational still; on_startup tells again."""
+    for (component, instance), heard in window.by_body.items():
+        member = runtime.bodies.get((component, instance or 0))
+        phases = [c.hook for c in heard if c.hook in ("on_startup", "on_shutdown")]
+        if member is None or not phases:
+            continue
+        member.lingering = phases[-1] == "on_shutdown" and isinstance(end, Raise) and member.raises("on_shutdown")
+        if member.lingering:
+            member.suspended = True
+            if window.operation in ("start", "stop"):
+                member.container.suspend()
 
 
 def received(window: Window, member: Member, hook: s.Hook) -> list[Enter]:
@@ -252,11 +268,12 @@ def _started(runtime: Runtime, window: Window, step: s.Start, end: Return | Rais
     if container.started is not True:
         container.startup_order = []
     for member in container.live_members():
-        if member in own or container.started is None:
-            member.operational = member in own or member.operational
+        if member.lingering and container.started is not True:  # start leaves nobody out, so it still is operational
+            member.operational, member.lingering = True, False
         for callback in received(window, member, "on_startup"):
             _resolve(member, callback)
-        member.suspended = member.raises("on_startup") or member.instance is None or member.doubtful
+        unclear = member.lingering or member.doubtful or member.instance is None
+        member.suspended = unclear or member.raises("on_startup")
     order = {(c.component, c.instance): n for n, c in enumerate(window.callbacks) if c.hook == "on_startup"}
     for member in sorted(reached, key=lambda m: order[(m.component, m.instance or 0)]):
         member.operational = True
@@ -276,7 +293,9 @@ def _stopped(runtime: Runtime, window: Window, step: s.Stop, end: Return | Raise
         for member in other.live_members():
             if received(window, member, "on_shutdown"):
                 member.operational = False
-                if other is not container:
+                if not returned:
+                    other.suspend()
+                elif other is not container:
                     other.started = False
     if not returned:
         if container.started is not False:
@@ -285,7 +304,7 @@ def _stopped(runtime: Runtime, window: Window, step: s.Stop, end: Return | Raise
     container.started = False
     container.startup_order = []
     for member in container.live_members():
-        member.operational = False
+        member.operational = member.lingering = False
         member.suspended = member.doubtful or _unsure(member)
 
 

@@ -102,7 +102,7 @@ class Watch:
         self.began = checks("began")
         self.over = checks("over")
         self.served = checks("served")
-        self.waited = checks("waited")
+        self.waited = checks("waited", followed=followed)
         self.linked = checks("linked")
         self.delivered = checks("delivered")
         self.completed = checks("completed")
@@ -246,6 +246,7 @@ class _Reading:
                 check(ledger, runtime, window, event)
             adopt(runtime, window, event)
             runtime.starting.clear()
+            runtime.starting_up.clear()
             runtime.changed()
             self.window = None
             return
@@ -316,6 +317,9 @@ class _Reading:
         member = runtime.bodies.get(body)
         if member is not None:
             self.changes(member, hook)
+            starts = window is not None and window.operation == "start" and window.container is member.container
+            if hook == "on_startup" and starts:
+                runtime.starting_up[body] = event.thread
         runtime.changed()
         if window is not None:
             window.hear(event)
@@ -391,6 +395,7 @@ class _Reading:
             thread.hooks.pop()
         if hook == "on_startup":
             self.runtime.starting.add((event.component, event.instance))
+            self.runtime.starting_up.pop((event.component, event.instance), None)
         if hook not in _BUSINESS or not thread.served:
             return
         thread.inside.pop()
@@ -470,8 +475,6 @@ class _Reading:
             self.interactions.settled.append(event)
 
     def timeout(self, event: Timeout) -> None:
-        if self.executions is None and self.interactions is None:
-            return
         if self.interactions is not None:
             self.interactions.wait(event)
         for check in self.watch.waited:

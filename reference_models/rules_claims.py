@@ -5,11 +5,12 @@ what its vendor declares.
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Raise, Return, Skip
+from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Skip, Timeout
 from ucm_cts.reference_models.duties import Fit
+from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.ledger import Ledger, rule
 from ucm_cts.reference_models.life_cycle import Row
-from ucm_cts.reference_models.runtime import Member, Runtime, Window
+from ucm_cts.reference_models.runtime import Member, Runtime, Window, lane
 
 _WITH_CHOICES = (
     "R-11.2.2.1-08",
@@ -130,6 +131,52 @@ def declared_drain(ledger: Ledger, runtime: Runtime, window: Window, end: Return
                 window.step_number,
             )
         return
+
+
+@rule("entered", "R-11.2.2.1-13", at=("on_startup",))
+def declared_order(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
+    """Who declares that members are started one by one does not start them at a time, by several threads."""
+    member = runtime.member_of(event.component, event.instance)
+    if member is None or window is None or window.operation != "start" or member.container is not window.container:
+        return
+    beside = [body for body, thread in runtime.starting_up.items() if thread != event.thread]
+    if beside and not ledger.observed("start-order", "at-once"):
+        ledger.violated(
+            "R-11.2.2.1-13",
+            "declared_order",
+            "at once",
+            "the vendor declares start-order = one-by-one: one on_startup has returned before the next one comes",
+            f"{member.lane} received on_startup while {lane(*beside[0])} was still inside its own",
+            (event.n,),
+            window.step_number,
+        )
+
+
+@rule("waited", "R-11.2.2.1-13", timed=True)
+def declared_meeting(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
+    """Who declares that members are started at once does not let one wait until another one's on_startup has ended."""
+    step = runtime.scenario.steps[event.step]
+    held = [m for m in map(runtime.bodies.get, runtime.starting_up) if m is not None and _starts_at(m, step)]
+    begun = runtime.starting_up.keys() | runtime.starting
+    for member in held[0].container.live_members() if held else ():
+        if member.operational or not _starts_at(member, step) or (member.component, member.instance) in begun:
+            continue
+        if not ledger.observed("start-order", "one-by-one"):
+            ledger.violated(
+                "R-11.2.2.1-13",
+                "declared_meeting",
+                "one by one",
+                "the vendor declares start-order = at-once: several members are inside on_startup at a time",
+                f"{member.lane} was not started within {runtime.scenario.patience} ms while {held[0].lane} was inside",
+                (event.n,),
+                event.step,
+            )
+        return
+
+
+def _starts_at(member: Member, step: s.Step) -> bool:
+    """Does its on_startup wait at the gate that ``step`` waits for?"""
+    return isinstance(step, s.ReachGate) and s.HoldAtGate(step.gate) in member.declaration.plan.get("on_startup", ())
 
 
 _HOOKS = {"transport": "transport-fault", "inside": "connector-fault"}

@@ -257,7 +257,7 @@ def right_body(ledger: Ledger, runtime: Runtime, window: Window, end: Return | R
 @rule("ended", "R-11.2.2.1-13", at=("stop",))
 def stop_order(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
     """stop shuts members down in the reverse of the order they were started in, where they were not started at a time."""
-    if not isinstance(end, Return):
+    if not isinstance(end, Return) or ledger.claims.reading("start-order") == "at-once":
         return
     started = [m for m in window.container.startup_order if not m.gone and not m.suspended]
     when = {id(m): received(window, m, "on_shutdown") for m in started}

@@ -54,7 +54,8 @@ class Member:
     """A component instance as far as the trace has shown it.
 
     ``suspended``: its state is not known, so nothing about it is judged. ``doubtful``: not even whether it is a member.
-    ``leaving``: a removal of it failed half-way. ``handed_over``: the connections that on_startup told it of last, None while that is not known.
+    ``leaving``: a removal of it failed half-way. ``lingering``: its on_shutdown raised, and with it the operation, so that it may
+    still be operational. ``handed_over``: the connections that on_startup told it of last, None while that is not known.
     ``closing``: on_shutdown has come since. ``raising``: where its plan makes it raise, None while nobody has asked.
     """
 
@@ -68,6 +69,7 @@ class Member:
     suspended: bool = False
     doubtful: bool = False
     leaving: bool = False
+    lingering: bool = False
     gone: bool = False
     startups: int = 0
     served: bool = False
@@ -273,7 +275,8 @@ class Runtime:
     in which they were added, without those that have been removed and left nothing behind. ``with_policies`` says that there
     was one with policies.
     ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
-    whose on_startup has returned during the operation in progress, ``last_run`` when run was entered last. ``inside`` are
+    whose on_startup has returned during the operation in progress, ``starting_up`` those that are inside it because their
+    container's start is in progress, each with its thread; ``last_run`` when run was entered last. ``inside`` are
     the bodies in which a thread is carrying out business methods or run, the innermost last. ``not_offered`` tells of
     operations that the adapter does not offer.
     ``behind`` is what executions.behind has worked out since anything ``changed``, and ``changes`` how often that was so.
@@ -291,6 +294,7 @@ class Runtime:
         self.discarded: set[tuple[str, int]] = set()
         self.startups: dict[tuple[str, int], tuple[int, int]] = {}
         self.starting: set[tuple[str, int]] = set()
+        self.starting_up: dict[tuple[str, int], int] = {}
         self.last_run: dict[tuple[str, int], int] = {}
         self.inside: dict[int, list[tuple[str, int]]] = {}
         self.not_offered: list[Skip] = []

@@ -32,28 +32,30 @@ class Judged(NamedTuple):
     exercised: frozenset[str]
 
 
-_known: dict[tuple[bytes, bytes], Judged] = {}
+Declared = tuple[tuple[str, str], ...]
+
+_known: dict[tuple[Declared, bytes, bytes], Judged] = {}
 """Same trace, same findings: what many subjects do alike, but for the time it took, is judged once."""
 
 
 class Product:
-    """A framework that has been through the container profile.
+    """A framework that has been through the container profile, under the readings that its vendor declares.
 
     ``failing`` are the failing requirements, each with an example, ``exercised`` those that were exercised at all,
     ``readings`` what it makes of the freedoms of the text.
     """
 
-    def __init__(self, adapter: type[Adapter]) -> None:
+    def __init__(self, adapter: type[Adapter], declared: Mapping[str, str] = {}) -> None:
         self.failing: dict[str, str] = {}
         self.readings: dict[str, set[str]] = {}
         self.exercised: set[str] = set()
         self._telling: list[tuple[str, Scenario, bytes, frozenset[str]]] = []
-        engine = Engine(adapter)
-        for line, (name, scenario) in _prepared().items():
+        engine, stated = Engine(adapter), tuple(sorted(declared.items()))
+        for line, (name, scenario) in _prepared(stated).items():
             answer = engine.answer(line)
-            key = line, _TIME.sub(b"", answer)
+            key = stated, line, _TIME.sub(b"", answer)
             if key not in _known:
-                _known[key] = _judged(name, scenario, answer)
+                _known[key] = _judged(stated, name, scenario, answer)
             _tell(self.failing, name, _known[key].findings)
             self.exercised |= _known[key].exercised
             for option, values in _known[key].readings.items():
@@ -71,9 +73,9 @@ class Product:
         return failing
 
 
-def failing_requirements(adapter: type[Adapter]) -> dict[str, str]:
+def failing_requirements(adapter: type[Adapter], declared: Mapping[str, str] = {}) -> dict[str, str]:
     """Failing requirements, each with an example: scenario, expected, observed."""
-    return Product(adapter).failing
+    return Product(adapter, declared).failing
 
 
 def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | list[Finding]) -> None:
@@ -82,11 +84,11 @@ def _tell(failing: dict[str, str], name: str, findings: tuple[Finding, ...] | li
 
 
 @functools.cache
-def _prepared() -> dict[bytes, tuple[str, Scenario]]:
+def _prepared(declared: Declared) -> dict[bytes, tuple[str, Scenario]]:
     """The suite's scenarios by what a host is sent; those that several test purposes share are there once."""
     disguise, payloads = Disguise(1, "{port}_{element}"), Payloads(1)
     prepared: dict[bytes, tuple[str, Scenario]] = {}
-    for purpose in load_purposes("container"):
+    for purpose in load_purposes("container", *map("=".join, declared)):
         for name, plain in purpose.scenarios:
             scenario = disguise.scenario(payloads.deal(plain))
             prepared.setdefault(encode(Run(0, scenario)), (name, scenario))
@@ -99,16 +101,16 @@ def _trace(name: str, answer: bytes) -> Trace:
     return traced.events
 
 
-def _judged(name: str, scenario: Scenario, answer: bytes) -> Judged:
+def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes) -> Judged:
     traced = from_host_decoder().decode(answer)
     assert isinstance(traced, Traced), (name, traced)
     problem = contradiction(scenario, traced.events, bool(traced.stuck))
     assert problem is None, (name, problem)
-    ledger = _judge().judge(scenario, traced.events)
+    ledger = _judge(declared).judge(scenario, traced.events)
     readings = {option: frozenset(values) for option, values in ledger.readings.items()}
     return Judged(tuple(ledger.findings), readings, frozenset(ledger.exercises))
 
 
 @functools.cache
-def _judge() -> Judge:
-    return Judge(load_life_cycle())
+def _judge(declared: Declared) -> Judge:
+    return Judge(load_life_cycle(), Claims(dict(declared)))

@@ -12,7 +12,7 @@ from ucm_cts.reference_models.ledger import RULES
 
 @pytest.mark.parametrize("mutant", mutants_of(CONTAINER).values(), ids=mutants_of(CONTAINER).keys())
 def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
-    failing = failing_requirements(mutant.adapter)
+    failing = failing_requirements(mutant.adapter, mutant.readings)
     missed = set(mutant.requirements) - set(failing)
     spilled = {k: v for k, v in failing.items() if k not in mutant.requirements and k not in mutant.also}
     assert not missed, f"{mutant.name} survives {missed}; it fails {failing}"

@@ -15,6 +15,7 @@ from ucm_cts.harness.scenarios.probes import load_probe_types
 from ucm_cts.harness.scenarios.schedules import overlap_purposes
 from ucm_cts.harness.scenarios.scripts import TestPurpose, load_scripts, to_scenario
 from ucm_cts.harness.scenarios.services import service_purposes
+from ucm_cts.harness.scenarios.startups import startup_purposes
 from ucm_cts.harness.scenarios.stress import stress_purposes
 from ucm_cts.harness.scenarios.systematic import systematic_purposes
 from ucm_cts.harness.scenarios.unforeseen import unforeseen_purposes
@@ -75,7 +76,7 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
         if script.exercises[0] in clauses
     ]
     combined = [purpose for source in _CORE for purpose in source()] if "core" in PARTS[profile] else []
-    return (*scripted, *generated_purposes(load_life_cycle()), *unforeseen_purposes(), *combined)
+    return (*scripted, *generated_purposes(load_life_cycle()), *startup_purposes(), *unforeseen_purposes(), *combined)
 
 
 def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:
