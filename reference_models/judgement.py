@@ -102,7 +102,7 @@ class Watch:
         self.began = checks("began")
         self.over = checks("over")
         self.served = checks("served")
-        self.waited = checks("waited", followed=followed)
+        self.waited = checks("waited")
         self.linked = checks("linked")
         self.delivered = checks("delivered")
         self.completed = checks("completed")
@@ -463,6 +463,8 @@ class _Reading:
             self.interactions.hold(event)
 
     def opened(self, event: Opened) -> None:
+        if event.gate not in self.runtime.in_vain:
+            self.runtime.opened.add(event.gate)
         if self.executions is not None:
             self.executions.open(event)
         if self.interactions is not None:
@@ -475,11 +477,16 @@ class _Reading:
             self.interactions.settled.append(event)
 
     def timeout(self, event: Timeout) -> None:
+        step = self.steps[event.step]
+        if isinstance(step, s.ReachGate):
+            self.runtime.in_vain.add(step.gate)
+        if self.executions is None and self.interactions is None:
+            return
         if self.interactions is not None:
             self.interactions.wait(event)
         for check in self.watch.waited:
             check(self.ledger, self.runtime, event)
-        if self.executions is not None and isinstance(self.steps[event.step], s.Join):
+        if self.executions is not None and isinstance(step, s.Join):
             for call, waited in self.executions.lost():
                 for check in self.watch.served:
                     check(self.ledger, self.runtime, call, waited, 0)

@@ -5,7 +5,7 @@ what its vendor declares.
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Skip, Timeout
+from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Skip
 from ucm_cts.reference_models.duties import Fit
 from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.ledger import Ledger, rule
@@ -152,31 +152,36 @@ def declared_order(ledger: Ledger, runtime: Runtime, window: Window | None, even
         )
 
 
-@rule("waited", "R-11.2.2.1-13", timed=True)
-def declared_meeting(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
-    """Who declares that members are started at once does not let one wait until another one's on_startup has ended."""
-    step = runtime.scenario.steps[event.step]
-    held = [m for m in map(runtime.bodies.get, runtime.starting_up) if m is not None and _starts_at(m, step)]
-    begun = runtime.starting_up.keys() | runtime.starting
-    for member in held[0].container.live_members() if held else ():
-        if member.operational or not _starts_at(member, step) or (member.component, member.instance) in begun:
-            continue
-        if not ledger.observed("start-order", "one-by-one"):
-            ledger.violated(
-                "R-11.2.2.1-13",
-                "declared_meeting",
-                "one by one",
-                "the vendor declares start-order = at-once: several members are inside on_startup at a time",
-                f"{member.lane} was not started within {runtime.scenario.patience} ms while {held[0].lane} was inside",
-                (event.n,),
-                event.step,
-            )
+@rule("entered", "R-11.2.2.1-13", at=("on_startup",), timed=True)
+def declared_meeting(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
+    """Who declares that members are started at once does not let one wait until another one's on_startup has ended.
+
+    Another one whose on_startup has ended, although the gate it held at was to open when both had come to it, was inside as
+    long as there is patience.
+    """
+    member = runtime.member_of(event.component, event.instance)
+    if member is None or window is None or window.operation != "start" or member.container is not window.container:
         return
+    meeting = _gates(member) - runtime.opened
+    gone = [m for m in map(runtime.bodies.get, runtime.starting) if m is not None and m is not member]
+    before = next((m for m in gone if m.container is member.container and _gates(m) & meeting), None)
+    if before is None or ledger.observed("start-order", "one-by-one"):
+        return
+    ledger.violated(
+        "R-11.2.2.1-13",
+        "declared_meeting",
+        "one by one",
+        "the vendor declares start-order = at-once: several members are inside on_startup at a time",
+        f"{member.lane} was not started within {runtime.scenario.patience} ms while {before.lane} was inside",
+        (event.n,),
+        window.step_number,
+    )
 
 
-def _starts_at(member: Member, step: s.Step) -> bool:
-    """Does its on_startup wait at the gate that ``step`` waits for?"""
-    return isinstance(step, s.ReachGate) and s.HoldAtGate(step.gate) in member.declaration.plan.get("on_startup", ())
+def _gates(member: Member) -> set[str]:
+    """The gates at which its on_startup waits."""
+    actions = member.declaration.plan.get("on_startup", ())
+    return {action.gate for action in actions if isinstance(action, s.HoldAtGate)}
 
 
 _HOOKS = {"transport": "transport-fault", "inside": "connector-fault"}

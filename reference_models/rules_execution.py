@@ -287,7 +287,7 @@ def run_phases(ledger: Ledger, runtime: Runtime, execution: Execution, met: list
     )
 
 
-@rule("waited", "R-10.1.3.2-01", "R-10.1.3.2-03", timed=True, where="interactions")
+@rule("waited", "R-10.1.3.2-01", "R-10.1.3.2-03", timed=True)
 def run_triggered(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
     """Once started, a self-executing component is executed within the scenario's patience."""
     step = runtime.scenario.steps[event.step]

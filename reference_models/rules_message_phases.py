@@ -73,7 +73,7 @@ def later_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
         )
 
 
-@rule("waited", "R-10.1.6.1-09", timed=True, where="interactions")
+@rule("waited", "R-10.1.6.1-09", timed=True)
 def kept_for_later_phases(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """A message that waits for the next start comes then, where the vendor has declared it."""
     for call in messages(runtime):

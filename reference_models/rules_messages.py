@@ -45,7 +45,7 @@ def messages_arrived(ledger: Ledger, runtime: Runtime) -> None:
             ledger.exercised("R-10.1.6.1-03")
 
 
-@rule("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True, where="interactions")
+@rule("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True)
 def every_receiver(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """What entered one receiver enters all that are well; one that is slow or fails costs the others nothing."""
     for call, missing in overdue(ledger, runtime, timeout):
@@ -59,7 +59,7 @@ def every_receiver(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
         _missing(ledger, "every_receiver", requirement, call, missing, f"it came to {got or 'nobody'}", timeout)
 
 
-@rule("waited", "R-10.1.6.1-08", timed=True, where="interactions")
+@rule("waited", "R-10.1.6.1-08", timed=True)
 def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """Whether the others have the message while one of its receivers is held."""
     interactions = interactions_of(runtime)
@@ -86,7 +86,7 @@ def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
             ledger.observed("slow-receiver", "independent")
 
 
-@rule("waited", "R-10.1.6.1-03", timed=True, where="interactions")
+@rule("waited", "R-10.1.6.1-03", timed=True)
 def many_emitters(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """Messages of each emitter arrive, not of one only."""
     for call, missing in overdue(ledger, runtime, timeout):
@@ -97,7 +97,7 @@ def many_emitters(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
             _missing(ledger, "many_emitters", "R-10.1.6.1-03", call, missing, "only another emitter's came", timeout)
 
 
-@rule("waited", "R-10.1.6.1-20", timed=True, where="interactions")
+@rule("waited", "R-10.1.6.1-20", timed=True)
 def message_template(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """Messages of each type arrive, not of one only."""
     for call, missing in overdue(ledger, runtime, timeout):

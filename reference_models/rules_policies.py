@@ -112,7 +112,7 @@ def runs_again(ledger: Ledger, runtime: Runtime, execution: Execution, met: list
         )
 
 
-@rule("waited", "R-10.1.3.2-01", timed=True, where="interactions")
+@rule("waited", "R-10.1.3.2-01", timed=True)
 def runs_no_more(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
     """run was called once and not again within most of the scenario's patience, although it returned."""
     step = runtime.scenario.steps[event.step]

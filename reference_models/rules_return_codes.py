@@ -132,7 +132,7 @@ def receivers_codes(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
         ledger.exercised("R-10.1.2-09")
 
 
-@rule("waited", "R-10.1.2-09", timed=True, where="interactions")
+@rule("waited", "R-10.1.2-09", timed=True)
 def answered_at_all(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """A push that nothing disturbs is answered."""
     for call in messages(runtime):
@@ -150,7 +150,7 @@ def ok_true(ledger: Ledger, runtime: Runtime) -> None:
             ledger.exercised("R-10.1.2-10")
 
 
-@rule("waited", "R-10.1.2-10", timed=True, where="interactions")
+@rule("waited", "R-10.1.2-10", timed=True)
 def ok_kept(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
     """What got ok arrives, if nothing is broken and the receivers are well."""
     for call, missing in overdue(ledger, runtime, timeout):

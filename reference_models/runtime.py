@@ -276,7 +276,8 @@ class Runtime:
     was one with policies.
     ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
     whose on_startup has returned during the operation in progress, ``starting_up`` those that are inside it because their
-    container's start is in progress, each with its thread; ``last_run`` when run was entered last. ``inside`` are
+    container's start is in progress, each with its thread; ``in_vain`` are gates that were waited for until patience ran
+    out, ``opened`` those that were opened without that. ``last_run`` when run was entered last. ``inside`` are
     the bodies in which a thread is carrying out business methods or run, the innermost last. ``not_offered`` tells of
     operations that the adapter does not offer.
     ``behind`` is what executions.behind has worked out since anything ``changed``, and ``changes`` how often that was so.
@@ -295,6 +296,8 @@ class Runtime:
         self.startups: dict[tuple[str, int], tuple[int, int]] = {}
         self.starting: set[tuple[str, int]] = set()
         self.starting_up: dict[tuple[str, int], int] = {}
+        self.in_vain: set[str] = set()
+        self.opened: set[str] = set()
         self.last_run: dict[tuple[str, int], int] = {}
         self.inside: dict[int, list[tuple[str, int]]] = {}
         self.not_offered: list[Skip] = []

@@ -239,6 +239,8 @@ def test_readings_may_make_requirements_not_apply() -> None:
     narrow = stating(readings={"log-message": "narrow-255", "port-trace-parameters": "none"})
     gone = {r.id for r in CORE_REQUIREMENTS if why_not(r, narrow)}
     assert gone == {"R-10.1.4.2-47", *(f"R-10.1.4.2-{n}" for n in range(31, 36))}
+    parallel = stating(readings={"start-order": "at-once"})
+    assert {r.id for r in CORE_REQUIREMENTS if why_not(r, parallel)} == {"R-11.2.2.1-13"}
     built_in = stating(readings={"core-models": "built-in"})
     of_models = {r.id for r in CORE_REQUIREMENTS if set(r.rules) <= CHECKS.keys()}
     assert {r.id for r in CORE_REQUIREMENTS if why_not(r, built_in)} == of_models
