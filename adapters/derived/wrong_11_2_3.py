@@ -214,11 +214,11 @@ class second_start_restarts(Base):
 
 @breaks("R-11.2.3-17")
 class runs_stopped_components(Base):
-    """After stop the framework still runs a component that served before."""
+    """After stop the framework once more runs a component that served before."""
 
     def get_components(self) -> list[int]:
         if not self.is_started:
-            for member in self.__dict__.get("ran", []):
+            for member in self.__dict__.pop("ran", []):  # whom it runs may ask again
                 for port in member.implementation.provides:
                     element = member.body.get_portElement(port)
                     if element is not None:

@@ -11,9 +11,9 @@ from ucm_cts.adapters.reference_py.framework import Container, Failures, Member
 # members, listed, started and stopped
 
 
-@breaks("R-11.2.2.1-11")
+@breaks("R-11.2.2.1-11", also=("R-11.2.1.4-01",))
 class forgets_the_fourth_below(Base):
-    """start leaves out the fourth member of a sub-container."""
+    """start leaves out the fourth member of a sub-container, be it a fragment or not."""
 
     def _start_order(self) -> Sequence[Member]:
         order = list(super()._start_order())
