@@ -239,8 +239,6 @@ def test_readings_may_make_requirements_not_apply() -> None:
     narrow = stating(readings={"log-message": "narrow-255", "port-trace-parameters": "none"})
     gone = {r.id for r in CORE_REQUIREMENTS if why_not(r, narrow)}
     assert gone == {"R-10.1.4.2-47", *(f"R-10.1.4.2-{n}" for n in range(31, 36))}
-    parallel = stating(readings={"start-order": "at-once"})
-    assert {r.id for r in CORE_REQUIREMENTS if why_not(r, parallel)} == {"R-11.2.2.1-13"}
     built_in = stating(readings={"core-models": "built-in"})
     of_models = {r.id for r in CORE_REQUIREMENTS if set(r.rules) <= CHECKS.keys()}
     assert {r.id for r in CORE_REQUIREMENTS if why_not(r, built_in)} == of_models
@@ -265,6 +263,27 @@ def run(statement: Statement, *requirements: str, adapter: str = ADAPTER) -> Rep
         list(campaign.check(chosen))
         list(campaign.shorten())
         return campaign.report()
+
+
+@pytest.mark.parametrize(
+    ("adapter", "declared", "verdict"),
+    [
+        ("ucm_cts.adapters.derived:starts_all_at_a_time", "at-once", "not applicable"),
+        ("ucm_cts.adapters.derived:starts_all_at_a_time", "one-by-one", "fail"),
+        ("ucm_cts.adapters.derived:starts_all_at_a_time", "observed", "inconclusive"),
+        (ADAPTER, "at-once", "fail"),
+        (ADAPTER, "one-by-one", "pass"),
+        (ADAPTER, "observed", "pass"),
+    ],
+)
+def test_who_starts_all_at_once_has_no_order_to_reverse(adapter: str, declared: str, verdict: str) -> None:
+    hasty = default_statement().ixit | {"patience": 100.0}
+    statement = stating(readings={"start-order": declared}, ixit=hasty)
+    chosen = [p for p in purposes_for(statement, "container") if "R-11.2.2.1-13" in p.requirements]
+    with Driver(locate(adapter, in_process=True), 1) as driver:
+        campaign = Campaign(driver, "container", (), statement)
+        list(campaign.check(chosen))
+        assert verdicts(campaign.report(), ["R-11.2.2.1-13"]) == {"R-11.2.2.1-13": verdict}
 
 
 def verdicts(report: Report, of: Iterable[str] = ()) -> dict[str, str]:

@@ -15,15 +15,15 @@ from ucm_cts.reference_models.findings import Finding
 
 def check_statement(statement: Statement, profile: str, requirements: Sequence[Requirement], tally: Tally) -> None:
     """Enter into ``tally`` what ``statement`` means for ``requirements``. Raises ``DocumentError`` for unusable models."""
+    for requirement in requirements:
+        unmet = why_not(requirement, statement)
+        if unmet is not None:
+            tally.settle(requirement.id, *unmet)
     if "core" not in PARTS[profile]:
         return
     for part, claimed in statement.capabilities.items():
         if not claimed:
             tally.deny(_left_out(part, statement))
-    for requirement in requirements:
-        unmet = why_not(requirement, statement)
-        if unmet is not None:
-            tally.settle(requirement.id, *unmet)
     for requirement_id, parts in asked_in_vain(statement, profile).items():
         tally.explain(requirement_id, f"all scenarios that are to exercise it ask for what is not claimed: {parts}")
     if statement.meets("core-models=shipped"):
