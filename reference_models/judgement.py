@@ -51,7 +51,7 @@ from ucm_cts.reference_models.duties import Duties
 from ucm_cts.reference_models.executions import BusinessCall, Caller, Executions
 from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.interactions import Interactions
-from ucm_cts.reference_models.ledger import Ledger, Where, checks
+from ucm_cts.reference_models.ledger import Ledger, Where, checks, in_order_of
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
 from ucm_cts.reference_models.situations import Situations
@@ -75,6 +75,8 @@ RULE_MODULES = (
     rules_values,
 )
 """Importing these registers all rules; rules of one moment look in this order."""
+
+in_order_of(module.__name__ for module in RULE_MODULES)
 
 
 Check = Callable[..., None]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -74,6 +74,13 @@ def rule(
         return check
 
     return register
+
+
+def in_order_of(modules: Iterable[str]) -> None:
+    """Put the rules into the order of the ``modules`` that have them, whichever was imported first."""
+    place = {module: number for number, module in enumerate(modules)}
+    for name in sorted(RULES, key=lambda name: place.get(RULES[name].check.__module__, len(place))):
+        RULES[name] = RULES.pop(name)
 
 
 def checks(moment: Moment, at: str = "", followed: frozenset[Where] = frozenset()) -> tuple[Callable[..., None], ...]:

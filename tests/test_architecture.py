@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -58,3 +60,17 @@ def test_the_reference_framework_does_not_know_the_sdk() -> None:
         assert inner <= {
             f"ucm_cts.adapters.contract.{model}" for model in ("programming_model", "scenario", "data_types")
         }
+
+
+def test_rules_look_in_their_order_whichever_module_is_imported_first() -> None:
+    told = "from ucm_cts.reference_models.ledger import RULES; print(*RULES)"
+    orders = {
+        subprocess.run(
+            [sys.executable, "-c", f"{first}; import ucm_cts.reference_models.judgement; {told}"],
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for first in ("pass", "import ucm_cts.reference_models.rules_values, ucm_cts.reference_models.rules_trace")
+    }
+    assert len(orders) == 1
