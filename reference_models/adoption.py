@@ -29,7 +29,7 @@ def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
 
 
 def _linger(runtime: Runtime, window: Window, end: Return | Raise) -> None:
-    """Whose on_shutdown raised, and the operation with it, may be operational still; on_startup tells again."""
+    """Whose on_shutdown raised, and the operation with it, may be operational still, until on_startup comes again or a stop returns."""
     for (component, instance), heard in window.by_body.items():
         member = runtime.bodies.get((component, instance or 0))
         phases = [c.hook for c in heard if c.hook in ("on_startup", "on_shutdown")]
@@ -268,8 +268,6 @@ def _started(runtime: Runtime, window: Window, step: s.Start, end: Return | Rais
     if container.started is not True:
         container.startup_order = []
     for member in container.live_members():
-        if member.lingering and container.started is not True:  # start leaves nobody out, so it still is operational
-            member.operational, member.lingering = True, False
         for callback in received(window, member, "on_startup"):
             _resolve(member, callback)
         unclear = member.lingering or member.doubtful or member.instance is None
