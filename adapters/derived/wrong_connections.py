@@ -28,7 +28,7 @@ class forgets_a_port_at_restart(Base):
         return super()._dependencies_of(member)[: None if starts == 1 else 1]
 
 
-@breaks("R-11.2.1.2-09")
+@breaks("R-11.2.1.2-09", also=("R-11.2.3-10",))
 class serves_one_client(Base):
     """Of two clients of one provider the second is not given its reference."""
 
@@ -38,7 +38,7 @@ class serves_one_client(Base):
         return [d for d in given if next(c for c in every if c.target is d.to_port[0]).client is member]
 
 
-@breaks("R-11.2.1.2-09")
+@breaks("R-11.2.1.2-09", also=("R-11.2.3-10",))
 class fragments_get_nothing(Base):
     """Fragments are handed no references over."""
 
