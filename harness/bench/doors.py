@@ -22,6 +22,7 @@ from ucm_cts.adapters.contract.programming_model import (
     PortConnection,
     PortElementObject,
 )
+from ucm_cts.adapters.derived import CONTAINER, mutants_of
 from ucm_cts.adapters.reference_py.framework import ContainerManager
 from ucm_cts.harness.bench.alternatives import parametrised_test, state_machine
 from ucm_cts.harness.bench.measuring import ROUNDS, limit, medians, timed
@@ -33,6 +34,7 @@ from ucm_cts.harness.results import Incident
 from ucm_cts.harness.running.campaign import Campaign
 from ucm_cts.harness.running.driver import Driver
 from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, examine_mutant
 from ucm_cts.reference_models.judgement import Judge
 
 BATCH = 400
@@ -127,7 +129,22 @@ def tables() -> Iterator[Table]:
         "fresh host after a crash, ms", *(f"{restarts[n]:.1f}" for n in restarts), limit(10, *restarts.values())
     )
     other.add_row("whole container run, s", *(f"{whole[n]:.2f}" for n in whole), limit(10, *whole.values()))
+    each, number = _one_mutant()
+    told = f"{each / whole['reference-py']:.1f} × the run of the framework it was made of"
+    other.add_row(f"one mutant of the kill matrix, of {len(SAMPLE)}, s", "", f"{each:.2f}", told)
+    other.add_row(f"all {number} of these clauses, two at a time, min", "", f"{each * number / 120:.1f}", "from that")
     yield other
+
+
+SAMPLE = ("initialises_at_stop", "same_id_for_all", "forgets_the_last", "mixes_references_up")
+"""Mutants of the container profile that are as good as others to tell what one costs."""
+
+
+def _one_mutant() -> tuple[float, int]:
+    """Seconds for one mutant of the container profile, and how many of them there are."""
+    mutants = all_mutants()
+    seconds = [examine_mutant(mutants[name], Thoroughness()).seconds for name in SAMPLE]
+    return statistics.mean(seconds), len(mutants_of(CONTAINER))
 
 
 def _life_cycle_table(costs: dict[str, float]) -> Table:
