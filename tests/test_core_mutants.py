@@ -73,7 +73,10 @@ def test_conformant_framework_is_not_failed(variant: Variant) -> None:
 
 @pytest.mark.parametrize("mutant", mutants_of(CORE).values(), ids=mutants_of(CORE).keys())
 def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
-    found = failing(mutant.adapter, mutant.clauses, SHORT, mutant.readings, frozenset(mutant.requirements))
+    enough = frozenset(mutant.requirements)
+    found = failing(mutant.adapter, mutant.clauses, SHORT, mutant.readings, enough)
+    if set(found) - {*mutant.requirements, *mutant.also}:  # a busy machine needs more patience
+        found = failing(mutant.adapter, mutant.clauses, 1, mutant.readings, enough)
     missed = set(mutant.requirements) - set(found)
     spilled = {k: v for k, v in found.items() if k not in mutant.requirements and k not in mutant.also}
     assert not missed, f"{mutant.name} survives {missed}; it fails {found}"
