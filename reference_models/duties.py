@@ -125,7 +125,7 @@ class Duties:
         if missing:
             hook = next(h for h in wanted if h in missing)
             requirement = row.missing or self.of(hook, row.operation).missing
-            if listener.fragment and hook in ("on_init", "on_startup"):
+            if listener.fragment and hook in ("on_init", "on_startup") and not row.missing:
                 requirement = self._table.fragments
             return Deviation(requirement, hook, True, wanted)
         if surplus:
