@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import re
+import signal
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -146,6 +149,22 @@ def test_command_writes_the_matrix(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert "2 of 2 mutants killed" in page
     assert len(re.findall(r'<rect class="killed"[^>]*><title>initialises_at_stop, R-11.2.1.2-04: ', page)) == 1
     assert json.loads(Path("out/matrix.json").read_text())["testable"]
+
+
+def test_interrupted_self_test_has_what_was_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    within(tmp_path, monkeypatch)
+    named = ["initialises_at_stop", "attributes_after_init", "delivers_twice", "notes_every_call"]
+    command = [sys.executable, "-u", "-m", "ucm_cts", "selftest", *named, "--jobs", "1", "--out", "out"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        first = process.stdout.readline()
+        process.send_signal(signal.SIGINT)
+        rest, err = process.communicate()
+    assert (process.returncode, err) == (1, "")
+    assert first.startswith("1 of 4 examined")
+    assert "interrupted: the matrix holds what was found so far" in rest
+    matrix = msgspec.json.decode(Path("out/matrix.json").read_bytes(), type=Matrix)
+    assert 1 <= len(matrix.mutants) < 4
 
 
 def test_page_names_what_is_not_as_it_should_be() -> None:

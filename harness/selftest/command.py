@@ -88,8 +88,9 @@ def _conduct(conduct: Conduct, console: Output) -> bool:
             nonlocal done, wrong
             done += 1
             wrong += not is_well(result)
-            if not console.is_terminal and done % TOLD_EVERY == 0:
+            if not console.is_terminal and (done == 1 or done % TOLD_EVERY == 0):
                 console.print(f"{done} of {total} examined, {wrong} not as they should be")
+                console.file.flush()
             progress.update(task, advance=1, description=f"{wrong} not as they should be, {result.name[:40]}")
 
         try:

@@ -66,7 +66,10 @@ class Conduct:
                         self._done[result.name] = result
                         tell(result)
             except BaseException:
-                pool.shutdown(wait=False, cancel_futures=True)
+                for (
+                    worker
+                ) in multiprocessing.active_children():  # what they do takes long, and is of no interest any more
+                    worker.terminate()
                 raise
 
     @property
