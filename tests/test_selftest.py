@@ -144,7 +144,7 @@ def test_command_writes_the_matrix(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert (outcome.status, outcome.err) == (0, "")
     assert "0 of 0 conformant variants spared" in outcome.out, "the quick self-test leaves them out"
     matrix = msgspec.json.decode(Path("out/matrix.json").read_bytes(), type=Matrix)
-    assert [mutant.name for mutant in matrix.mutants if mutant.is_killed] == named[:2]
+    assert [mutant.name for mutant in matrix.mutants if mutant.is_killed] == sorted(named[:2])
     page = Path("out/matrix.html").read_text()
     assert "2 of 2 mutants killed" in page
     assert len(re.findall(r'<rect class="killed"[^>]*><title>initialises_at_stop, R-11.2.1.2-04: ', page)) == 1

@@ -8,10 +8,12 @@ import os
 import threading
 import time
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import msgspec
 import pytest
+from command_line import within
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Trace
@@ -276,7 +278,8 @@ def test_failure_that_is_not_shown_again_is_unstable_and_both_traces_are_kept(sl
 
 
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core is all there is")
-def test_pass_that_depends_on_the_schedule_is_unstable() -> None:
+def test_pass_that_depends_on_the_schedule_is_unstable(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    within(tmp_path, monkeypatch)
     result = looked_at_again("MissingOnOneCore", "log-of-several-components", False, "R-10.1.4.2-26")
     assert result.verdict == "inconclusive"
     assert result.reason == "unstable: kept, but not with all threads on one core and more patience"
