@@ -165,6 +165,9 @@ def test_interrupted_self_test_has_what_was_found(tmp_path: Path, monkeypatch: p
     assert "interrupted: the matrix holds what was found so far" in rest
     matrix = msgspec.json.decode(Path("out/matrix.json").read_bytes(), type=Matrix)
     assert 1 <= len(matrix.mutants) < 4
+    assert matrix.left_out == 4 - len(matrix.mutants)
+    assert not matrix.is_proved
+    assert "subjects not examined" in Path("out/matrix.html").read_text()
 
 
 def test_page_names_what_is_not_as_it_should_be() -> None:

@@ -81,7 +81,7 @@ def _conduct(conduct: Conduct, console: Output) -> bool:
     """Run everybody; True if interrupted."""
     done = wrong = 0
     with ends_like_interrupts(), progress_of(console) as progress:
-        total = len(conduct.mutants) + len(conduct.variants) + len(conduct.models) + len(conduct.cheats)
+        total = conduct.number
         task = progress.add_task("examining", total=total)
 
         def tell(result: Result) -> None:

@@ -73,6 +73,11 @@ class Conduct:
                 raise
 
     @property
+    def number(self) -> int:
+        """How many are to be examined."""
+        return len(self.mutants) + len(self.variants) + len(self.models) + len(self.cheats)
+
+    @property
     def matrix(self) -> Matrix:
         """What is known by now."""
         results = list(self._done.values())
@@ -85,6 +90,7 @@ class Conduct:
             tuple(sorted((r for r in results if isinstance(r, VariantResult)), key=_by_name)),
             self.how.whole,
             tuple(sorted((r for r in results if isinstance(r, CheatResult)), key=_by_name)),
+            self.number - len(results),
         )
 
 

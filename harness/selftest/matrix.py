@@ -91,7 +91,9 @@ class VariantResult(Value, frozen=True):
 
 
 class Matrix(Value, frozen=True):
-    """All that one self-test says. ``testable`` are the requirements that rules stand for and that can be broken at all."""
+    """All that one self-test says. ``testable`` are the requirements that rules stand for and that can be broken at all;
+    ``left_out`` is how many subjects were to be examined and were not.
+    """
 
     suite_version: str
     seed: int
@@ -101,6 +103,7 @@ class Matrix(Value, frozen=True):
     variants: tuple[VariantResult, ...]
     whole: bool
     cheats: tuple[CheatResult, ...] = ()
+    left_out: int = 0
 
     @property
     def undetected(self) -> tuple[CheatResult, ...]:
@@ -134,7 +137,7 @@ class Matrix(Value, frozen=True):
     @property
     def is_proved(self) -> bool:
         """Are all mutants killed without spills, all variants spared, and all cheats found out?"""
-        return not (self.survivors or self.spilling or self.wronged or self.undetected)
+        return not (self.survivors or self.spilling or self.wronged or self.undetected or self.left_out)
 
 
 def by_clause(mutants: Iterable[MutantResult]) -> dict[str, list[MutantResult]]:

@@ -73,9 +73,9 @@ def picture(matrix: Matrix) -> Markup:
     """All mutants, a line each, against all requirements, a column each."""
     failed = {kill.requirement for mutant in matrix.mutants for kill in mutant.kills}
     named = {requirement for mutant in matrix.mutants for requirement in mutant.breaks}
-    columns = sorted({*matrix.testable, *failed, *named}, key=clause_key)
+    columns = sorted({*matrix.testable, *failed, *named}, key=_place)
     column_of = {requirement: place for place, requirement in enumerate(columns)}
-    mutants = sorted(matrix.mutants, key=lambda m: (clause_key(m.clause), clause_key(m.breaks[0]), m.name))
+    mutants = sorted(matrix.mutants, key=lambda m: (_place(m.breaks[0]), m.name))
     width, height = LEFT + CELL * len(columns) + 4, TOP + CELL * len(mutants) + 4
     marks = [mark for line, mutant in enumerate(mutants) for mark in _marks(line, mutant, column_of)]
     label = f"{len(mutants)} mutants against {len(columns)} requirements"
@@ -120,6 +120,11 @@ def _bands(columns: list[str], mutants: list[MutantResult], width: int, height: 
             if y - room > 11:
                 yield f'<text x="{LEFT - 6}" y="{y + 9}" text-anchor="end">{escape(mutant.clause)}</text>'
                 room = y
+
+
+def _place(requirement: str) -> tuple[tuple[int, ...], str]:
+    """By clause, then by number."""
+    return clause_key(_clause(requirement)), requirement
 
 
 def _clause(requirement: str) -> str:
