@@ -75,7 +75,7 @@ def picture(matrix: Matrix) -> Markup:
     named = {requirement for mutant in matrix.mutants for requirement in mutant.breaks}
     columns = sorted({*matrix.testable, *failed, *named}, key=_place)
     column_of = {requirement: place for place, requirement in enumerate(columns)}
-    mutants = sorted(matrix.mutants, key=lambda m: (_place(m.breaks[0]), m.name))
+    mutants = sorted(matrix.mutants, key=lambda m: (clause_key(m.clause), _place(m.breaks[0]), m.name))
     width, height = LEFT + CELL * len(columns) + 4, TOP + CELL * len(mutants) + 4
     marks = [mark for line, mutant in enumerate(mutants) for mark in _marks(line, mutant, column_of)]
     label = f"{len(mutants)} mutants against {len(columns)} requirements"
