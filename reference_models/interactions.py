@@ -25,6 +25,7 @@ from ucm_cts.adapters.contract.trace import (
 )
 from ucm_cts.reference_models.carriage import distance
 from ucm_cts.reference_models.executions import BusinessCall, connections_behind
+from ucm_cts.reference_models.links import SENDERS, TAKERS, End, LinkState
 from ucm_cts.reference_models.runtime import NO_ID, Connection, Container, Member, Runtime
 
 if TYPE_CHECKING:
@@ -37,49 +38,6 @@ delivered here before; like none.
 
 _WITHOUT_EFFECT = frozenset((s.Invoke, s.GetPortElement, s.GetComponents, s.ReadLog))
 """Operations that change nothing about who is operational."""
-
-_SENDERS = ("client", "emitter")
-_TAKERS = ("server", "receiver")
-
-
-@dataclass(slots=True, eq=False)
-class End:
-    """A port element attached to a link. ``until`` is the ``n`` of what detached it, ``connection`` is there for clients
-    and emitters.
-    """
-
-    role: str
-    member: Member
-    port: str
-    since: int
-    until: int | None = None
-    connection: Connection | None = None
-
-
-@dataclass(slots=True, eq=False)
-class LinkState:
-    """A connection with a core connector. ``broken`` says where it is broken now, ``broken_at`` since when (``t``), and
-    ``mended_at`` when it was mended last of what ``was_broken``.
-    """
-
-    name: str
-    connector: str
-    interface: str
-    ends: list[End] = field(default_factory=list)
-    broken: str = ""
-    broken_at: int = 0
-    was_broken: str = ""
-    mended_at: int = 0
-
-    def live(self, *roles: str) -> list[End]:
-        """The ends of these roles that are attached now."""
-        return [end for end in self.ends if end.until is None and end.role in roles and not end.member.gone]
-
-    @property
-    def is_proper(self) -> bool:
-        """Has it both sides, and no second server? Clients without server are not connected, and that is all."""
-        whole = bool(self.live(*_SENDERS) and self.live(*_TAKERS))
-        return (whole or bool(self.live("client"))) and len(self.live("server")) < 2
 
 
 @dataclass(slots=True, eq=False)
@@ -151,6 +109,14 @@ class MethodCall:
         """The return code that a push gave; None if it gave none."""
         results = self.reply.results if self.reply is not None and self.reply.exception is None else None
         return results[0] if results else None
+
+    @property
+    def goals(self) -> set[tuple[Member, str]]:
+        """The port elements that it may come to, as far as they are known."""
+        if self.link is not None:
+            return {(end.member, end.port) for end in self.link.ends if end.role in TAKERS}
+        behind = connections_behind(self.caller, self.request.port) if self.caller is not None else ()
+        return {(c.provider, c.provided) for c in behind if c.provider is not None}
 
     def delivered_to(self, receiver: Member | None, port: str | None = None) -> list[Delivery]:
         """The entries into that receiver, at ``port`` or anywhere, that belong to this call."""
@@ -269,7 +235,7 @@ class Interactions:
         if member is None:
             return
         end = End(step.role, member, step.port, begin.n)
-        if step.role in _SENDERS:
+        if step.role in SENDERS:
             end.connection = Connection(link.name, NO_ID, member, step.port, "opaque", None)
             member.connections.append(end.connection)
         link.ends.append(end)
@@ -277,8 +243,8 @@ class Interactions:
 
     def _connect_ends(self, link: LinkState) -> None:
         """Whether clients are connected depends on the other side; of two servers nobody knows which serves."""
-        servers, takers = link.live("server"), link.live(*_TAKERS)
-        for sender in link.live(*_SENDERS):
+        servers, takers = link.live("server"), link.live(*TAKERS)
+        for sender in link.live(*SENDERS):
             if sender.connection is not None:
                 known = bool(takers) or link.connector == s.MESSAGE_CONNECTOR
                 sender.connection.live = True if known else None
@@ -299,10 +265,10 @@ class Interactions:
         """A body calls a method."""
         caller = self._runtime.member_of(event.component, event.instance)
         ready = caller is not None and caller.serving
-        call = MethodCall(event, business, caller, self._link_of(caller, event.port, _SENDERS), ready)
+        call = MethodCall(event, business, caller, self._link_of(caller, event.port, SENDERS), ready)
         if call.link is not None:
             call.broken = call.link.broken
-            call.targets = [(end, end.member.serving) for end in call.link.live(*_TAKERS)]
+            call.targets = [(end, end.member.serving) for end in call.link.live(*TAKERS)]
             call.prepared = self._is_prepared(call)
             call.idle = [end for end, _ in call.targets if _is_idle(self._runtime, end.member)]
         if call.is_message:
@@ -322,7 +288,7 @@ class Interactions:
     def enter(self, event: Enter) -> Delivery:
         """A body is entered at a method."""
         receiver = self._runtime.member_of(event.component, event.instance)
-        link = self._link_of(receiver, event.port or "", _TAKERS)
+        link = self._link_of(receiver, event.port or "", TAKERS)
         call, fit = self._call_behind(event, receiver, link)
         delivery = Delivery(event, receiver, link, call, fit)
         if call is not None:
@@ -340,7 +306,7 @@ class Interactions:
     def push(self, event: Pushed) -> None:
         """A body has pushed a burst."""
         caller = self._runtime.member_of(event.component, event.instance)
-        link = self._link_of(caller, event.port, _SENDERS)
+        link = self._link_of(caller, event.port, SENDERS)
         ends = link.live("receiver") if link is not None else []
         self.bursts.append(PushedBurst(event, link, [end.member for end in ends if end.member.serving]))
 
@@ -370,11 +336,11 @@ class Interactions:
             link
             for link in self.links.values()
             if not link.is_proper
-            and any(container in (None, end.member.container) for end in link.live(*_SENDERS, *_TAKERS))
+            and any(container in (None, end.member.container) for end in link.live(*SENDERS, *TAKERS))
         ]
 
     def _is_prepared(self, call: MethodCall) -> bool:
-        senders = call.link.live(*_SENDERS) if call.link is not None else []
+        senders = call.link.live(*SENDERS) if call.link is not None else []
         own = [end for end in senders if end.member is call.caller and end.port == call.request.port]
         ends = [*own, *(end for end, _ in call.targets)]
         begun = [self._runtime.startups.get((end.member.component, end.member.instance or 0)) for end in ends]

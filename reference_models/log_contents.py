@@ -282,6 +282,18 @@ def _ends(
         enter, end = delivery.enter, delivery.exit
         over = end is not None and not end.raised and end.exception is None
         yield enter.component, enter.port or "", enter.method or "", enter.n, end.n if over and end else None
+    yield from _on_the_way(interactions, components)
+
+
+def _on_the_way(
+    interactions: Interactions, components: dict[str, Declaration]
+) -> Iterator[tuple[str, str, str, int, None]]:
+    """Traced ends that calls may have come to without the body having been entered there yet, or ever."""
+    for call in interactions.calls:
+        method = call.request.method or ""
+        for member, port in call.goals:
+            if port_traces(components.get(member.component), port, method) and not call.delivered_to(member, port):
+                yield member.component, port, method, call.request.n, None
 
 
 def severities_shown(records: Iterable[LogRecord]) -> str:

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Timeout
-from ucm_cts.reference_models.interactions import Delivery, End, Interactions, MethodCall
+from ucm_cts.reference_models.interactions import Delivery, Interactions, MethodCall
 from ucm_cts.reference_models.ledger import Ledger
+from ucm_cts.reference_models.links import End
 from ucm_cts.reference_models.runtime import Member, Runtime
 
 OK, INTERNAL_ERROR, COMM_ERROR = "ok", "internal_error", "comm_error"

@@ -6,8 +6,9 @@ import itertools
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Event, Pushed
-from ucm_cts.reference_models.interactions import LinkState, PushedBurst
+from ucm_cts.reference_models.interactions import PushedBurst
 from ucm_cts.reference_models.ledger import Ledger, rule
+from ucm_cts.reference_models.links import LinkState
 from ucm_cts.reference_models.messages import CODES, OK, interactions_of, is_well
 from ucm_cts.reference_models.runtime import Member, Runtime
 

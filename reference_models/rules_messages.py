@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Return, Timeout
-from ucm_cts.reference_models.interactions import Delivery, End, LinkState, MethodCall
+from ucm_cts.reference_models.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.ledger import Ledger, rule
+from ucm_cts.reference_models.links import End, LinkState
 from ucm_cts.reference_models.messages import (
     OK,
     counts,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Reply, Return
 from ucm_cts.reference_models.findings import Arrow
-from ucm_cts.reference_models.interactions import LinkState
 from ucm_cts.reference_models.ledger import Ledger, rule
+from ucm_cts.reference_models.links import LinkState
 from ucm_cts.reference_models.runtime import Runtime, Window, lane
 from ucm_cts.reference_models.services import (
     ServiceCall,

@@ -22,8 +22,8 @@ from ucm_cts.reference_models.carriage import (
     requirement_of,
     requirements_of,
 )
-from ucm_cts.reference_models.interactions import LinkState
 from ucm_cts.reference_models.ledger import Ledger, rule
+from ucm_cts.reference_models.links import LinkState
 from ucm_cts.reference_models.runtime import Runtime
 from ucm_cts.reference_models.services import (
     ServiceCall,

@@ -9,7 +9,8 @@ from typing import Literal
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Interface, Method
 from ucm_cts.adapters.contract.trace import Exit, Raise, Reply
-from ucm_cts.reference_models.interactions import Delivery, End, Interactions, LinkState, MethodCall, Operation
+from ucm_cts.reference_models.interactions import Delivery, Interactions, MethodCall, Operation
+from ucm_cts.reference_models.links import End, LinkState
 from ucm_cts.reference_models.runtime import NO_ID, Member, Runtime
 
 Trouble = Literal[

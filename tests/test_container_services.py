@@ -245,6 +245,19 @@ def test_records_of_others_are_nobodys_fault() -> None:
     assert findings(scenario, events) == {}
 
 
+def test_message_may_be_traced_before_the_receiver_is_entered() -> None:
+    """It was on its way when the log was read."""
+    (both,) = next(scenarios for name, _, scenarios in purposes({}) if name == "port trace/messages")
+    untraced = msgspec.structs.replace(both.components["emitter"], policies=())
+    scenario = msgspec.structs.replace(both, components=both.components | {"emitter": untraced})
+    events = events_of(scenario)
+    read = next(e for e in events if isinstance(e, Return) and e.records is not None)
+    assert read.records is not None
+    before = [e for e in events[: events.index(read) + 1] if getattr(e, "hook", "") != "method"]
+    assert len(read.records) == 2
+    assert findings(scenario, before) == {}
+
+
 def test_log_that_cannot_be_read_is_not_judged() -> None:
     class Unreadable(ReferenceAdapter):
         """Offers no way to the log."""

@@ -1,4 +1,5 @@
-"""Random scenarios of 10.1: components with policies, joined by both connectors, started, called, stopped, taken apart.
+"""Random scenarios of 10.1: components with policies, joined by both connectors, started, called, stopped, taken apart; with
+clocks and traces, and with transports that break.
 
 One thread operates containers and tells components what to do. Messages are waited for where it is certain that they come;
 where they may be lost, because somebody is stopped or detached meanwhile, nothing more is waited for.
@@ -25,7 +26,10 @@ _INTERFACES = {
 }
 _CONNECTORS = {"service": s.SERVICE_CONNECTOR, "numbers": s.MESSAGE_CONNECTOR}
 _ROLES = {"service": ("server", "client"), "numbers": ("receiver", "emitter")}
+_METHODS = ("echo", "tell")
 _CLOCK_API = "clock.clock_api"
+_TRACE_API = "trace.trace_api"
+_SEVERITIES = ("debug", "info", "warning", "error")
 _OPERATIONS = (
     *["tell"] * 10,
     *["restart", "stop", "start"] * 2,
@@ -35,6 +39,7 @@ _OPERATIONS = (
     "remove",
     "look",
     "meet",
+    "cut",
 )
 
 
@@ -53,6 +58,9 @@ class CoreWriter:
         self.started: dict[str, bool] = {}
         self.come: dict[str, int | None] = {}
         self.holding: list[str] = []
+        self.broken: list[str] = []
+        self.writes: dict[str, int] = {}
+        self.records: int | None = 0
         self.values = 0
 
     def scenario(self) -> Scenario:
@@ -67,6 +75,8 @@ class CoreWriter:
             getattr(self, self.choose(_OPERATIONS))()
         for place in self.choose(((), tuple(self.started))):
             self.steps.append(s.Stop(place))
+        if self.traces():
+            self.steps.append(s.ReadLog(self.records or 0))
         self.steps.append(s.GetComponents())
         used = {name: _INTERFACES[name] for name in dict.fromkeys(self.lines.values())}
         return Scenario(self.components, tuple(self.steps), interfaces=used)
@@ -100,15 +110,17 @@ class CoreWriter:
                 (Policy(s.PROTECTED_PASSIVE),),
                 (Policy(s.UNPROTECTED_PASSIVE),),
                 (Policy(s.ACTIVE, "in.api"),),
+                (Policy(s.SELF_EXECUTING),),
             )
         )
+        policies += self.port_trace("in.api", kind)
         plan: dict[s.Hook, tuple[Action, ...]] = {"method": (*before, *answers)}
         return Declaration(ports, plan=plan, policies=policies, ports={"in.api": kind}, connectable=self.connectable())
 
     def calling(self, name: str, kind: str) -> Declaration:
         calls: list[Action] = []
         for _ in range(self.choose((1, 1, 2, 3))):
-            method = s.PUSH if kind == "numbers" else self.choose(("echo", "tell"))
+            method = s.PUSH if kind == "numbers" else self.choose(_METHODS)
             calls.append(s.CallMethod("out.api", method, (self.value(),)))
         self.pushes[name] = len(calls) if kind == "numbers" else 0
         policies: tuple[Policy, ...] = self.choose(
@@ -117,6 +129,12 @@ class CoreWriter:
         if self.choose((False,) * 5 + (True,)):
             policies = (Policy(s.UNPROTECTED_PASSIVE), Policy(s.CLOCK, element=_CLOCK_API))
             calls.append(s.CallMethod(_CLOCK_API, "get_local_time"))
+        if self.choose((False,) * 5 + (True,)):
+            policies = (Policy(s.UNPROTECTED_PASSIVE), Policy(s.COMPONENT_TRACE, element=_TRACE_API))
+            severity = self.choose(_SEVERITIES)
+            calls.append(s.CallMethod(_TRACE_API, "log", (severity, f"message {self.value()} of {name}")))
+            self.writes[name] = 1
+        policies += self.port_trace("out.api", kind)
         return Declaration(
             ("in.api",),
             ("out.api",),
@@ -125,6 +143,19 @@ class CoreWriter:
             ports={"out.api": kind},
             connectable=self.connectable(),
         )
+
+    def port_trace(self, port: str, kind: str) -> tuple[Policy, ...]:
+        """Now and then ``port`` is traced; how often it is used, nobody counts here."""
+        if not self.choose((False,) * 9 + (True,)):
+            return ()
+        self.records = None
+        method = s.PUSH if kind == "numbers" else self.choose(_METHODS)
+        parameters = {s.METHODS_TO_TRACE: method, s.LOG_SEVERITY: self.choose(_SEVERITIES)}
+        return (Policy(s.PORT_TRACE, port, parameters),)
+
+    def traces(self) -> bool:
+        """Is there anybody who writes to the trace?"""
+        return bool(self.writes) or self.records is None
 
     def connectable(self) -> bool:
         return bool(self.choose((False, False, True)))
@@ -176,19 +207,39 @@ class CoreWriter:
         self.let_in(name)
         serving = [who for who in self.come if self.ends.get(who) == self.ends[name] and who in self.places]
         self.steps.append(s.Invoke(f"tell {name}", self.value()))
+        self.expect_records(name)
         if not self.pushes[name]:
             return
         for who in serving:
             known = self.come[who]
             if known is None:
                 continue
-            if not self.started[self.places[who]] or not all(
-                self.started[self.places[one]] for one in (name, *serving)
-            ):
+            if self.ends[name] in self.broken or not all(self.started[self.places[one]] for one in (name, *serving)):
                 self.come[who] = None  # it may come later, or never
                 continue
             self.come[who] = known + self.pushes[name]
             self.steps.append(s.ReachGate(f"gate of {who}", total=known + self.pushes[name]))
+
+    def expect_records(self, caller: str) -> None:
+        """What ``caller`` writes can be waited for if it surely comes to writing it."""
+        if caller in self.writes and self.records is not None:
+            line = self.ends[caller]
+            is_sure = line not in self.broken and all(self.started[self.places[one]] for one in self.line_of(caller))
+            is_sure = is_sure and any(one not in self.pushes for one in self.line_of(caller))
+            self.records = self.records + self.writes[caller] if is_sure else None
+
+    def cut(self) -> None:
+        """Nothing can be transmitted any more, or it can again."""
+        line = self.choose(tuple(self.lines))
+        if line in self.broken:
+            self.broken.remove(line)
+            self.steps.append(s.Mend(line))
+        elif self.choose((False, True)):
+            self.broken.append(line)
+            self.steps.append(s.Break(line))
+            for who in self.come:
+                if self.ends.get(who) == line:
+                    self.come[who] = None
 
     def let_in(self, caller: str) -> None:
         """Nobody is held any more who is called by ``caller``: it would wait for as long as patience lasts."""
@@ -201,7 +252,9 @@ class CoreWriter:
         ready = [
             who
             for who in self.holding
-            if who in self.places and all(self.started[self.places[one]] for one in self.line_of(who))
+            if who in self.places
+            and self.ends.get(who) not in self.broken
+            and all(self.started[self.places[one]] for one in self.line_of(who))
         ]
         callers = [one for one in self.line_of(ready[0]) if one in self.pushes][:2] if ready else []
         if len(callers) < 2:
