@@ -128,6 +128,8 @@ def disabled_ports(
         other = runtime.member_of(call.request.component, call.request.instance)
         if other is not None and other.container is not container and other.container.started is not False:
             return
+        if (call.request.component, call.request.instance) in runtime.startups and window is None:
+            return  # it has kept the reference that it heard of in a start that failed
     ledger.violated(
         "R-11.2.3-02",
         "disabled_ports",
