@@ -18,6 +18,7 @@ from collections import Counter
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import msgspec
 
@@ -41,7 +42,7 @@ SECONDS = 10
 """What a scenario may take before the glance is given up."""
 
 BYTES = 4 << 30
-"""Address space of the forked process."""
+"""Address space that a forked process may take beside what it has from its parent."""
 
 FAVOURITES = 40
 """Scenarios that found out most mutants so far are tried first."""
@@ -121,7 +122,8 @@ class Glancer:
         return glance
 
     def _be_child(self, adapter: str, clauses: tuple[str, ...], writing: int) -> None:
-        resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
+        most = _address_space() + BYTES
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
         null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(null, 1)
         os.dup2(null, 2)
@@ -174,6 +176,12 @@ class Glancer:
             told = from_host_decoder().decode(reply)
             if isinstance(told, Traced) and not told.stuck and not self._findings(engine, one):
                 self._right.add(_TIME.sub(b"", reply))
+
+
+def _address_space() -> int:
+    """Bytes that this process has already, those of its threads' stacks included."""
+    pages, _, _ = Path("/proc/self/statm").read_text().partition(" ")
+    return int(pages) * resource.getpagesize()
 
 
 def _takes_time(scenario: Scenario) -> bool:
