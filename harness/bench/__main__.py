@@ -8,10 +8,15 @@ from ucm_cts.harness.bench import doors, judging
 
 EVENTS = 1_000_000
 
+WIDTH = 120
+"""Columns of what goes to a file: no table is squeezed."""
+
 
 def main() -> None:
     """Measure, and print each table when it is there. Memory is looked at first, while nothing else has taken any."""
     console = Console()
+    if not console.is_terminal:
+        console.width = WIDTH
     with console.status("judging a million events ..."):
         life = judging.of_a_long_life(EVENTS)
     with console.status("judging the suite's own scenarios ..."):

@@ -4,14 +4,13 @@
 #include <set>
 
 #include "link_impl.hpp"
+#include "names.hpp"
 
 namespace lwucm {
 
 namespace {
 
 const char* const IMPLEMENTATION = "implementation";
-
-std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
 }  // namespace
 

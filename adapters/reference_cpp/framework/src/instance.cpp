@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "lwucm/errors.hpp"
+#include "names.hpp"
 
 namespace lwucm {
 
@@ -14,10 +15,6 @@ std::shared_ptr<ComponentObject> make_body(const Implementation& implementation)
         throw UCM_ERROR("implementation " + implementation.name + " gave no body");
     }
     return body;
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace

@@ -4,12 +4,11 @@
 #include <utility>
 
 #include "container_impl.hpp"
+#include "names.hpp"
 
 namespace lwucm {
 
 namespace {
-
-std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
 bool is_sender(Role role) { return role == Role::client || role == Role::emitter; }
 

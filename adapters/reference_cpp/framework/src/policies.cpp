@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "lwucm/errors.hpp"
+#include "names.hpp"
 
 namespace lwucm {
 
@@ -23,10 +24,6 @@ const std::map<std::string, Protection>& protections() {
                                                           {"protected_passive_component", Protection::passive},
                                                           {"unprotected_passive_component", Protection::none}};
     return all;
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 /// Reads the policies of one implementation, one by one.
