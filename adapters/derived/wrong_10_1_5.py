@@ -1,28 +1,25 @@
-"""Wrong frameworks, clause 10.1.5: service connectors that lose, mix up or alter calls, take too much or leave clients waiting."""
+"""Wrong frameworks, clause 10.1.5: service connectors that lose or mix up calls, or take too many clients or servers."""
 
 from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
-from typing import ClassVar, TypeVar
+from collections.abc import Sequence
 
 from ucm_cts.adapters.contract.data_types import Datum, Interface, Parameter
-from ucm_cts.adapters.contract.programming_model import DeclaredException, NotFound, UcmError
+from ucm_cts.adapters.contract.programming_model import NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SERVICE_CONNECTOR
 from ucm_cts.adapters.derived.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference_py.connectors import Link, LinkElement, Taker
-from ucm_cts.adapters.reference_py.framework import Container, Member
-
-T = TypeVar("T")
+from ucm_cts.adapters.reference_py.framework import Member
 
 _CLAUSES = ("10.1.5",)
 _CALLS, _CLIENTS, _OWN, _ONE_SERVER = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-05"
-_DIRECTIONS, _INHERITED, _EXCEPTIONS = "R-10.1.5.1-08", "R-10.1.5.1-09", "R-10.1.5.1-10"
-_BLOCKING, _IN_FLIGHT, _TEMPLATE = "R-10.1.5.1-11", "R-10.1.5.1-12", "R-10.1.5.1-13"
+_DIRECTIONS, _INHERITED, _EXCEPTIONS, _IN_FLIGHT = "R-10.1.5.1-08", "R-10.1.5.1-09", "R-10.1.5.1-10", "R-10.1.5.1-12"
+_TEMPLATE = "R-10.1.5.1-13"
 
 
-class _Services(Link):
+class Services(Link):
     """Does something else with the calls of services."""
 
     @property
@@ -41,7 +38,7 @@ class _Services(Link):
 # calls that go astray
 
 
-class _Remembers(_Services):
+class _Remembers(Services):
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
         self.answers: dict[str, Sequence[Datum]] = {}
@@ -60,7 +57,7 @@ class answers_from_memory(Base):
     link_class = _Remembers
 
 
-class _Twice(_Services):
+class _Twice(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         super()._request(method, arguments)
         return super()._request(method, arguments)
@@ -73,7 +70,7 @@ class calls_the_server_twice(Base):
     link_class = _Twice
 
 
-class _ByShape(_Services):
+class _ByShape(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         shapes = {name: [p.of for p in m.parameters] for name, m in self.interface.methods.items()}
         same = [name for name in shapes if shapes[name] == shapes[method]]
@@ -87,7 +84,7 @@ class mistakes_methods_of_one_shape(Base):
     link_class = _ByShape
 
 
-class _OwnMethodsOnly(_Services):
+class _OwnMethodsOnly(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         if method in self.interface.inherited:
             raise UcmError(f"no method {method!r}")
@@ -101,7 +98,7 @@ class knows_no_inherited_methods(Base):
     link_class = _OwnMethodsOnly
 
 
-class _ToTheFirst(_Services):
+class _ToTheFirst(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         others = [k for k in self.manager.links if k.interface != self.interface and method in k.interface.methods]
         return super()._request(method, arguments) if not others else Link._request(others[0], method, arguments)
@@ -138,7 +135,7 @@ class has_one_interface(Base):
 # clients
 
 
-class _FirstClientOnly(_Services):
+class _FirstClientOnly(Services):
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
         self.first: int | None = None
@@ -159,7 +156,7 @@ class attaches_one_client(Base):
     link_class = _FirstClientOnly
 
 
-class _OneClient(_Services):
+class _OneClient(Services):
     def _attach_sender(self, member: Member, port: str) -> None:
         if self.connector == SERVICE_CONNECTOR and self.manager.connections:
             raise UcmError("the connection has a client")
@@ -173,7 +170,7 @@ class takes_one_client(Base):
     link_class = _OneClient
 
 
-class _Busy(_Services):
+class _Busy(Services):
     busy = 0
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
@@ -193,7 +190,7 @@ class refuses_while_the_server_is_busy(Base):
     link_class = _Busy
 
 
-class _ShortQueue(_Services):
+class _ShortQueue(Services):
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
         self.queue: list[int] = []
@@ -215,7 +212,7 @@ class forgets_the_third_in_the_queue(Base):
     link_class = _ShortQueue
 
 
-class _OneSlot(_Services):
+class _OneSlot(Services):
     last: Sequence[Datum] = ()
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
@@ -235,7 +232,7 @@ class keeps_results_in_one_slot(Base):
 # servers
 
 
-class _Replaces(_Services):
+class _Replaces(Services):
     def _check_room(self) -> None:
         if self.connector == SERVICE_CONNECTOR:
             self.takers.clear()
@@ -248,7 +245,7 @@ class replaces_the_server(Base):
     link_class = _Replaces
 
 
-class _AtHome(_Services):
+class _AtHome(Services):
     def _attach_taker(self, member: Member, port: str) -> None:
         if self.connector == SERVICE_CONNECTOR and is_below(member.container):
             raise UcmError("servers are in the root container")
@@ -262,7 +259,7 @@ class takes_servers_of_the_root_container(Base):
     link_class = _AtHome
 
 
-class _Adds(_Services):
+class _Adds(Services):
     def _check_room(self) -> None:
         pass
 
@@ -274,7 +271,7 @@ class takes_servers_in_reserve(Base):
     link_class = _Adds
 
 
-class _RefusesOddly(_Services):
+class _RefusesOddly(Services):
     def _check_room(self) -> None:
         if self.connector == SERVICE_CONNECTOR and self.takers:
             raise NotFound("no port for another server")
@@ -287,7 +284,7 @@ class finds_no_place_for_a_server(Base):
     link_class = _RefusesOddly
 
 
-class _DropsBoth(_Services):
+class _DropsBoth(Services):
     def _check_room(self) -> None:
         if self.connector == SERVICE_CONNECTOR and self.takers:
             self.takers[0].port = "nothing"
@@ -304,286 +301,3 @@ class loses_the_server_to_a_second_one(Base):
 @breaks(_ONE_SERVER, clauses=_CLAUSES, readings={"second-server": "at-start"})
 class refuses_the_second_server_at_once(Base):
     """It was declared to do so when it is started."""
-
-
-# values
-
-
-class _Keeps(_Services):
-    direction: ClassVar[str]
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        results = list(super()._request(method, arguments))
-        sent = {p.name: value for p, value in zip(self.interface.methods[method].arguments, arguments, strict=True)}
-        for index, parameter in enumerate(self.parameters(method)):
-            if parameter.direction == self.direction and index < len(results):
-                results[index] = sent.get(parameter.name, results[index] if index == 0 else results[0])
-        return results
-
-
-class _KeepsInout(_Keeps):
-    direction = "INOUT"
-
-
-@breaks(_DIRECTIONS, clauses=_CLAUSES)
-class passes_inout_one_way(Base):
-    """INOUT parameters come back as they were sent."""
-
-    link_class = _KeepsInout
-
-
-class _KeepsOut(_Keeps):
-    direction = "OUT"
-
-
-@breaks(_DIRECTIONS, clauses=_CLAUSES)
-class passes_one_out_parameter(Base):
-    """All OUT parameters have the value of the first result."""
-
-    link_class = _KeepsOut
-
-
-class _ResultFirst(_Services):
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        results = list(super()._request(method, arguments))
-        directions = [p.direction for p in self.parameters(method)]
-        if "RETURN" in directions and len(results) == len(directions):
-            results.insert(0, results.pop(directions.index("RETURN")))
-        return results
-
-
-@breaks(_DIRECTIONS, clauses=_CLAUSES)
-class puts_the_result_first(Base):
-    """The result comes before the other values, wherever it was declared."""
-
-    link_class = _ResultFirst
-
-
-class _SendsInOnly(_Services):
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        sent = [
-            value if p.direction == "IN" else 0 if isinstance(value, int) else ""
-            for p, value in zip(self.interface.methods[method].arguments, arguments, strict=True)
-        ]
-        return super()._request(method, sent)
-
-
-@breaks(_DIRECTIONS, clauses=_CLAUSES)
-class sends_no_inout_values(Base):
-    """INOUT parameters have no value when the server gets them."""
-
-    link_class = _SendsInOnly
-
-
-# exceptions
-
-
-class _Catches(_Services):
-    """What becomes of an exception that the server raised."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        try:
-            return super()._request(method, arguments)
-        except DeclaredException as error:
-            return self.caught(method, error)
-
-    def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
-        raise NotImplementedError
-
-
-class _Swallows(_Catches):
-    def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
-        return self.nothing(method)
-
-
-@breaks(_EXCEPTIONS, clauses=_CLAUSES)
-class loses_exceptions(Base):
-    """A method that ends with an exception returns nothing in particular."""
-
-    link_class = _Swallows
-
-
-class _LosesFields(_Catches):
-    def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
-        raise DeclaredException(error.name, ["" if isinstance(f, str) else 0 for f in error.fields])
-
-
-@breaks(_EXCEPTIONS, clauses=_CLAUSES, also=("R-10.1.1-07",), readings={"exception-transport": "full"})
-class loses_the_fields_of_exceptions(Base):
-    """Exceptions arrive, with nothing in their fields."""
-
-    link_class = _LosesFields
-
-
-class _Mistakes(_Catches):
-    def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
-        last = self.interface.methods[method].raises[-1]
-        raise DeclaredException(last.name, error.fields[: len(last.fields)])
-
-
-@breaks(_EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
-class mistakes_exceptions(Base):
-    """The last exception that a method declares arrives, whichever was raised."""
-
-    link_class = _Mistakes
-
-
-class _RaisesItsOwn(_Catches):
-    def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
-        raise UcmError(error.name)
-
-
-@breaks(_EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
-class raises_its_own_exceptions(Base):
-    """Exceptions arrive as one of the framework's; they were declared to arrive as they are."""
-
-    link_class = _RaisesItsOwn
-
-
-@breaks(_EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
-class raises_its_own_exceptions_on_threads_of_components(Base):
-    """What a method raises on the thread of its active component becomes an exception of the framework's own."""
-
-    def _execute_on_own_thread(self, member: Member, work: Callable[[], T]) -> T:
-        try:
-            return super()._execute_on_own_thread(member, work)
-        except DeclaredException as error:
-            raise UcmError(error.name) from None
-
-
-class _SwallowsOthers(_Services):
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        try:
-            return super()._request(method, arguments)
-        except (DeclaredException, UcmError):
-            raise
-        except Exception:  # noqa: BLE001 - a body may raise anything
-            return self.nothing(method)
-
-
-@breaks(_EXCEPTIONS, clauses=_CLAUSES)
-class swallows_what_is_not_declared(Base):
-    """A server that fails in its own way seems to have answered."""
-
-    link_class = _SwallowsOthers
-
-
-# waiting
-
-
-class _GivesUp(_Services):
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        outcome: list[Sequence[Datum]] = []
-        raised: list[Exception] = []
-
-        def ask() -> None:
-            try:
-                outcome.append(Link._request(self, method, arguments))
-            except Exception as error:  # noqa: BLE001 - whatever it is, the caller gets it
-                raised.append(error)
-
-        asking = threading.Thread(target=ask, daemon=True)
-        asking.start()
-        asking.join(0.005)
-        if raised:
-            raise raised[0]
-        return outcome[0] if outcome else self.nothing(method)
-
-
-@breaks(_BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN))
-class does_not_wait_long(Base):
-    """Who waits too long for a server gets zeros."""
-
-    link_class = _GivesUp
-
-
-class _HangsWhenStopped(_Services):
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        server = self.server if self.takers else None
-        results = super()._request(method, arguments)
-        if server is not None and not server.entrance.is_open and self.is_crowded(server):
-            threading.Event().wait()
-        return results
-
-    def is_crowded(self, server: Taker) -> bool:
-        """In some of the scenarios only: waiting in vain takes time."""
-        return len(self.manager.connections) > 1 and not server.member.execution.definition
-
-
-@breaks(_IN_FLIGHT, clauses=_CLAUSES)
-class forgets_clients_of_stopped_servers(Base):
-    """When a server is being stopped, the results it still gives reach nobody."""
-
-    link_class = _HangsWhenStopped
-
-
-class _InventsWhenStopped(_Services):
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        server = self.server if self.takers else None
-        results = super()._request(method, arguments)
-        return results if server is None or server.entrance.is_open else self.nothing(method)
-
-
-@breaks(_IN_FLIGHT, clauses=_CLAUSES)
-class invents_results_of_stopped_servers(Base):
-    """When a server is being stopped, clients get zeros."""
-
-    link_class = _InventsWhenStopped
-
-
-@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=("R-12.10-10",))
-class never_stops_what_was_called(Base):
-    """stop does not end if a server was executing several calls when it came."""
-
-    def _close_entrances(self, member: Member) -> None:
-        for _, taker in self._takers_of(member):
-            several = taker.entrance._inside > 1
-            taker.entrance.close()
-            if several and not member.execution.definition:
-                threading.Event().wait()
-
-
-class _Undone(_Services):
-    """May be undone while everything is started."""
-
-    undone = False
-
-    def detach(self, container: Container, comp_instance: int, port: str) -> None:
-        if not container.is_started:
-            super().detach(container, comp_instance, port)
-            return
-        self.undone = True
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        results = super()._request(method, arguments)
-        if self.undone:
-            self.answer_undone()
-        return results
-
-    def answer_undone(self) -> None:
-        raise NotImplementedError
-
-
-class _HangsWhenUndone(_Undone):
-    def answer_undone(self) -> None:
-        if not self.server.member.execution.definition and len(self.manager.connections) > 1:
-            threading.Event().wait()
-
-
-@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS))
-class forgets_clients_of_undone_connections(Base):
-    """A connection may be undone at any time, and who is just calling waits for ever."""
-
-    link_class = _HangsWhenUndone
-
-
-class _AbortsWhenUndone(_Undone):
-    def answer_undone(self) -> None:
-        raise UcmError("the connection has been undone")
-
-
-@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS), readings={"call-in-flight": "finishes"})
-class aborts_calls_of_undone_connections(Base):
-    """Calls whose connection is undone end with an exception; they were declared to finish."""
-
-    link_class = _AbortsWhenUndone
