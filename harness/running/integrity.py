@@ -8,7 +8,7 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.scenario import Action, Scenario
+from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import (
     BodyEvent,
     Call,
@@ -32,6 +32,7 @@ from ucm_cts.adapters.contract.trace import (
     Stressed,
     Timeout,
 )
+from ucm_cts.harness.running.plans import Act, Plan, is_as_planned, plan_of
 from ucm_cts.harness.running.turns import Turns
 from ucm_cts.harness.scenarios.scripts import bound_by, used_by
 
@@ -88,7 +89,8 @@ class _Check:
         self.bound = {s.MANAGER, s.UNKNOWN, s.NIL}
         self.null = {s.NIL}
         self.holds: dict[tuple[str, int], dict[str, int]] = {}
-        self.acts: dict[int, list[list[Action]]] = {}
+        self.acts: dict[int, list[list[Act]]] = {}
+        self.plans: dict[tuple[str, s.Hook], Plan] = {}
         self.held_before: dict[int, list[dict[str, int]]] = {}
         self.turns = Turns(scenario)
         self.waiting: dict[int, Held] = {}
@@ -281,67 +283,99 @@ class _Check:
             return f"a reference to {value.component}#{value.instance}, which was never made"
         return None
 
-    def check_body(self, event: BodyEvent | Event) -> str | None:
-        assert isinstance(event, BodyEvent)
-        declaration = self.scenario.components.get(event.component)
-        if declaration is None:
+    def check_create(self, event: Create) -> str | None:
+        if event.component not in self.scenario.components:
             return f"there is no component {event.component}"
         made = self.bodies.get(event.component, 0)
-        if isinstance(event, Create):
-            self.bodies[event.component] = event.instance
-            return None if event.instance == made + 1 else f"instance {event.instance} is made after {made}"
-        if not 1 <= event.instance <= made:
-            return f"instance {event.instance} of {event.component} was never made"
+        self.bodies[event.component] = event.instance
+        return None if event.instance == made + 1 else f"instance {event.instance} is made after {made}"
+
+    def unknown(self, event: BodyEvent) -> str:
+        """Why no such body can act."""
+        if event.component not in self.scenario.components:
+            return f"there is no component {event.component}"
+        return f"instance {event.instance} of {event.component} was never made"
+
+    def declared(self, event: BodyEvent) -> s.Declaration | None:
+        """What is declared of a body that was made."""
+        made = 1 <= event.instance <= self.bodies.get(event.component, 0)
+        return self.scenario.components.get(event.component) if made else None
+
+    def entered(self, event: BodyEvent) -> Enter | None:
+        """Where the body that acts is; None if it is nowhere."""
         frames = self.open.get(event.thread)
-        if frames is None:
-            frames = self.open[event.thread] = []
-        acts = self.acts.get(event.thread)
-        if acts is None:
-            acts = self.acts[event.thread] = []
-            self.held_before[event.thread] = []
-        kind = type(event)
-        if kind is Enter:
-            assert isinstance(event, Enter)
-            frames.append(event)
-            acts.append([])
-            problem = self.check_enter(declaration, event)
-            self.held_before[event.thread].append(self.holds.get((event.component, event.instance), _NONE_HELD))
-            return problem
-        if isinstance(event, Request):
-            if acts:
-                acts[-1].append(
-                    s.CallPort(event.port, event.value)
-                    if event.method is None
-                    else s.CallMethod(event.port, event.method, event.arguments or ())
-                )
-            frames.append(event)
-            known = event.port in declaration.requires or event.port in [p.element for p in declaration.policies]
-            return None if known else f"a request through {event.port!r}"
         top = frames[-1] if frames else None
-        same = isinstance(top, BodyEvent) and (top.component, top.instance) == (event.component, event.instance)
-        if isinstance(event, Reply):
-            if not (same and isinstance(top, Request) and top.port == event.port):
-                return "a reply without its request"
-            frames.pop()
-            return None
-        if not (same and isinstance(top, Enter)):
-            return f"{event.component} acts without having been entered"
-        if isinstance(event, Exit):
-            frames.pop()
-            return self.check_exit(declaration, top, event, acts.pop())
-        if isinstance(event, Pushed):
-            acts[-1].append(s.Burst(event.port, event.first, event.count))
-            told = sum(event.answers.values())
-            return None if told == event.count else f"{told} answers to {event.count} messages"
-        if isinstance(event, Siblings):
-            acts[-1].append(s.QuerySiblings())
-        if isinstance(event, Held):
-            acts[-1].append(s.HoldAtGate(event.gate))
-            self.arrivals[event.gate] += 1
-            self.waiting[event.thread] = event
-            gates = {a.gate for a in declaration.plan.get(top.hook, ()) if isinstance(a, s.HoldAtGate)}
-            return None if event.gate in gates else f"held at {event.gate!r}, which the plan does not name"
+        if type(top) is Enter and top.instance == event.instance and top.component == event.component:
+            return top
         return None
+
+    def check_entry(self, event: Enter) -> str | None:
+        declaration = self.declared(event)
+        if declaration is None:
+            return self.unknown(event)
+        thread = event.thread
+        if thread not in self.acts:
+            self.open.setdefault(thread, [])
+            self.acts[thread], self.held_before[thread] = [], []
+        self.open[thread].append(event)
+        self.acts[thread].append([])
+        problem = self.check_enter(declaration, event)
+        self.held_before[thread].append(self.holds.get((event.component, event.instance), _NONE_HELD))
+        return problem
+
+    def check_request(self, event: Request) -> str | None:
+        declaration = self.declared(event)
+        if declaration is None:
+            return self.unknown(event)
+        acts = self.acts.get(event.thread)
+        if acts:
+            acts[-1].append(event)
+        self.open.setdefault(event.thread, []).append(event)
+        known = event.port in declaration.requires or event.port in [p.element for p in declaration.policies]
+        return None if known else f"a request through {event.port!r}"
+
+    def check_reply(self, event: Reply) -> str | None:
+        frames = self.open.get(event.thread)
+        top = frames[-1] if frames else None
+        same = type(top) is Request and top.port == event.port
+        if not same or top.instance != event.instance or top.component != event.component:  # type: ignore[union-attr]
+            return "a reply without its request" if self.declared(event) is not None else self.unknown(event)
+        self.open[event.thread].pop()
+        return None
+
+    def check_leaving(self, event: Exit) -> str | None:
+        top = self.entered(event)
+        if top is None:
+            return self.astray(event)
+        self.open[event.thread].pop()
+        return self.check_exit(top, event, self.acts[event.thread].pop())
+
+    def astray(self, event: BodyEvent) -> str:
+        """Who acts was never made, or is nowhere."""
+        return (
+            self.unknown(event)
+            if self.declared(event) is None
+            else f"{event.component} acts without having been entered"
+        )
+
+    def check_act(self, event: Pushed | Siblings) -> str | None:
+        if self.entered(event) is None:
+            return self.astray(event)
+        self.acts[event.thread][-1].append(event)
+        if isinstance(event, Siblings):
+            return None
+        told = sum(event.answers.values())
+        return None if told == event.count else f"{told} answers to {event.count} messages"
+
+    def check_held(self, event: Held) -> str | None:
+        top = self.entered(event)
+        if top is None:
+            return self.astray(event)
+        self.acts[event.thread][-1].append(event)
+        self.arrivals[event.gate] += 1
+        self.waiting[event.thread] = event
+        gates = {a.gate for a in self.plan(top).actions if isinstance(a, s.HoldAtGate)}
+        return None if event.gate in gates else f"held at {event.gate!r}, which the plan does not name"
 
     def check_enter(self, declaration: s.Declaration, event: Enter) -> str | None:
         if event.hook == "exchange" and (event.value is None or event.port not in declaration.provides):
@@ -365,12 +399,20 @@ class _Check:
                 held[dependency.port] = held.get(dependency.port, 0) + given
         return None
 
-    def check_exit(self, declaration: s.Declaration, enter: Enter, event: Exit, acts: list[Action]) -> str | None:
+    def plan(self, enter: Enter) -> Plan:
+        """What the body has to do that was entered there."""
+        key = enter.component, enter.hook
+        plan = self.plans.get(key)
+        if plan is None:
+            plan = self.plans[key] = plan_of(self.scenario.components[enter.component], enter.hook)
+        return plan
+
+    def check_exit(self, enter: Enter, event: Exit, acts: list[Act]) -> str | None:
         before = self.held_before[event.thread].pop()
         if enter.hook != event.hook:
             return f"{event.hook} is left where {enter.hook} was entered"
-        plan = declaration.plan.get(enter.hook, ())
-        if event.raised != bool(plan and any(isinstance(a, s.RaiseError) for a in plan)):
+        plan, raises, returned = self.plan(enter)
+        if event.raised != raises:
             return f"{event.hook} {'raised' if event.raised else 'did not raise'} against its plan"
         if event.hook == "method":
             answers = [a for a in plan if isinstance(a, s.Answer) and a.method == enter.method]
@@ -384,14 +426,13 @@ class _Check:
         now = self.holds.get((event.component, event.instance), _NONE_HELD)
         if not plan and not acts:
             pass  # as most bodies do
-        elif not _as_planned(plan, acts, (now,) if now is before else (now, before)):
+        elif not is_as_planned(plan, acts, (now,) if now is before else (now, before)):
             return f"{event.component} did not act in {event.hook} as its plan says"
         if event.hook == "on_shutdown":
             self.holds.pop((event.component, event.instance), None)
         if event.hook != "exchange" or event.raised or enter.value is None:
             return None
-        planned = [a.value for a in plan if isinstance(a, s.ReturnValue)] if plan else plan
-        due = planned[-1] if planned else ~enter.value
+        due = ~enter.value if returned is None else returned
         return None if event.value == due else f"exchange returned {event.value}, its plan says {due}"
 
 
@@ -406,33 +447,13 @@ _CHECKS: dict[type, Callable[[_Check, Any], str | None]] = {
     Counted: _Check.check_told,
     Paused: _Check.check_told,
     Stressed: _Check.check_told,
-    Create: _Check.check_body,
-    Enter: _Check.check_body,
-    Exit: _Check.check_body,
-    Request: _Check.check_body,
-    Reply: _Check.check_body,
-    Siblings: _Check.check_body,
-    Held: _Check.check_body,
-    Pushed: _Check.check_body,
+    Create: _Check.check_create,
+    Enter: _Check.check_entry,
+    Exit: _Check.check_leaving,
+    Request: _Check.check_request,
+    Reply: _Check.check_reply,
+    Siblings: _Check.check_act,
+    Held: _Check.check_held,
+    Pushed: _Check.check_act,
 }
 """What looks at each kind of event."""
-
-
-def _as_planned(plan: Sequence[Action], acts: list[Action], held: tuple[dict[str, int], ...]) -> bool:
-    """Are ``acts`` what the plan has a body do that held these references, by number, at one moment or another?"""
-    for index, action in enumerate(plan):
-        if isinstance(action, s.RaiseError):
-            break
-        if isinstance(action, s.ReturnValue | s.Answer | s.CountMessages):
-            continue
-        times = {1}
-        if isinstance(action, s.CallPort | s.CallMethod | s.Burst):
-            times = {one.get(action.port, 0) for one in held}
-        if len(times) > 1:
-            rest = plan[index + 1 :]
-            return any(acts[:n] == [action] * n and _as_planned(rest, acts[n:], held) for n in times)
-        (n,) = times
-        if acts[:n] != [action] * n:
-            return False
-        acts = acts[n:]
-    return not acts

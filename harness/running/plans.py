@@ -1,0 +1,75 @@
+"""What a body was told to do, and whether it did that."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Action, Declaration
+from ucm_cts.adapters.contract.trace import Held, Pushed, Request, Siblings
+
+Act = Request | Pushed | Siblings | Held
+"""What shows that a body carries out its plan."""
+
+
+class Plan(NamedTuple):
+    """What a body does at a hook, whether it raises in the end, and what ``exchange`` returns if the plan says so."""
+
+    actions: tuple[Action, ...]
+    raises: bool
+    returns: int | None
+
+
+def plan_of(declaration: Declaration, hook: s.Hook) -> Plan:
+    """The plan for ``hook``."""
+    actions = declaration.plan.get(hook, ())
+    returned = [a.value for a in actions if isinstance(a, s.ReturnValue)]
+    return Plan(actions, any(isinstance(a, s.RaiseError) for a in actions), returned[-1] if returned else None)
+
+
+def is_as_planned(plan: Sequence[Action], acts: Sequence[Act], held: tuple[dict[str, int], ...], done: int = 0) -> bool:
+    """Are ``acts``, but for those that are ``done``, what the plan has a body do that held these references, by number, at
+    one moment or another?
+    """
+    for index, action in enumerate(plan):
+        if isinstance(action, s.RaiseError):
+            break
+        if isinstance(action, s.ReturnValue | s.Answer | s.CountMessages):
+            continue
+        times = 1
+        if isinstance(action, s.CallPort | s.CallMethod | s.Burst):
+            times = held[0].get(action.port, 0)
+            others = [one.get(action.port, 0) for one in held[1:]]
+            if any(other != times for other in others):
+                rest = plan[index + 1 :]
+                return any(
+                    _are(acts[done : done + n], action, n) and is_as_planned(rest, acts, held, done + n)
+                    for n in {times, *others}
+                )
+        if not _are(acts[done : done + times], action, times):
+            return False
+        done += times
+    return done == len(acts)
+
+
+def _are(acts: Sequence[Act], action: Action, times: int) -> bool:
+    """Is this ``action``, so many times?"""
+    return len(acts) == times and all(_is(act, action) for act in acts)
+
+
+def _is(act: Act, action: Action) -> bool:
+    """Does ``act`` tell of this action?"""
+    match act:
+        case Request(method=None):
+            return isinstance(action, s.CallPort) and (action.port, action.value) == (act.port, act.value)
+        case Request():
+            own = act.port, act.method, act.arguments or ()
+            return isinstance(action, s.CallMethod) and (action.port, action.method, action.arguments) == own
+        case Pushed():
+            own_burst = act.port, act.first, act.count
+            return isinstance(action, s.Burst) and (action.port, action.first, action.count) == own_burst
+        case Held():
+            return isinstance(action, s.HoldAtGate) and action.gate == act.gate
+        case _:
+            return isinstance(action, s.QuerySiblings)
