@@ -200,3 +200,12 @@ class traces_errors_as_warnings(Base):
     def _write(self, record: Record) -> None:
         of_an_error = record[0] == "error" and _is_of_a_call(self, record)
         super()._write(("warning", record[1]) if of_an_error else record)
+
+
+@breaks("R-11.1.3-01", clauses=HERE, also=("R-11.2.1.2-07", "R-10.1.3.2-21"))
+class loses_results_of_traced_calls(Base):
+    """Who calls exchange through a traced port gets nothing back."""
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        result = super()._trace_call(member, port, method, work)
+        return 0 if method == "exchange" else result  # type: ignore[return-value]

@@ -276,6 +276,13 @@ def _port_purposes() -> list[TestPurpose]:
             _messages(),
             under=_ON_PORTS,
         ),
+        _purpose(
+            "port trace/of the probes' own method",
+            "Calls of exchange are traced at both ends, and come back with what was answered.",
+            ("R-11.1.3-01", "R-11.2.1.2-07"),
+            _own_method(),
+            under=_ON_PORTS,
+        ),
     ]
 
 
@@ -389,6 +396,29 @@ def _messages() -> Scenario:
         s.Stop(),
     )
     return Scenario(components, steps, interfaces={"n": _NUMBERS})
+
+
+def _own_method() -> Scenario:
+    """What the log says of it is not looked at: adapters need not know it by its name."""
+    client = Declaration(
+        ("in.api",),
+        ("out.api",),
+        plan={"exchange": (s.CallPort("out.api", 5),)},
+        policies=(_UNPROTECTED, _trace("out.api", "exchange", "info")),
+    )
+    server = Declaration(("in.api",), policies=(_UNPROTECTED, _trace("in.api", "exchange", "info")))
+    steps = (
+        s.AddComponent("client"),
+        s.AddComponent("server"),
+        s.GetPortElement("server", "in.api", "goal"),
+        s.Connect("client", "out.api", "goal", "connection"),
+        s.GetPortElement("client", "in.api", "api"),
+        s.Start(),
+        s.Invoke("api", 1),
+        s.Invoke("goal", 2),
+        s.Stop(),
+    )
+    return Scenario({"client": client, "server": server}, steps)
 
 
 def _read(records: int) -> tuple[Step, ...]:
