@@ -279,7 +279,7 @@ def _port_purposes() -> list[TestPurpose]:
         _purpose(
             "port trace/of the probes' own method",
             "Calls of exchange are traced at both ends, and come back with what was answered.",
-            ("R-11.1.3-01", "R-11.2.1.2-07"),
+            ("R-11.1.3-01", "R-10.1.3.2-21"),
             _own_method(),
             under=_ON_PORTS,
         ),
