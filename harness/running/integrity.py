@@ -7,10 +7,8 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import (
-    BodyEvent,
     Call,
     Counted,
     Create,
@@ -32,7 +30,7 @@ from ucm_cts.adapters.contract.trace import (
     Stressed,
     Timeout,
 )
-from ucm_cts.harness.running.plans import Act, Plan, is_as_planned, plan_of
+from ucm_cts.harness.running.acting import Acting, Frame, Thread
 from ucm_cts.harness.running.turns import Turns
 from ucm_cts.harness.scenarios.scripts import bound_by, used_by
 
@@ -46,9 +44,6 @@ _ID_GIVING = (s.AddComponent, s.Connect, s.Invoke)
 
 _PUNCTUALITY, _GRAIN = 0.9, 5_000_000
 """A wait for patience that ends after this part of it, less so many nanoseconds, is believed: clocks differ."""
-
-_NONE_HELD: dict[str, int] = {}
-"""Held by a body that was given no references. Nobody adds to it."""
 
 _LONGEST_PATIENCE = 24 * 60 * 60 * 1000
 _NANOSECONDS = 1_000_000
@@ -77,21 +72,16 @@ def believable(scenario: Scenario, events: Sequence[Event]) -> tuple[Event, ...]
     return tuple(events)
 
 
-class _Check:
+class _Check(Acting):
+    """Follows the steps of a scenario, and bodies on the way."""
+
     def __init__(self, scenario: Scenario) -> None:
-        self.scenario = scenario
+        super().__init__(scenario)
         self.taken = 0
         self.done: dict[int, bool] = {}
-        self.open: dict[int, list[Event]] = {}
-        self.bodies: dict[str, int] = {}
-        self.clock: dict[int, int] = {}
-        self.before: int | None = None
+        self.threads: dict[int, Thread] = {}
         self.bound = {s.MANAGER, s.UNKNOWN, s.NIL}
         self.null = {s.NIL}
-        self.holds: dict[tuple[str, int], dict[str, int]] = {}
-        self.acts: dict[int, list[list[Act]]] = {}
-        self.plans: dict[tuple[str, s.Hook], Plan] = {}
-        self.held_before: dict[int, list[dict[str, int]]] = {}
         self.turns = Turns(scenario)
         self.waiting: dict[int, Held] = {}
         self.arrivals: Counter[str] = Counter()
@@ -104,14 +94,15 @@ class _Check:
         self.taken += 1
         if event.n != self.taken:
             return f"event number {event.n} where {self.taken} is due"
-        before = self.clock.get(event.thread)
-        if before is not None and event.t < before:
+        thread = self.threads.get(event.thread)
+        if thread is None:
+            thread = self.threads[event.thread] = Thread(event.thread)
+        elif thread.clock is not None and event.t < thread.clock:
             return f"event {event.n} is earlier than the one before it on thread {event.thread}"
-        self.clock[event.thread] = event.t
         problem = self.check_gate(event) if self.waiting else None
         if problem is None:
-            self.before = before
-            problem = _CHECKS[type(event)](self, event)
+            problem = _CHECKS[type(event)](self, event, thread)
+        thread.clock = event.t
         return f"event {event.n}: {problem}" if problem else None
 
     def end(self) -> str | None:
@@ -136,11 +127,11 @@ class _Check:
     def is_wait(self, number: int) -> bool:
         return isinstance(self.scenario.steps[number], _WAITS)
 
-    def check_turn(self, number: int, thread: int) -> str | None:
+    def check_turn(self, number: int, thread: Thread) -> str | None:
         """A thread takes its steps one by one, in order; what it leaves behind without a trace must be over."""
-        if self.open.get(thread):
-            return f"step {number} begins while another one is open on thread {thread}"
-        problem = self.turns.begin(number, thread)
+        if thread.frames:
+            return f"step {number} begins while another one is open on thread {thread.number}"
+        problem = self.turns.begin(number, thread.number)
         if problem or not self.turns.passed:
             return problem
         for passed in self.turns.passed:
@@ -156,15 +147,15 @@ class _Check:
                 return f"step {number} comes after step {passed} ({s.operation(step)}), which is missing"
         return None
 
-    def check_begin(self, event: Call | Skip) -> str | None:
+    def check_begin(self, event: Call | Skip, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
         if type(step) in _OF_SCENARIO:
             return f"step {event.step} is no operation"
-        frames = self.open.get(event.thread)
+        frames = thread.frames
         if isinstance(event, Skip) and isinstance(step, _OPTIONAL) and event.variable == s.operation(step) and frames:
-            top = frames.pop()
+            top = frames.pop().event
             self.done[event.step] = True
             is_own = isinstance(top, Call) and top.step == event.step
             return None if is_own else f"step {event.step} is skipped and was not begun"
@@ -175,10 +166,10 @@ class _Check:
             return f"step {event.step} is skipped although {event.variable} is bound"
         if isinstance(event, Call) and missing:
             return f"step {event.step} is carried out although {missing[0]} is not bound"
-        problem = self.check_turn(event.step, event.thread)
+        problem = self.check_turn(event.step, thread)
         self.done[event.step] = isinstance(event, Skip)
         if isinstance(event, Call):
-            self.open.setdefault(event.thread, []).append(event)
+            thread.frames.append(Frame(event))
         return problem
 
     def missing(self, step: s.Step) -> list[str]:
@@ -187,62 +178,62 @@ class _Check:
             return [] if step.ref in self.bound and step.ref not in self.null else [step.ref]
         return [variable for variable in used_by(step) if variable not in self.bound]
 
-    def check_timeout(self, event: Timeout) -> str | None:
+    def check_timeout(self, event: Timeout, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
         if not isinstance(step, _WAITS) or event.step in self.done:
             return f"step {event.step} is not a wait"
-        if self.before is not None and event.t - self.before < self.shortest_wait:
+        if thread.clock is not None and event.t - thread.clock < self.shortest_wait:
             return f"step {event.step} runs out of patience too early"
-        problem = self.check_turn(event.step, event.thread)
+        problem = self.check_turn(event.step, thread)
         self.done[event.step] = True
         return problem
 
-    def check_told(self, event: Counted | Paused | Stressed) -> str | None:
+    def check_told(self, event: Counted | Paused | Stressed, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
         if not isinstance(step, _TOLD[type(event)]) or event.step in self.done:
             return f"step {event.step} is not what was done"
-        if isinstance(step, s.Pause) and self.before is not None:
+        if isinstance(step, s.Pause) and thread.clock is not None:
             due = step.milliseconds * _NANOSECONDS * _PUNCTUALITY - _GRAIN
-            if event.t - self.before < due:
+            if event.t - thread.clock < due:
                 return f"step {event.step} ends too early"
         if isinstance(event, Counted) and not 0 <= event.distinct <= event.received:
             return f"step {event.step} has counted {event.distinct} of {event.received}"
-        problem = self.check_turn(event.step, event.thread)
+        problem = self.check_turn(event.step, thread)
         self.done[event.step] = True
         return problem
 
-    def check_opened(self, event: Opened) -> str | None:
+    def check_opened(self, event: Opened, thread: Thread) -> str | None:
         number = self.turns.next_open(event.gate, event.thread)
         if number is None:
             return f"gate {event.gate!r} is opened where no step does so"
-        problem = self.check_turn(number, event.thread)
+        problem = self.check_turn(number, thread)
         self.done[number] = True
         self.opened.add(event.gate)
         return problem
 
-    def check_settled(self, event: Settled) -> str | None:
+    def check_settled(self, event: Settled, thread: Thread) -> str | None:
         number = self.turns.next_settle(event.worker, event.thread)
         if number is None:
             return f"'{event.worker}' is looked for where no step does so"
-        problem = self.check_turn(number, event.thread)
+        problem = self.check_turn(number, thread)
         self.done[number] = True
         before = [n for n in self.turns.steps.get(event.worker, ()) if n < number and not self.is_wait(n)]
         if event.where == "done" and not all(self.done.get(n) for n in before):
             return f"'{event.worker}' is said to be done and is not"
         return problem
 
-    def check_end(self, event: Return | Raise) -> str | None:
+    def check_end(self, event: Return | Raise, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
         if type(step) in _OF_SCENARIO:
             return f"step {event.step} is no operation"
-        frames = self.open.setdefault(event.thread, [])
-        top = frames[-1] if frames else None
+        frames = thread.frames
+        top = frames[-1].event if frames else None
         if not isinstance(top, Call) or top.step != event.step:
             return f"step {event.step} ends without being open on thread {event.thread}"
         frames.pop()
@@ -279,164 +270,17 @@ class _Check:
             fits = value is None
         if not fits:
             return f"{s.operation(step)} cannot return {value!r}"
-        if isinstance(value, Reference) and value.instance > self.bodies.get(value.component, 0):
+        if isinstance(value, Reference) and value.instance > len(self.made.get(value.component, ())):
             return f"a reference to {value.component}#{value.instance}, which was never made"
         return None
 
-    def check_create(self, event: Create) -> str | None:
-        if event.component not in self.scenario.components:
-            return f"there is no component {event.component}"
-        made = self.bodies.get(event.component, 0)
-        self.bodies[event.component] = event.instance
-        return None if event.instance == made + 1 else f"instance {event.instance} is made after {made}"
-
-    def unknown(self, event: BodyEvent) -> str:
-        """Why no such body can act."""
-        if event.component not in self.scenario.components:
-            return f"there is no component {event.component}"
-        return f"instance {event.instance} of {event.component} was never made"
-
-    def declared(self, event: BodyEvent) -> s.Declaration | None:
-        """What is declared of a body that was made."""
-        made = 1 <= event.instance <= self.bodies.get(event.component, 0)
-        return self.scenario.components.get(event.component) if made else None
-
-    def entered(self, event: BodyEvent) -> Enter | None:
-        """Where the body that acts is; None if it is nowhere."""
-        frames = self.open.get(event.thread)
-        top = frames[-1] if frames else None
-        if type(top) is Enter and top.instance == event.instance and top.component == event.component:
-            return top
-        return None
-
-    def check_entry(self, event: Enter) -> str | None:
-        declaration = self.declared(event)
-        if declaration is None:
-            return self.unknown(event)
-        thread = event.thread
-        if thread not in self.acts:
-            self.open.setdefault(thread, [])
-            self.acts[thread], self.held_before[thread] = [], []
-        self.open[thread].append(event)
-        self.acts[thread].append([])
-        problem = self.check_enter(declaration, event)
-        self.held_before[thread].append(self.holds.get((event.component, event.instance), _NONE_HELD))
-        return problem
-
-    def check_request(self, event: Request) -> str | None:
-        declaration = self.declared(event)
-        if declaration is None:
-            return self.unknown(event)
-        acts = self.acts.get(event.thread)
-        if acts:
-            acts[-1].append(event)
-        self.open.setdefault(event.thread, []).append(event)
-        known = event.port in declaration.requires or event.port in [p.element for p in declaration.policies]
-        return None if known else f"a request through {event.port!r}"
-
-    def check_reply(self, event: Reply) -> str | None:
-        frames = self.open.get(event.thread)
-        top = frames[-1] if frames else None
-        same = type(top) is Request and top.port == event.port
-        if not same or top.instance != event.instance or top.component != event.component:  # type: ignore[union-attr]
-            return "a reply without its request" if self.declared(event) is not None else self.unknown(event)
-        self.open[event.thread].pop()
-        return None
-
-    def check_leaving(self, event: Exit) -> str | None:
-        top = self.entered(event)
-        if top is None:
-            return self.astray(event)
-        self.open[event.thread].pop()
-        return self.check_exit(top, event, self.acts[event.thread].pop())
-
-    def astray(self, event: BodyEvent) -> str:
-        """Who acts was never made, or is nowhere."""
-        return (
-            self.unknown(event)
-            if self.declared(event) is None
-            else f"{event.component} acts without having been entered"
-        )
-
-    def check_act(self, event: Pushed | Siblings) -> str | None:
-        if self.entered(event) is None:
-            return self.astray(event)
-        self.acts[event.thread][-1].append(event)
-        if isinstance(event, Siblings):
-            return None
-        told = sum(event.answers.values())
-        return None if told == event.count else f"{told} answers to {event.count} messages"
-
-    def check_held(self, event: Held) -> str | None:
-        top = self.entered(event)
-        if top is None:
-            return self.astray(event)
-        self.acts[event.thread][-1].append(event)
+    def check_held(self, event: Held, thread: Thread) -> str | None:
         self.arrivals[event.gate] += 1
         self.waiting[event.thread] = event
-        gates = {a.gate for a in self.plan(top).actions if isinstance(a, s.HoldAtGate)}
-        return None if event.gate in gates else f"held at {event.gate!r}, which the plan does not name"
-
-    def check_enter(self, declaration: s.Declaration, event: Enter) -> str | None:
-        if event.hook == "exchange" and (event.value is None or event.port not in declaration.provides):
-            return f"exchange on {event.port!r} with {event.value!r}"
-        if event.hook == "method" and (
-            event.method is None or event.arguments is None or event.port not in declaration.ports
-        ):
-            return f"method {event.method!r} on {event.port!r}"
-        if event.hook == "run" and all(policy.definition != s.SELF_EXECUTING for policy in declaration.policies):
-            return "run of a component that does not execute by itself"
-        if event.hook in ("on_connect", "on_disconnect") and not declaration.connectable:
-            return f"{event.hook} on a body that is not Connectable"
-        if event.hook == "set_container_interface" and not declaration.fragment:
-            return "set_container_interface on a body that is no fragment"
-        if (event.hook == "on_startup") != (event.dependencies is not None):
-            return f"{event.hook} {'with' if event.dependencies is not None else 'without'} dependencies"
-        if event.dependencies is not None:
-            held = self.holds[event.component, event.instance] = {}
-            for dependency in event.dependencies:
-                given = sum(reference is not None for reference in dependency.references)
-                held[dependency.port] = held.get(dependency.port, 0) + given
-        return None
-
-    def plan(self, enter: Enter) -> Plan:
-        """What the body has to do that was entered there."""
-        key = enter.component, enter.hook
-        plan = self.plans.get(key)
-        if plan is None:
-            plan = self.plans[key] = plan_of(self.scenario.components[enter.component], enter.hook)
-        return plan
-
-    def check_exit(self, enter: Enter, event: Exit, acts: list[Act]) -> str | None:
-        before = self.held_before[event.thread].pop()
-        if enter.hook != event.hook:
-            return f"{event.hook} is left where {enter.hook} was entered"
-        plan, raises, returned = self.plan(enter)
-        if event.raised != raises:
-            return f"{event.hook} {'raised' if event.raised else 'did not raise'} against its plan"
-        if event.hook == "method":
-            answers = [a for a in plan if isinstance(a, s.Answer) and a.method == enter.method]
-            due_results: tuple[Datum, ...] | None = ()
-            due_exception = None
-            if answers:
-                own = answers[-1].results
-                due_results, due_exception = enter.arguments if own is None else own, answers[-1].exception
-            if not event.raised and (event.results, event.exception) != (due_results, due_exception):
-                return f"{enter.method} gave {event.results!r}, its plan says {due_results!r}"
-        now = self.holds.get((event.component, event.instance), _NONE_HELD)
-        if not plan and not acts:
-            pass  # as most bodies do
-        elif not is_as_planned(plan, acts, (now,) if now is before else (now, before)):
-            return f"{event.component} did not act in {event.hook} as its plan says"
-        if event.hook == "on_shutdown":
-            self.holds.pop((event.component, event.instance), None)
-        if event.hook != "exchange" or event.raised or enter.value is None:
-            return None
-        due = ~enter.value if returned is None else returned
-        return None if event.value == due else f"exchange returned {event.value}, its plan says {due}"
+        return self.check_act(event, thread)
 
 
-_CHECKS: dict[type, Callable[[_Check, Any], str | None]] = {
+_CHECKS: dict[type, Callable[[_Check, Any, Thread], str | None]] = {
     Call: _Check.check_begin,
     Skip: _Check.check_begin,
     Return: _Check.check_end,
@@ -448,8 +292,8 @@ _CHECKS: dict[type, Callable[[_Check, Any], str | None]] = {
     Paused: _Check.check_told,
     Stressed: _Check.check_told,
     Create: _Check.check_create,
-    Enter: _Check.check_entry,
-    Exit: _Check.check_leaving,
+    Enter: _Check.check_enter,
+    Exit: _Check.check_exit,
     Request: _Check.check_request,
     Reply: _Check.check_reply,
     Siblings: _Check.check_act,
