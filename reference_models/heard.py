@@ -9,16 +9,18 @@ _REMEMBERED = 50
 
 
 class Heard:
-    """The callbacks of one body. ``first`` is the first of all; ``interfaces`` counts set_container_interface.
+    """The callbacks of one body. ``first`` is the first of all, ``first_at`` its ``n``; ``interfaces`` counts
+    set_container_interface.
 
     ``regular`` says that of a component's life there was on_init first, and on_startup and on_shutdown in turn since;
     ``phases`` are the last of these two, ``begun`` whether on_startup has ever come.
     """
 
-    __slots__ = ("begun", "first", "initialised", "interfaces", "phases", "regular", "removed")
+    __slots__ = ("begun", "first", "first_at", "initialised", "interfaces", "phases", "regular", "removed")
 
     def __init__(self) -> None:
         self.first = ""
+        self.first_at = 0
         self.initialised = False
         self.removed = False
         self.begun = False
@@ -26,10 +28,10 @@ class Heard:
         self.interfaces = 0
         self.phases: list[str] = []
 
-    def hear(self, hook: Hook) -> None:
-        """One more callback has come."""
+    def hear(self, hook: Hook, n: int) -> None:
+        """One more callback has come, with the event ``n``."""
         if not self.first:
-            self.first = hook
+            self.first, self.first_at = hook, n
         if hook == "on_startup" or hook == "on_shutdown":
             self.regular = self.regular and self.initialised and self.in_operation == (hook == "on_shutdown")
             self.begun = self.begun or hook == "on_startup"

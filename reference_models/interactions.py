@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Boolean, Enumeration
 from ucm_cts.adapters.contract.trace import (
     Call,
     Enter,
@@ -383,10 +384,19 @@ class Interactions:
             return self._give_back(mistaken[0], candidates), "same"
         if same:
             return same[-1], "repeated"
-        if any(c.request.arguments == event.arguments for c in self.calls if _may_be_mixed_up(c, event, is_message)):
-            return None, "stray"
         altered = [c for c in candidates if not c.delivered_to(receiver, event.port)]
+        mixed_up = any(
+            c.request.arguments == event.arguments for c in self.calls if _may_be_mixed_up(c, event, is_message)
+        )
+        if mixed_up and not (altered and self._has_few_values(event, link)):
+            return None, "stray"
         return _nearest(altered, event), "altered" if altered else "stray"
+
+    def _has_few_values(self, event: Enter, link: LinkState | None) -> bool:
+        """Is what was given of types with so few values that one says nothing of where it came from?"""
+        interface = self._runtime.scenario.interfaces.get(link.interface) if link is not None else None
+        method = interface.methods.get(event.method or "") if interface is not None else None
+        return method is not None and all(isinstance(p.of, Boolean | Enumeration) for p in method.arguments)
 
     def _doubt(self, call: MethodCall, receiver: Member | None) -> tuple[bool, bool, bool]:
         """What speaks against a message's delivery: a phase that is over, a broken link, another code than ok."""

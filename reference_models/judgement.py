@@ -313,7 +313,7 @@ class _Reading:
         window, ledger, runtime = self.window, self.ledger, self.runtime
         for check in self.watch.entered[hook]:
             check(ledger, runtime, window, event, heard)
-        heard.hear(hook)
+        heard.hear(hook, event.n)
         if hook == "on_startup":
             runtime.startups[body] = event.n, event.thread
         member = runtime.bodies.get(body)

@@ -458,7 +458,7 @@ def container_interface(ledger: Ledger, runtime: Runtime, window: Window | None,
             "twice" if again else "never",
             "set_container_interface comes once, before on_startup",
             "set_container_interface came again" if again else "on_startup came without set_container_interface",
-            (event.n,),
+            (event.n,) if again else tuple(sorted({heard.first_at or event.n, event.n})),  # from its first callback on
             window.step_number if window else None,
             (Arrow(window.container.name if window else "manager", event.component, "set_container_interface"),),
         )

@@ -272,9 +272,9 @@ class waits_for_room_and_keeps_at_stop(_ReleasesHeld):
     link_class = _Bounded
 
 
-@variant_of(*_CLAUSES)
+@variant_of(*_CLAUSES, readings={"transport-fault": "none", "connector-fault": "none"})
 class breaks_nothing(Base):
-    """The adapter cannot break connections."""
+    """The adapter cannot break connections, and says so."""
 
     class link_class(Link):
         def break_link(self, where: str) -> None:

@@ -24,6 +24,7 @@ class Mutant:
     """A defective framework's adapter and the ``requirements`` it must fail; ``also`` are those it may fail, too.
 
     ``clauses`` are those whose test purposes are to find it out, ``readings`` what its vendor declares of options.
+    ``made_from`` is the conformant variant that was altered; without one it was the reference framework.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Mutant:
     also: tuple[str, ...] = ()
     clauses: tuple[str, ...] = CONTAINER
     readings: Mapping[str, str] = field(default_factory=dict)
+    made_from: str = ""
 
     @property
     def lie(self) -> str:
@@ -101,10 +103,20 @@ def breaks(
     def register(mixin: type) -> type:
         name = mixin.__name__
         assert name not in MUTANTS, name
-        MUTANTS[name] = Mutant(name, bind(name, mixin, mixin.__doc__), requirements, also, clauses, readings)
+        adapter = bind(name, mixin, mixin.__doc__)
+        MUTANTS[name] = Mutant(name, adapter, requirements, also, clauses, readings, _variant_below(mixin))
         return mixin
 
     return register
+
+
+def _variant_below(mixin: type) -> str:
+    """The registered variant that ``mixin`` derives from, the nearest one; empty if from none."""
+    for base in mixin.__mro__[1:]:
+        variant = VARIANTS.get(base.__name__)
+        if variant is not None and issubclass(variant.adapter.manager_class, base):
+            return variant.name
+    return ""
 
 
 def breaks_policy(

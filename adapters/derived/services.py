@@ -145,9 +145,9 @@ class _Translates(Link):
             raise UcmError(f"the server raised {error.name}") from None
 
 
-@_service_variant
+@variant_of("10.1.1", "10.1.5", readings={"exception-transport": "system-error"})
 class raises_system_errors(Base):
-    """Whatever a server raises arrives as an error of the framework."""
+    """Whatever a server raises arrives as an error of the framework, as its vendor says."""
 
     link_class = _Translates
 

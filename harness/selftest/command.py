@@ -30,7 +30,7 @@ LISTED = 40
 @click.argument("names_wanted", metavar="[NAME]...", nargs=-1)
 @click.option("--quick", is_flag=True, help="Leave each mutant as soon as it is killed, and the variants out.")
 @click.option("--whole", is_flag=True, help="Everybody goes through all of profile core, not only clauses of interest.")
-@click.option("--jobs", type=click.IntRange(min=1), default=os.cpu_count() or 1, show_default=True)
+@click.option("--jobs", type=click.IntRange(min=1), default=2 * (os.cpu_count() or 1), show_default=True)
 @click.option("--seed", type=int, default=1, show_default=True)
 @click.option(
     "--out",

@@ -49,15 +49,18 @@ class Conduct:
             spoilt = examine_models(requirement)
             self._done[spoilt.name] = spoilt
             tell(spoilt)
+        self._examine_all([*self.mutants, *self.variants], tell)
+        self._examine_all(self.cheats, tell, uses=1)  # they run beside the harness, and may leave anything behind
+
+    def _examine_all(
+        self, subjects: Sequence[Subject | str], tell: Callable[[Result], None], uses: int | None = None
+    ) -> None:
+        """Several at a time; no process examines more of them than it has ``uses``."""
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(self.jobs, context, initializer=_leave_interrupts_to_the_parent) as pool:
-            due: set[Future[Result]] = set()
-            owners: dict[Future[Result], Subject | str] = {}
-            subjects: list[Subject | str] = [*self.mutants, *self.variants, *self.cheats]
-            for subject in subjects:
-                future: Future[Result] = pool.submit(_examine, subject, self.how)
-                owners[future] = subject
-                due.add(future)
+        leave_interrupts = _leave_interrupts_to_the_parent
+        with ProcessPoolExecutor(self.jobs, context, leave_interrupts, max_tasks_per_child=uses) as pool:
+            owners = {pool.submit(_examine, subject, self.how): subject for subject in subjects}
+            due = set(owners)
             try:
                 while due:
                     done, due = wait(due, return_when=FIRST_COMPLETED)

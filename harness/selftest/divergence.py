@@ -1,6 +1,7 @@
 """Where the trace of a mutant parts from that of the framework it was made from: what a finding has to be about.
 
-Both have run the same scenario. Ids, times and threads are each framework's own affair; all else is compared.
+Both have run the same scenario. Ids, as long as they are none too large, times and threads are each framework's own affair; all
+else is compared.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event, Return, Trace
 from ucm_cts.reference_models.findings import Finding
+
+IDS = range(-(2**31), 2**31)
+"""What an id may be (12.10)."""
 
 _OWN_AFFAIR = ("n", "t", "thread", "detail")
 
@@ -75,7 +79,7 @@ def _plain(scenario: Scenario, event: Event, ids: dict[int, int]) -> bytes:
     if isinstance(event, Return) and 0 <= event.step < len(scenario.steps):
         step = scenario.steps[event.step]
         if isinstance(event.value, int) and isinstance(step, s.AddComponent | s.Connect):
-            told["value"] = ids.setdefault(event.value, len(ids))
+            told["value"] = ids.setdefault(event.value, len(ids)), event.value in IDS
         elif isinstance(event.value, tuple):
             told["value"] = sorted(ids.get(each, -1) for each in event.value)
     return msgspec.json.encode(told)

@@ -13,7 +13,7 @@ import msgspec
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
-from ucm_cts.adapters.derived import CONTAINER, MUTANTS, VARIANTS
+from ucm_cts.adapters.derived import CONTAINER, MUTANTS, VARIANTS, Mutant
 from ucm_cts.adapters.derived_cpp import COMMAND, NativeMutant, being, native_mutants
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.hosting.hosts import HostUnavailable
@@ -40,12 +40,15 @@ LOOKS = 25
 LIMITS = Limits(seconds=3, incident_seconds=20)
 """A mutant that hangs is not waited for longer."""
 
+_DERIVED = "ucm_cts.adapters.derived"
+
 Shown = tuple[Finding, Execution]
 
 
 @dataclass(frozen=True)
 class Subject:
-    """Somebody whose verdicts are known: ``adapter`` names it, ``model`` the framework it was made from.
+    """Somebody whose verdicts are known: ``adapter`` names it, ``model`` the framework it was made from, ``reference`` the
+    reference framework below both, whose statement holds but for its own ``readings``.
 
     ``breaks`` are the requirements it must fail, none for a conformant variant; ``also`` those that it may fail, too.
     """
@@ -53,6 +56,7 @@ class Subject:
     name: str
     lie: str
     adapter: str
+    reference: str
     model: str
     clauses: tuple[str, ...]
     breaks: tuple[str, ...] = ()
@@ -76,28 +80,31 @@ class Thoroughness:
 
 def all_mutants() -> dict[str, Subject]:
     """Every mutant there is, by name. Native ones come with an installed suite only."""
-    home = "ucm_cts.adapters.derived"
     native = native_mutants() if COMMAND.is_file() else {}
-    return {
-        m.name: Subject(
-            m.name, m.lie, f"{home}:{m.name}", "reference-py", m.clauses, m.requirements, m.also, m.readings
-        )
-        for m in MUTANTS.values()
-    } | {name: native_subject(mutant) for name, mutant in native.items()}
+    return {m.name: _subject(m) for m in MUTANTS.values()} | {
+        name: native_subject(mutant) for name, mutant in native.items()
+    }
+
+
+def _subject(mutant: Mutant) -> Subject:
+    reference = "reference-py"
+    model = f"{_DERIVED}:{mutant.made_from}" if mutant.made_from else reference
+    own = mutant.clauses, mutant.requirements, mutant.also, mutant.readings
+    return Subject(mutant.name, mutant.lie, f"{_DERIVED}:{mutant.name}", reference, model, *own)
 
 
 def native_subject(mutant: NativeMutant, command: Path = COMMAND) -> Subject:
     """The native ``mutant`` that is in the executable ``command``."""
-    model, clauses = "reference-cpp", mutant.clauses
-    own = mutant.requirements, mutant.also, mutant.readings
-    return Subject(mutant.name, mutant.lie, str(command), model, clauses, *own, True, mutant.is_rare)
+    reference = "reference-cpp"
+    own = mutant.clauses, mutant.requirements, mutant.also, mutant.readings
+    return Subject(mutant.name, mutant.lie, str(command), reference, reference, *own, True, mutant.is_rare)
 
 
 def all_variants() -> dict[str, Subject]:
     """Every conformant variant there is, by name."""
-    home = "ucm_cts.adapters.derived"
+    reference = "reference-py"
     return {
-        v.name: Subject(v.name, "", f"{home}:{v.name}", "reference-py", v.clauses, readings=v.readings)
+        v.name: Subject(v.name, "", f"{_DERIVED}:{v.name}", reference, reference, v.clauses, readings=v.readings)
         for v in VARIANTS.values()
     }
 
@@ -197,7 +204,7 @@ def _purposes(subject: Subject, how: Thoroughness, profile: str, statement: Stat
 
 def _statement(subject: Subject) -> Statement:
     """What is stated of the framework that it was made from, but for its own readings."""
-    usual = stated_by(None, subject.model)
+    usual = stated_by(None, subject.reference)
     ixit = {**usual.ixit, "patience": PATIENCE}
     readings = {**usual.readings, **subject.readings, "core-models": "built-in"}  # models have mutants of their own
     return msgspec.structs.replace(usual, readings=readings, ixit=ixit)
@@ -215,7 +222,7 @@ def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: E
     right = _right_traces(subject.model, seed).of(execution.scenario)
     parted = divergence(execution.scenario, right, execution.trace)
     if not parted.steps and subject.readings:  # it lies in its statement: under its model's the finding must vanish
-        usual = Judge(load_life_cycle(), stated_by(None, subject.model).claims)
+        usual = Judge(load_life_cycle(), stated_by(None, subject.reference).claims)
         found = usual.judge(execution.scenario, execution.trace).findings
         return all(other.requirement != finding.requirement for other in found)
     return parted.explains(finding)
