@@ -54,10 +54,13 @@ class SeriesRun:
 def main(adapter: str, profile: str, runs: int, variants: Sequence[str], busy: int, out: Path | None) -> None:
     """Run PROFILE on ADAPTER again and again. Exit status 1 if a run is not conformant or a verdict flips."""
     told: list[SeriesRun] = []
+    console = Console(stderr=True)
     with keeping_busy(busy):
         cases = [(variant, number) for variant in variants or ("",) for number in range(1, runs + 1)]
-        for variant, number in track(cases, "running", console=Console(stderr=True), transient=True):
+        for variant, number in track(cases, "running", console=console, transient=True):
             told.append(one_run(adapter, profile, variant, number))
+            if not console.is_terminal:
+                click.echo(f"{len(told)} of {len(cases)}: {told[-1].verdict}, {told[-1].seconds:.1f} s", err=True)
     title = f"{adapter}, profile {profile}, {len(told)} runs{f', {busy} busy processors' if busy else ''}"
     Console(width=WIDTH).print(table(title, told))
     if out is not None:
