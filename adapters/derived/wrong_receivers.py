@@ -149,6 +149,15 @@ class stop_closes_the_first_member_only(Base):
             super()._close_entrances(member)
 
 
+@breaks("R-10.1.6.1-09", clauses=_MESSAGES)
+class stop_closes_the_first_end_only(Base):
+    """Who is stopped gets no more messages of the connection it was attached to first; those of others go on."""
+
+    def _close_entrances(self, member: Member) -> None:
+        for _, taker in self._takers_of(member)[:1]:
+            taker.close()
+
+
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES, readings={"receiver-not-ready": "hold"})
 class forgets_what_it_said_it_holds(Base):
     """Messages for receivers that are not operational were declared to be held, and are dropped."""
