@@ -124,24 +124,35 @@ def run(
     door = locate(adapter, in_process)
     reports: list[Report] = []
     interrupted = False
+    cut_short = ""
     with ends_like_interrupts():
-        for number in range(repeat):
-            with Driver(door, drawn + number, limits) as driver:
-                identity = driver.identity
-                if number == 0:
-                    check_subject(statement, identity, profile)
-                    _tell_who(identity, profile, drawn, console)
-                    prepare_folder(out)
-                campaign = Campaign(driver, profile, known, statement)
-                try:
-                    _check(campaign, purposes, console, f"run {number + 1} of {repeat}: " if repeat > 1 else "")
-                except KeyboardInterrupt:
-                    interrupted = True
-                if not (interrupted and reports):  # what is half done would look unstable
-                    reports.append(campaign.report())
-            if interrupted:
-                break
-        report = repeated(reports, looking(door, limits, statement.claims))
+        while len(reports) < repeat and not (interrupted or cut_short):
+            which = f"run {len(reports) + 1} of {repeat}"
+            try:
+                with Driver(door, drawn + len(reports), limits) as driver:
+                    if reports and not _is_of(driver.identity, reports[0]):
+                        cut_short = f"{which} was of another product, '{_name(driver.identity)}'"
+                        continue
+                    if not reports:
+                        check_subject(statement, driver.identity, profile)
+                        _tell_who(driver.identity, profile, drawn, console)
+                        prepare_folder(out)
+                    campaign = Campaign(driver, profile, known, statement)
+                    try:
+                        _check(campaign, purposes, console, f"{which}: " if repeat > 1 else "")
+                    except KeyboardInterrupt:
+                        interrupted = True
+                    if not (interrupted and reports):  # what is half done would look unstable
+                        reports.append(campaign.report())
+            except HostUnavailable as problem:
+                if not reports:
+                    raise
+                cut_short = f"{which} could not begin: {problem}"
+        try:
+            report = repeated(reports, looking(door, limits, statement.claims))
+        except (HostUnavailable, KeyboardInterrupt) as problem:
+            interrupted = interrupted or isinstance(problem, KeyboardInterrupt)
+            report = repeated(reports, lambda failed, seed: None)
         save_report(report, out)
     console.print(summary(report, out))
     outdated = stale(known, report.requirements) if not expression and not interrupted else []
@@ -153,13 +164,22 @@ def run(
         )
     if interrupted:
         console.print("interrupted: the report holds what was measured so far")
-    status = NOT_CONFORMANT if outdated or interrupted or not succeeded(report) else CONFORMANT
+    if cut_short:
+        console.print(f"{cut_short}; the report holds the runs before", markup=False, soft_wrap=True)
+    status = NOT_CONFORMANT if outdated or interrupted or cut_short or not succeeded(report) else CONFORMANT
     leave(console, status, f"; the report is in {out}")
 
 
+def _is_of(identity: Welcome, report: Report) -> bool:
+    return (identity.product, identity.version) == (report.product, report.version)
+
+
+def _name(identity: Welcome) -> str:
+    return one_line(f"{identity.product} {identity.version}", 80)
+
+
 def _tell_who(identity: Welcome, profile: str, seed: int, console: Output) -> None:
-    name = one_line(f"{identity.product} {identity.version}", 80)
-    told = f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}, seed {seed}"
+    told = f"UCM-CTS {ucm_cts.__version__}: {_name(identity)}, profile {profile}, seed {seed}"
     console.print(told, markup=False, soft_wrap=True)
 
 

@@ -229,9 +229,26 @@ def test_verdict_that_flips_between_runs_is_unstable(here: Path) -> None:
     assert removal(report)["verdict"] == "inconclusive"
     assert sorted(re.findall(r"(\w+) in 1", removal(report)["reason"])) == ["fail", "pass"]
     assert [finding["unstable"] for finding in removal(report)["findings"]] == [removal(report)["reason"]]
+    assert all(finding["trace"] and finding["steady"] for finding in removal(report)["findings"])
     assert "What happened when the same scenario was run again" in (here / "out" / "report.html").read_text()
     steady = next(seed for seed in range(1, 8) if alone[seed - 1] == alone[seed])
     assert removal(run("--seed", str(steady), "--repeat", "2"))["verdict"] == alone[steady]
+
+
+@pytest.mark.parametrize(
+    ("subject", "why"),
+    [("Vanishing", "run 2 of 3 could not begin: "), ("Renamed", "run 2 of 3 was of another product")],
+)
+def test_series_that_cannot_go_on_keeps_what_it_has(
+    here: Path, monkeypatch: pytest.MonkeyPatch, subject: str, why: str
+) -> None:
+    monkeypatch.setenv("HEARD", str(here / "loaded before"))
+    outcome = ucm_cts("run", f"subjects:{subject}", "-k", "self-connection", "--repeat", "3", "--out", "out")
+    assert outcome.status == 1
+    assert why in outcome.out
+    report = report_of(here / "out")
+    assert report["runs"] == 1
+    assert report["scenarios"] > 0
 
 
 def test_selection_checks_only_what_matches(here: Path) -> None:

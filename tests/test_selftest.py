@@ -23,6 +23,7 @@ from ucm_cts.harness.selftest.conducting import Conduct
 from ucm_cts.harness.selftest.divergence import divergence
 from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, examine_mutant, examine_variant
 from ucm_cts.harness.selftest.matrix import Matrix
+from ucm_cts.harness.selftest.models_killing import all_models, examine_models
 from ucm_cts.harness.selftest.page import to_html
 from ucm_cts.reference_models.findings import Finding
 
@@ -170,6 +171,20 @@ def test_interrupted_self_test_has_what_was_found(tmp_path: Path, monkeypatch: p
     assert "subjects not examined" in Path("out/matrix.html").read_text()
 
 
+def test_whole_matrix_without_a_killer_for_each_requirement_proves_nothing() -> None:
+    matrix = Matrix("1", 1, 1.0, ("R-11.2.1.2-01",), (), (), False)
+    assert matrix.is_proved
+    assert not msgspec.structs.replace(matrix, is_all=True).is_proved
+    assert msgspec.structs.replace(matrix, is_all=True).unproved == ("R-11.2.1.2-01",)
+
+
+def test_models_are_spoilt_in_what_each_requirement_speaks_of() -> None:
+    for requirement in all_models():
+        result = examine_models(requirement)
+        assert result.is_killed, requirement
+        assert not result.spills, requirement
+
+
 def test_page_names_what_is_not_as_it_should_be() -> None:
     mutant = replace(all_mutants()["initialises_at_stop"], breaks=("R-11.2.1.2-01",), clauses=("11.2.1.2",))
     result = examine_mutant(mutant, QUICK)
@@ -188,7 +203,16 @@ def test_names_are_listed_and_wrong_ones_refused(tmp_path: Path, monkeypatch: py
     listed = ucm_cts("selftest", "--list")
     assert listed.status == 0
     assert all(name in listed.out for name in MUTANTS)
+    assert "models of R-10.1.3.1-03 are spoilt" in listed.out
+    assert ucm_cts("selftest", "--list", "hides_errors").out.startswith("hides_errors cheats: ")
     wrong = ucm_cts("selftest", "nobody")
     assert wrong.status == 2
     assert "'nobody'" in wrong.err
+    nothing = ucm_cts("selftest", "--quick", "sorts_its_list")
+    assert nothing.status == 2
+    assert "--quick leaves conformant variants out" in nothing.err
+    unwritable = ucm_cts("selftest", "initialises_at_stop", "--out", "/proc/nowhere")
+    assert unwritable.status == 2
+    assert "cannot be written to '/proc/nowhere'" in unwritable.err
+    assert "examined" not in unwritable.out
     assert not list(tmp_path.iterdir())

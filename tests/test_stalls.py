@@ -21,6 +21,7 @@ from ucm_cts.adapters.derived.registry import Base, bind
 from ucm_cts.adapters.reference_py.framework import Failures, Member
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.results import Report, RequirementResult
+from ucm_cts.harness.running import campaign
 from ucm_cts.harness.running import doubts as module
 from ucm_cts.harness.running.campaign import Campaign
 from ucm_cts.harness.running.doubts import Doubts
@@ -191,10 +192,10 @@ def report_of(forgotten: int) -> Report:
     (purpose,) = (p for p in load_purposes("core") if p.id == "log-of-several-components")
     importlib.import_module("test_stalls")._Forgets.left = forgotten  # as an adapter, this module is imported by name
     with Driver(locate("test_stalls:Forgetful", True), seed=5) as driver:
-        campaign = Campaign(driver, "core", (), READABLE)
-        for _ in campaign.check([_impatient(purpose)]):
+        run = Campaign(driver, "core", (), READABLE)
+        for _ in run.check([_impatient(purpose)]):
             pass
-        return campaign.report()
+        return run.report()
 
 
 def _impatient(purpose: TestPurpose) -> TestPurpose:
@@ -251,16 +252,18 @@ class _MissesOnOneCore(Base):
 MissingOnOneCore = bind("MissingOnOneCore", _MissesOnOneCore)
 
 
-def looked_at_again(adapter: str, purpose_id: str, in_process: bool, requirement: str) -> RequirementResult:
+def looked_at_again(
+    adapter: str, purpose_id: str, in_process: bool, requirement: str, times: int = 1
+) -> RequirementResult:
     (purpose,) = (p for p in load_purposes("core") if p.id == purpose_id)
     with Driver(locate(f"test_stalls:{adapter}", in_process), seed=5) as driver:
-        campaign = Campaign(driver, "core", (), READABLE)
-        for _ in campaign.check([_impatient(purpose)]):
+        run = Campaign(driver, "core", (), READABLE)
+        for _ in run.check([_impatient(purpose)] * times):
             pass
-        campaign.look_again()
-        for _ in campaign.shorten():
+        run.look_again()
+        for _ in run.shorten():
             pass
-        (result,) = (r for r in campaign.report().requirements if r.id == requirement)
+        (result,) = (r for r in run.report().requirements if r.id == requirement)
     return result
 
 
@@ -275,6 +278,29 @@ def test_failure_that_is_not_shown_again_is_unstable_and_both_traces_are_kept(sl
         assert result.reason == failed.unstable == "unstable: seen, and not when the same scenario was run 3 times more"
         assert failed.steady is not None
         assert len(failed.steady.trace) > len(failed.execution.trace)
+
+
+@pytest.mark.parametrize(("slips", "verdict"), [(4, "inconclusive"), (1000, "fail")])
+def test_failure_that_was_seen_more_than_once_is_looked_at_again_too(slips: int, verdict: str) -> None:
+    importlib.import_module("test_stalls")._Slips.left = slips
+    result = looked_at_again("Slipping", "same-connection-twice", True, "R-11.2.1.2-06", times=2)
+    assert result.verdict == verdict
+    assert result.findings[0].occurrences == 2
+    assert bool(result.findings[0].steady) == (verdict == "inconclusive")
+
+
+def test_what_there_is_no_time_to_look_at_stands_and_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(campaign, "SECONDS_FOR_SECOND_LOOKS", -1)
+    importlib.import_module("test_stalls")._Slips.left = 1
+    (purpose,) = (p for p in load_purposes("core") if p.id == "same-connection-twice")
+    with Driver(locate("test_stalls:Slipping", True), seed=5) as driver:
+        run = Campaign(driver, "core", (), READABLE)
+        for _ in run.check([_impatient(purpose)]):
+            pass
+        run.look_again()
+        report = run.report()
+    assert {r.verdict for r in report.requirements if r.id == "R-11.2.1.2-06"} == {"fail"}
+    assert report.effort.measures["failures without a second look"] == 1
 
 
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core is all there is")

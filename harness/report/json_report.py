@@ -12,6 +12,7 @@ from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.harness.catalogue import Level, Requirement
 from ucm_cts.harness.report.failures import file_name, incident_file, shortest_first
 from ucm_cts.harness.results import (
+    Execution,
     FailedExecution,
     Incident,
     Overall,
@@ -27,6 +28,9 @@ SCHEMA_FILE = "report.schema.json"
 EVENTS = 50
 """So many offending events of one finding are written at most; the saved scenario shows them all again."""
 
+TRACE = 500
+"""So many events, the last ones, are written of the traces of what is unstable."""
+
 
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Base of the values of ``report.json``: every field is always there."""
@@ -36,7 +40,8 @@ class FindingEntry(Entry, frozen=True):
     """One cause of failure: what was expected and observed, in which scenario, and the file that replays it.
 
     ``scenario`` and ``replay`` are empty where models or the vendor's statement show it and nothing was run. ``unstable`` says
-    why it is not held against the framework, and is empty if it is.
+    why it is not held against the framework, and is empty if it is; then ``trace`` is one that shows it, and ``steady`` one of
+    the same scenario that does not, if there is one.
     """
 
     rule: str
@@ -48,6 +53,8 @@ class FindingEntry(Entry, frozen=True):
     scenario: str
     events: tuple[Event, ...]
     replay: str
+    trace: tuple[Event, ...] = ()
+    steady: tuple[Event, ...] = ()
 
 
 class RequirementEntry(Entry, frozen=True):
@@ -187,7 +194,14 @@ def _finding(failed: FailedExecution, replay: str) -> FindingEntry:
         scenario=execution.name if execution is not None else "",
         events=events[:EVENTS],
         replay=replay if execution is not None else "",
+        trace=_trace(execution) if failed.unstable else (),
+        steady=_trace(failed.steady),
     )
+
+
+def _trace(execution: Execution | None) -> tuple[Event, ...]:
+    """The end of it, if it is long."""
+    return execution.trace[-TRACE:] if execution is not None else ()
 
 
 def _incident(incident: Incident, scenario: str, number: int) -> IncidentEntry:

@@ -33,6 +33,9 @@ _QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
 SECONDS_FOR_SECOND_LOOKS = 60
 """How long second looks may take in all; what was not looked at again stands."""
 
+NOT_LOOKED_AT = "failures without a second look"
+"""Among the measures: there was no time left for so many."""
+
 SECONDS_FOR_SHORTER_CRASHES = 20
 """How long shorter scenarios of crashes are looked for; each try takes two hosts."""
 
@@ -148,22 +151,28 @@ class Campaign:
         self._doubt(execution, doubted)
 
     def look_again(self, at_passes: bool = True) -> None:
-        """Take a second look at each failure that was seen once, and at each requirement that was kept and depends on time,
-        unless passes are of no interest.
+        """Take a second look at each failure that was seen once, at one of each requirement that failed more often, and at each
+        requirement that was kept and depends on time, unless passes are of no interest.
 
         They are run with another timeout and another schedule. What flips is unstable, and no verdict.
         """
         began = time.monotonic()
         last = began + SECONDS_FOR_SECOND_LOOKS
+        standing: set[str] = set()
         for failure in list(self._tally.failures.values()):
-            execution = failure.execution
+            execution, requirement = failure.execution, failure.finding.requirement
             if execution is None or execution.incident is not None or failure.unstable:
                 continue
-            if failure.occurrences > 1 or time.monotonic() > last:  # seen again already, or no time for that
+            if failure.occurrences > 1 and requirement in standing:
+                continue
+            if time.monotonic() > last:
+                self._tally.measures[NOT_LOOKED_AT] += 1
                 continue
             doubt = self._doubts.of_failure(failure.finding, execution)
             if doubt is not None:
                 self._doubt(execution, [doubt])
+            else:
+                standing.add(requirement)
         failed = {requirement for requirement, _, _ in self._tally.failures}
         kept = [case for requirement, case in self._timed.items() if at_passes and requirement not in failed]
         for name, scenario in {name: scenario for name, scenario in kept}.items():

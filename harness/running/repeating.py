@@ -22,6 +22,9 @@ from ucm_cts.harness.tally import cause_of, overall
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.judgement import Judge
 
+SEEDS = 3
+"""Of so many runs that did not show a failure its scenario is run again, until it is not shown."""
+
 Steady = Callable[[FailedExecution, int], Execution | None]
 """Runs the scenario of a failure with the seed of another run; the execution, unless that one shows the failure, too."""
 
@@ -79,12 +82,13 @@ def _result(results: Sequence[RequirementResult], reports: Sequence[Report], ste
         return msgspec.structs.replace(worst, exercised=exercised, findings=findings)
     told = ", ".join(f"{verdict} in {number}" for verdict, number in verdicts.most_common())
     reason = f"unstable: of {len(results)} runs with other seeds {told}"
-    other = next(
-        (r.seed for r, result in zip(reports, results, strict=True) if result.verdict == "pass"), reports[0].seed
-    )
+    kept = [r.seed for r, result in zip(reports, results, strict=True) if result.verdict == "pass"][:SEEDS]
+
+    def other(failed: FailedExecution) -> Execution | None:
+        return failed.steady or next(filter(None, (steady(failed, seed) for seed in kept)), None)
+
     findings = tuple(
-        msgspec.structs.replace(failed, unstable=reason, steady=failed.steady or steady(failed, other))
-        for failed in _joined(results)
+        msgspec.structs.replace(failed, unstable=reason, steady=other(failed)) for failed in _joined(results)
     )
     return msgspec.structs.replace(worst, verdict="inconclusive", exercised=exercised, findings=findings, reason=reason)
 

@@ -10,13 +10,15 @@ from pathlib import Path
 import click
 from rich.table import Table
 
+from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.order import clause_key
+from ucm_cts.harness.report.write import prepare_folder
 from ucm_cts.harness.selftest.cheating import all_cheats
 from ucm_cts.harness.selftest.conducting import Conduct, Result
-from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, all_variants, names
+from ucm_cts.harness.selftest.killing import Subject, Thoroughness, all_mutants, all_variants, names
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult, by_clause
+from ucm_cts.harness.selftest.models_killing import all_models
 from ucm_cts.harness.selftest.page import write_matrix
-from ucm_cts.harness.selftest.spoilt_models import declarations
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
 
 TOLD_EVERY = 50
@@ -52,21 +54,25 @@ def selftest(
     console = Output()
     mutants, variants = all_mutants(), all_variants()
     chosen = list(names(mutants | variants, names_wanted, all_cheats()))
+    cheats = [name for name in all_cheats() if name in names_wanted or not names_wanted]
+    models = () if names_wanted else all_models()
     if listed:
-        for subject in chosen:
-            told = f"breaks {', '.join(subject.breaks)}: {subject.lie}" if subject.breaks else "is conformant"
-            console.print(f"{subject.name} {told}", markup=False, soft_wrap=True)
-        for cheat in all_cheats().values() if not names_wanted else ():
-            console.print(f"{cheat.name} cheats: {cheat.lie}", markup=False, soft_wrap=True)
+        _list(chosen, cheats, models, console)
         return
     conduct = Conduct(
         [subject for subject in chosen if subject.breaks],
         [subject for subject in chosen if not subject.breaks and not quick],
         Thoroughness(seed, whole, quick),
         jobs,
-        [] if names_wanted else list(declarations()),
-        [name for name in all_cheats() if name in names_wanted or not (names_wanted or quick)],
+        models,
+        cheats if names_wanted or not quick else [],
+        is_all=not (names_wanted or quick),
     )
+    if not conduct.number:
+        raise WrongUse("--quick leaves conformant variants out, and nobody else is named; leave out --quick")
+    if not any(subject.is_native for subject in mutants.values()):
+        console.print("native mutants are left out: their executable comes with an installed ucm-cts, and is not here")
+    prepare_folder(out)
     interrupted = _conduct(conduct, console)
     write_matrix(conduct.matrix, out)
     console.print(summary(conduct.matrix))
@@ -75,6 +81,16 @@ def selftest(
     if interrupted:
         console.print("interrupted: the matrix holds what was found so far")
     sys.exit(0 if conduct.matrix.is_proved and not interrupted else 1)
+
+
+def _list(chosen: Sequence[Subject], cheats: Sequence[str], models: Sequence[str], console: Output) -> None:
+    for subject in chosen:
+        told = f"breaks {', '.join(subject.breaks)}: {subject.lie}" if subject.breaks else "is conformant"
+        console.print(f"{subject.name} {told}", markup=False, soft_wrap=True)
+    for name in cheats:
+        console.print(f"{name} cheats: {all_cheats()[name].lie}", markup=False, soft_wrap=True)
+    for requirement in models:
+        console.print(f"models of {requirement} are spoilt, in every way", markup=False, soft_wrap=True)
 
 
 def _conduct(conduct: Conduct, console: Output) -> bool:
@@ -146,6 +162,7 @@ def _tell_the_rest(matrix: Matrix, console: Output) -> None:
             f"{c.name} cheats, and {', '.join(c.came_out) or 'nothing'} comes out: {c.trouble}"
             for c in matrix.undetected
         ),
+        *(f"{requirement} is broken by no mutant that was killed" for requirement in matrix.unproved),
         *(f"{v.name} is conformant: {v.trouble or ', '.join(v.incidents)}" for v in matrix.wronged if not v.failed),
     ]
     for line in lines[:LISTED]:

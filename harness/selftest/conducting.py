@@ -40,6 +40,7 @@ class Conduct:
     jobs: int
     models: Sequence[str] = ()
     cheats: Sequence[str] = ()
+    is_all: bool = False
     _done: dict[str, Result] = field(default_factory=dict)
     _began: float = field(default_factory=time.monotonic)
 
@@ -94,6 +95,7 @@ class Conduct:
             self.how.whole,
             tuple(sorted((r for r in results if isinstance(r, CheatResult)), key=_by_name)),
             self.number - len(results),
+            self.is_all,
         )
 
 

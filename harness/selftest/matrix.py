@@ -92,7 +92,7 @@ class VariantResult(Value, frozen=True):
 
 class Matrix(Value, frozen=True):
     """All that one self-test says. ``testable`` are the requirements that rules stand for and that can be broken at all;
-    ``left_out`` is how many subjects were to be examined and were not.
+    ``left_out`` is how many subjects were to be examined and were not; ``is_all`` says that none were chosen from.
     """
 
     suite_version: str
@@ -104,6 +104,12 @@ class Matrix(Value, frozen=True):
     whole: bool
     cheats: tuple[CheatResult, ...] = ()
     left_out: int = 0
+    is_all: bool = False
+
+    @property
+    def unproved(self) -> tuple[str, ...]:
+        """The requirements that no killed mutant breaks, if all mutants were examined."""
+        return tuple(r for r, killers in self.killers.items() if not killers) if self.is_all else ()
 
     @property
     def undetected(self) -> tuple[CheatResult, ...]:
@@ -136,8 +142,9 @@ class Matrix(Value, frozen=True):
 
     @property
     def is_proved(self) -> bool:
-        """Are all mutants killed without spills, all variants spared, and all cheats found out?"""
-        return not (self.survivors or self.spilling or self.wronged or self.undetected or self.left_out)
+        """Are all mutants killed without spills, of each requirement one, all variants spared, and all cheats found out?"""
+        wrong = self.survivors or self.spilling or self.wronged or self.undetected or self.unproved
+        return not (wrong or self.left_out)
 
 
 def by_clause(mutants: Iterable[MutantResult]) -> dict[str, list[MutantResult]]:

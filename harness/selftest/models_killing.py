@@ -4,33 +4,70 @@ from __future__ import annotations
 
 import time
 from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
 
 from ucm_cts.harness.models.core_models import ModelResult
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult
-from ucm_cts.harness.selftest.spoilt_models import Mutation, declarations, repeating, spoilt_results
+from ucm_cts.harness.selftest.spoilt_models import Mutation, declarations, repeating, spoilt_results, statements
+
+Spoilt = tuple[Mutation, str, Mapping[str, ModelResult]]
+"""A way to spoil models, the requirement that it must break, and what came of it."""
+
+_CONTRADICTING = {"is": ("Union",), "there": ("dropped", "name=")}
+"""What contradicts a statement that something is of its kind, or is there; of others it is to change what they name."""
+
+
+def all_models() -> tuple[str, ...]:
+    """The requirements of which models can be spoilt: those that speak of one declaration, and those that speak of several."""
+    return *declarations(), *statements()
 
 
 def examine_models(requirement: str) -> MutantResult:
-    """Every way to spoil the declaration that ``requirement`` speaks of, as one mutant; it survives if one of them does.
-
-    What is changed inside a declaration may be the matter of another requirement, which then must fail.
-    """
-    began = time.monotonic()
+    """Every way to spoil what ``requirement`` speaks of, as one mutant; it survives if one of them does."""
+    if requirement in statements():
+        places = ", ".join(declarations()[of].place for of in statements()[requirement].of)
+        return _examined(requirement, f"what it says of {places}", _of_statement(requirement))
     declaration = declarations()[requirement]
-    clear = [(mutation, results) for mutation, results in spoilt_results(requirement) if mutation.clear]
-    due = {mutation.requirement for mutation, _ in clear}
+    return _examined(requirement, f"{declaration.place} of {declaration.file}", _of_declaration(requirement))
+
+
+def _of_declaration(requirement: str) -> Iterator[Spoilt]:
+    """What is changed inside a declaration may be the matter of another requirement, which then must fail."""
+    for mutation, results in spoilt_results(requirement):
+        if mutation.clear:
+            yield mutation, mutation.requirement, results
+
+
+def _of_statement(requirement: str) -> Iterator[Spoilt]:
+    """Its own requirement must fail beside that of the declaration."""
+    for declaration, facts in statements()[requirement].of.items():
+        ways = tuple(way for fact in facts for way in _CONTRADICTING.get(fact, (f"{fact}=",)))
+        for mutation, results in spoilt_results(declaration):
+            if mutation.clear and mutation.what.startswith(ways):
+                yield mutation, requirement, results
+
+
+def _examined(requirement: str, what: str, spoilt: Iterable[Spoilt]) -> MutantResult:
+    began = time.monotonic()
     shown: dict[str, list[tuple[Mutation, ModelResult]]] = defaultdict(list)
-    for mutation, results in clear:
+    due: set[str] = set()
+    own: set[str] = set()
+    missed: set[str] = set()
+    number = 0
+    for mutation, breaks, results in spoilt:
+        number += 1
+        due.add(breaks)
+        own.add(mutation.requirement)
+        missed.update({breaks} if results[breaks].status != "broken" else ())
         for result in results.values():
             if result.status == "broken":
                 shown[result.requirement].append((mutation, result))
-    missed = {mutation.requirement for mutation, results in clear if results[mutation.requirement].status != "broken"}
     return MutantResult(
         f"models of {requirement}",
-        f"ships core models in which {declaration.place} of {declaration.file} is spoilt in one of {len(clear)} ways",
+        f"ships core models in which {what} is spoilt in one of {number} ways",
         requirement.removeprefix("R-").rpartition("-")[0],
         tuple(sorted(due)),
-        tuple(sorted({also for each in due for also in repeating(each)})),
+        tuple(sorted((own | {also for each in due | own for also in repeating(each)}) - due)),
         tuple(_kill(*found[0], each not in missed, len(found)) for each, found in sorted(shown.items())),
         (),
         0,

@@ -14,7 +14,7 @@ from typing import Any
 from lxml import etree
 
 from ucm_cts.harness.models.comparing import Declaration
-from ucm_cts.harness.models.core_models import CORE, ModelResult, compare, core_catalogue
+from ucm_cts.harness.models.core_models import CORE, ModelResult, Statement, compare, core_catalogue
 
 PRINTED = {
     "kind": "BYTE SHORT LONG ULONG PROVIDED REQUIRED",
@@ -152,6 +152,11 @@ def spoilt(folder: Path, file: str, place: str, change: Callable[[etree._Element
 def declarations() -> Mapping[str, Declaration]:
     """The declarations of clause 10.1, by the requirements that speak of them."""
     return {declaration.requirement: declaration for declaration in core_catalogue().declarations}
+
+
+def statements() -> Mapping[str, Statement]:
+    """What clause 10.1 says of several declarations, by the requirements that say it."""
+    return {statement.requirement: statement for statement in core_catalogue().statements if statement.of}
 
 
 def element_of(declaration: Declaration) -> etree._Element:
