@@ -29,6 +29,9 @@ __all__ = ["Answer", "Circumstances", "Driver", "Limits"]
 
 T = TypeVar("T")
 
+MOST_UNTRIED = 32
+"""So many scenarios in a row are left out before what came before them, and they themselves, are answered."""
+
 _HOST_IS_GONE: frozenset[IncidentKind] = FRAMEWORK_INCIDENTS | {"flood", "garbage", "protocol"}
 
 
@@ -91,16 +94,25 @@ class Driver:
     def run(self, cases: Iterable[tuple[str, Scenario]], insist: bool = False) -> Iterator[Answer]:
         """The answers to ``cases`` (name, scenario), in order; many are on their way at a time.
 
-        When patience with incidents has run out, some are answered as ``untried``, unless the caller does ``insist``.
+        When patience with incidents has run out, some are answered as ``untried``, unless the caller does ``insist``. There
+        may be no end to ``cases``: never are many drawn for an answer.
         """
         source = iter(cases)
         returned: deque[_Case] = deque()
         waiting: deque[_Case] = deque()
+        more = True
 
         def runs() -> Iterator[Run]:
-            while (case := returned.popleft() if returned else self._next(source)) is not None:
+            nonlocal more
+            left_out = 0
+            while left_out < MOST_UNTRIED:
+                case = returned.popleft() if returned else self._next(source)
+                if case is None:
+                    more = False
+                    return
                 untried = None if insist else self._patience.not_tried(case.scenario)
                 waiting.append(replace(case, untried=untried))
+                left_out = left_out + 1 if untried is not None else 0
                 if untried is None:
                     yield case.run
 
@@ -109,7 +121,7 @@ class Driver:
                 case = waiting.popleft()
                 yield Answer(case.name, case.scenario, case.run.scenario, (), case.untried)
 
-        while True:
+        while more or returned:
             lost = False
             with closing(self._hosts.run(runs())) as replies:
                 began = time.monotonic()
@@ -127,9 +139,7 @@ class Driver:
                         break
                     began = time.monotonic()
             yield from untried()
-            if not lost:
-                return
-            returned.extendleft(reversed(waiting))
+            returned.extendleft(reversed(waiting))  # what was on its way to a host that is gone
             waiting.clear()
 
     def _next(self, source: Iterator[tuple[str, Scenario]]) -> _Case | None:
