@@ -144,7 +144,7 @@ def run(
                         interrupted = True
                     if not (interrupted and reports):  # what is half done would look unstable
                         reports.append(campaign.report())
-            except HostUnavailable as problem:
+            except (HostUnavailable, WrongUse) as problem:
                 if not reports:
                     raise
                 cut_short = f"{which} could not begin: {problem}"

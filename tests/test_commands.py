@@ -235,15 +235,32 @@ def test_verdict_that_flips_between_runs_is_unstable(here: Path) -> None:
     assert removal(run("--seed", str(steady), "--repeat", "2"))["verdict"] == alone[steady]
 
 
+OTHERWISE_LATER = """
+from pathlib import Path
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+
+class Later(ReferenceAdapter):
+    pass
+
+if Path("loaded").exists():
+    {what}
+Path("loaded").touch()
+"""
+
+
 @pytest.mark.parametrize(
-    ("subject", "why"),
-    [("Vanishing", "run 2 of 3 could not begin: "), ("Renamed", "run 2 of 3 was of another product")],
+    ("what", "why"),
+    [
+        ("raise SystemExit(3)", "run 2 of 3 could not begin: "),
+        ("Later.product = 'Another'", "run 2 of 3 was of another product, 'Another 1'"),
+    ],
 )
 def test_series_that_cannot_go_on_keeps_what_it_has(
-    here: Path, monkeypatch: pytest.MonkeyPatch, subject: str, why: str
+    here: Path, monkeypatch: pytest.MonkeyPatch, what: str, why: str
 ) -> None:
-    monkeypatch.setenv("HEARD", str(here / "loaded before"))
-    outcome = ucm_cts("run", f"subjects:{subject}", "-k", "self-connection", "--repeat", "3", "--out", "out")
+    monkeypatch.setenv("PYTHONPATH", str(here))
+    Path("otherwise.py").write_text(OTHERWISE_LATER.format(what=what))
+    outcome = ucm_cts("run", "otherwise:Later", "-k", "self-connection", "--repeat", "3", "--out", "out")
     assert outcome.status == 1
     assert why in outcome.out
     report = report_of(here / "out")
