@@ -243,7 +243,9 @@ def comm_error_when_due(ledger: Ledger, runtime: Runtime, call: MethodCall) -> N
 def ok_after_mending(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     """When what was broken has been mended push gives ok again."""
     link = call.link
-    if link is None or not link.mended_at or not _is_undisturbed(ledger, runtime, call) or not is_quiet(runtime, call):
+    if link is None or not link.mended_at or not link.was_broken:  # who could not break it may still mend it
+        return
+    if not _is_undisturbed(ledger, runtime, call) or not is_quiet(runtime, call):
         return
     if not all(is_well(end.member) for end, _ in call.targets):
         return

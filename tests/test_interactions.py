@@ -6,12 +6,23 @@ import itertools
 from collections.abc import Iterator
 
 import pytest
+from performing import answer
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.messages import Traced
+from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.adapters.contract.trace import Call, Enter, Exit, Reply, Request, Return
+from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference_py.connectors import Link
+from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.scenarios.payloads import Payloads
+from ucm_cts.harness.scenarios.purposes import load_purposes, select
+from ucm_cts.harness.selftest.generated.python_programs import HOME
+from ucm_cts.harness.stating.files import read_statement
 from ucm_cts.reference_models.executions import BusinessCall
 from ucm_cts.reference_models.interactions import Delivery, Interactions, MethodCall
+from ucm_cts.reference_models.judgement import Judge
 from ucm_cts.reference_models.runtime import Container, Member, Runtime
 
 EMITTER = Declaration(("in.api",), ("out.api",), ports={"out.api": "numbers"})
@@ -135,3 +146,20 @@ def test_pushes_at_once_are_crowded(story: Story) -> None:
     one, other = story.push("left", 1, answered=False), story.push("right", 2, answered=False)
     assert one.crowded
     assert other.crowded
+
+
+class CannotBreak(ReferenceAdapter):
+    """Its hook that breaks a connection raises."""
+
+    def break_link(self, link: Link, where: str) -> None:
+        raise UcmError("it cannot")
+
+
+def test_who_cannot_break_a_connection_may_mend_it() -> None:
+    (purpose,) = select(load_purposes("core"), "transport-breaks")
+    statement = read_statement(HOME / "ics.toml")
+    for _, asked in purpose.scenarios:
+        told = answer(Payloads(1).deal(asked), CannotBreak)
+        assert isinstance(told, Traced)
+        ledger = Judge(load_life_cycle(), statement.claims).judge(asked, told.events)
+        assert not [finding for finding in ledger.findings if finding.rule == "ok_after_mending"]
