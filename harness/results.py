@@ -97,10 +97,11 @@ class TransitionResult(Value, frozen=True):
 
 
 class IncidentReport(Value, frozen=True):
-    """An incident with the execution it cost."""
+    """An incident with the execution it cost, or the shortest one of all ``occurrences`` that met it."""
 
     incident: Incident
     execution: Execution
+    occurrences: int = 1
 
 
 class Effort(Value, frozen=True):

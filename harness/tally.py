@@ -22,6 +22,7 @@ from ucm_cts.harness.results import (
     TransitionResult,
     Verdict,
 )
+from ucm_cts.harness.running.incident_causes import DistinctIncidents
 from ucm_cts.harness.running.incidents import finding_of_incident
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.ledger import Ledger, RowTally
@@ -39,13 +40,15 @@ def cause_of(finding: Finding) -> Cause:
 class Tally:
     """Counts what was exercised and keeps, for each cause of failure, the shortest execution that shows it."""
 
-    def __init__(self) -> None:
+    def __init__(self, distinct_incidents: bool = False) -> None:
+        """Of ``distinct_incidents`` only one of each cause is kept, however many there are."""
         self.exercised: Counter[str] = Counter()
         self.failures: dict[Cause, FailedExecution] = {}
         self.rows: dict[str, RowTally] = {}
         self.lost: dict[str, str] = {}
         self._incidents: list[IncidentReport] = []
-        self._untried: dict[str, list[Execution]] = {}
+        self._distinct = DistinctIncidents() if distinct_incidents else None
+        self._untried: dict[str, IncidentReport] = {}
         self._left_out: dict[str, str] = {}
         self.scenarios = 0
         self.events = 0
@@ -132,14 +135,17 @@ class Tally:
         incident = execution.incident
         assert incident is not None
         if incident.kind == "untried":
-            self._untried.setdefault(incident.detail, []).append(execution)
+            known = self._untried.get(incident.detail, IncidentReport(incident, execution, 0))
+            self._untried[incident.detail] = msgspec.structs.replace(known, occurrences=known.occurrences + 1)
             for requirement in requirements:
                 self._left_out.setdefault(requirement, incident.detail)
             return
         self.scenarios += 1
         self.events += len(execution.trace)
         not_run = incident.kind == "unreachable"
-        if not (not_run and any(i.incident == incident for i in self._incidents)):
+        if self._distinct is not None:
+            self._distinct.add(execution)
+        elif not (not_run and any(i.incident == incident for i in self._incidents)):
             self._incidents.append(IncidentReport(incident, execution))
         if incident.kind not in FRAMEWORK_INCIDENTS:
             for requirement in requirements:
@@ -154,10 +160,10 @@ class Tally:
     def incidents(self) -> tuple[IncidentReport, ...]:
         """All of them; scenarios that were not tried for the same reason are one."""
         left_out = (
-            IncidentReport(Incident("untried", f"{len(executions)} scenarios {reason}"), executions[0])
-            for reason, executions in self._untried.items()
+            msgspec.structs.replace(one, incident=Incident("untried", f"{one.occurrences} scenarios {reason}"))
+            for reason, one in self._untried.items()
         )
-        return (*self._incidents, *left_out)
+        return (*(self._distinct.reports if self._distinct is not None else self._incidents), *left_out)
 
     def results(
         self, requirements: Sequence[Requirement], known_failures: Sequence[KnownFailure]

@@ -17,7 +17,7 @@ import ucm_cts
 from ucm_cts.harness.exploring.exploration import Exploration, Replayed
 from ucm_cts.harness.exploring.exploration import Progress as HowFar
 from ucm_cts.harness.exploring.memory import Memory, Remembered, open_databases
-from ucm_cts.harness.exploring.telling import found_text, is_found, known_text, write_exploration
+from ucm_cts.harness.exploring.telling import found_text, is_found, known_text, mishaps, write_exploration
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.options import (
     CONFORMANT,
@@ -35,6 +35,7 @@ from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.write import prepare_folder, write_failures
 from ucm_cts.harness.results import Report
 from ucm_cts.harness.running.driver import Driver, Limits
+from ucm_cts.harness.running.incidents import finding_of_incident
 from ucm_cts.harness.stating.files import check_subject, stated_by
 from ucm_cts.harness.terminal import Output, ends_like_interrupts
 
@@ -182,9 +183,7 @@ def _remember(report: Report, memory: Memory) -> None:
     for result in report.requirements:
         for failed in result.findings:
             if failed.execution is not None and not failed.unstable:
-                finding = failed.finding
-                memory.remember(
-                    Remembered(
-                        finding.requirement, finding.rule, finding.cause, finding.observed, failed.execution.scenario
-                    )
-                )
+                memory.remember(Remembered.of_finding(failed.finding, failed.execution.scenario))
+    for _, item in mishaps(report):
+        if item.incident.kind != "unreachable" and finding_of_incident(item.execution) is None:
+            memory.remember(Remembered.of_incident(item.execution))

@@ -11,18 +11,20 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
+from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.exploring.changing import changed
 from ucm_cts.harness.exploring.core_writer import CoreWriter
-from ucm_cts.harness.exploring.memory import Memory, Remembered
+from ucm_cts.harness.exploring.memory import Identity, Memory, Remembered
 from ucm_cts.harness.exploring.novelty import Events, Guide
 from ucm_cts.harness.exploring.writer import Writer
 from ucm_cts.harness.results import Report
 from ucm_cts.harness.running.campaign import Campaign, Checked
 from ucm_cts.harness.running.driver import Answer, Driver
-from ucm_cts.harness.running.incidents import may_wait
+from ucm_cts.harness.running.incident_causes import IncidentCause, cause_of_incident
+from ucm_cts.harness.running.incidents import is_waiting
 from ucm_cts.harness.scenarios.purposes import PARTS
 from ucm_cts.harness.scenarios.scripts import TestPurpose
 from ucm_cts.harness.stating.applicability import fitting
@@ -59,12 +61,16 @@ class Progress:
     failures: int
 
 
+Fate = Literal["still there", "no longer shown", "not told"]
+"""What becomes of a remembered failure. Nothing is told if something else came in between: an incident, or no time."""
+
+
 @dataclass(frozen=True)
 class Replayed:
-    """A failure that was remembered: is it still there?"""
+    """A failure that was remembered, and what became of it."""
 
     remembered: Remembered
-    is_there: bool
+    fate: Fate
 
 
 class Exploration:
@@ -74,7 +80,7 @@ class Exploration:
         self._profile = profile
         self._statement = statement
         self._memory = memory
-        self._campaign = Campaign(driver, profile, (), statement, self._watch)
+        self._campaign = Campaign(driver, profile, (), statement, self._watch, distinct_incidents=True)
         self._random = random.Random(f"exploration {driver.seed}")
         self._all_rows = load_life_cycle().rows
         self._guide = Guide(load_life_cycle())
@@ -82,29 +88,37 @@ class Exploration:
         self._rows: set[str] = set()
         self._new: list[tuple[int, Scenario]] = []
         self._causes: set[Cause] = set()
-        self._incidents = 0
+        self._incidents: set[IncidentCause] = set()
+        self._unexplained: set[IncidentCause] = set()
         self._run = 0
 
     def replay(self) -> list[Replayed]:
-        """Run what is remembered. What is not shown any more is forgotten."""
-        remembered = self._memory.recall()
-        missing = list(remembered)
-        for _ in range(TRIES if remembered else 0):
-            for _ in self._check(_purpose(f"known {n}", one.scenario) for n, one in enumerate(missing, 1)):
-                pass
-            missing = [one for one in missing if one.identity not in self._causes]
-        for one in missing:
-            self._memory.forget(one.identity)
-        return [Replayed(one, one not in missing) for one in remembered]
+        """Run what is remembered. What is not shown any more is forgotten, unless an incident kept it from being shown."""
+        remembered = missing = self._memory.recall()
+        answered: set[Identity] = set()
+        for _ in range(TRIES):
+            again = (_purpose(f"known {n}", one.scenario) for n, one in enumerate(missing, 1))
+            for one, checked in zip(missing, self._check(again), strict=True) if missing else ():
+                if _is_told(one, checked):
+                    answered.add(one.identity)
+            missing = [one for one in missing if not self._is_shown(one)]
+        gone = answered & {one.identity for one in missing}
+        for identity in gone:
+            self._memory.forget(identity)
+        return [Replayed(one, _fate(one in missing, one.identity in gone)) for one in remembered]
+
+    def _is_shown(self, one: Remembered) -> bool:
+        if one.incident is not None:
+            return any(one.incident.may_be(met) for met in self._incidents)
+        return (one.requirement, one.rule, one.cause) in self._causes
 
     def explore(self) -> Iterator[Progress]:
         """Draw and run scenarios; yields after each. Ends by itself only if nothing more can be tried."""
         in_vain = 0
         for checked in self._check(self._purposes()):
             self._run += 1
-            yield Progress(
-                self._run, len(self._rows), len(self._all_rows), len(self._events), len(self._causes) + self._incidents
-            )
+            failures = len(self._causes) + len(self._unexplained)
+            yield Progress(self._run, len(self._rows), len(self._all_rows), len(self._events), failures)
             kinds = {execution.incident.kind for _, execution in checked.failures if execution.incident}
             in_vain = in_vain + 1 if "untried" in kinds else 0
             if in_vain >= IN_VAIN or "unreachable" in kinds:
@@ -126,8 +140,11 @@ class Exploration:
             for finding, execution in checked.failures:
                 if finding is not None:
                     self._causes.add(cause_of(finding))
-                elif execution.incident is not None and not may_wait(execution.scenario, execution.trace):
-                    self._incidents += execution.incident.kind != "untried"
+                incident = execution.incident
+                if incident is not None and incident.kind != "untried" and not is_waiting(execution):
+                    self._incidents.add(cause_of_incident(execution))
+                    if finding is None:
+                        self._unexplained.add(cause_of_incident(execution))
             yield checked
 
     def _purposes(self) -> Iterator[TestPurpose]:
@@ -155,6 +172,21 @@ class Exploration:
         self._rows |= ledger.rows.keys()
         if self._events.are_new(answer.disguised, answer.trace) and not answer.scenario.interfaces:
             self._new.append((self._run, answer.scenario))
+
+
+def _is_told(one: Remembered, checked: Checked) -> bool:
+    """Does an execution of its scenario tell whether ``one`` is still there? Not if something else came in between."""
+    met = [execution for _, execution in checked.failures if execution.incident is not None]
+    if one.incident is None or not met:
+        return not met
+    causes = [cause_of_incident(execution) for execution in met]
+    return not any(cause.is_open or cause.kind in ("untried", "unreachable") for cause in causes)
+
+
+def _fate(is_missing: bool, is_gone: bool) -> Fate:
+    if is_gone:
+        return "no longer shown"
+    return "not told" if is_missing else "still there"
 
 
 def _purpose(name: str, scenario: Scenario) -> TestPurpose:

@@ -11,14 +11,17 @@ import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import msgspec
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.tally import Cause
+from ucm_cts.harness.results import Execution, IncidentKind
+from ucm_cts.harness.running.incident_causes import IncidentCause, cause_of_incident
+from ucm_cts.harness.tally import cause_of
+from ucm_cts.reference_models.findings import Finding
 
 if TYPE_CHECKING:
     from hypothesis.database import ExampleDatabase
@@ -29,19 +32,46 @@ FORMS = f"a folder, {READ_ONLY}folder, or package.module:NAME of a hypothesis Ex
 _OBJECT = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*")
 
 
+Identity = tuple[str, str, str, str]
+"""What makes two remembered failures the same."""
+
+
 class Remembered(Value, frozen=True):
-    """A failure: its cause, what was observed, and the scenario that showed it."""
+    """A failure: its cause, what was observed, and the scenario that showed it.
+
+    An incident that breaks no requirement has none; its ``rule`` is its kind, ``cause`` its detail, and ``operation`` what was
+    in progress.
+    """
 
     requirement: str
     rule: str
     cause: str
     observed: str
     scenario: Scenario
+    operation: str = ""
+
+    @classmethod
+    def of_finding(cls, finding: Finding, scenario: Scenario) -> Remembered:
+        """A requirement that was broken."""
+        return cls(*cause_of(finding), finding.observed, scenario)
+
+    @classmethod
+    def of_incident(cls, execution: Execution) -> Remembered:
+        """An incident that breaks no requirement."""
+        assert execution.incident is not None
+        kind, detail, operation, _ = cause_of_incident(execution)
+        return cls("", kind, detail, execution.incident.detail, execution.scenario, operation)
 
     @property
-    def identity(self) -> Cause:
+    def identity(self) -> Identity:
         """What makes two failures the same."""
-        return self.requirement, self.rule, self.cause
+        return self.requirement, self.rule, self.cause, self.operation
+
+    @property
+    def incident(self) -> IncidentCause | None:
+        """The cause, if it is an incident."""
+        kind = cast(IncidentKind, self.rule)
+        return IncidentCause(kind, self.cause, self.operation) if not self.requirement else None
 
 
 class Memory:
@@ -53,13 +83,13 @@ class Memory:
         self.unreadable = 0
 
     def recall(self) -> list[Remembered]:
-        """What is remembered, the shortest scenario of each cause, in the order of requirements.
+        """What is remembered, the shortest scenario of each cause: incidents, then requirements in their order.
 
         What cannot be read, of another version perhaps, stays where it is and is counted as ``unreadable``.
         """
         entries = self._entries()
         self.unreadable = sum(entry is None for _, entry in entries)
-        shortest: dict[Cause, Remembered] = {}
+        shortest: dict[Identity, Remembered] = {}
         for _, entry in sorted(entries, key=lambda item: (len(item[0]), item[0])):
             if entry is not None:
                 shortest.setdefault(entry.identity, entry)
@@ -73,7 +103,7 @@ class Memory:
             if entry is not None and entry.identity == failure.identity and known != value:
                 self._database.delete(self._key, known)
 
-    def forget(self, cause: Cause) -> None:
+    def forget(self, cause: Identity) -> None:
         """Nothing shows ``cause`` any more. What is in databases that are only read stays there."""
         for known, entry in self._entries():
             if entry is not None and entry.identity == cause:
@@ -104,6 +134,8 @@ def open_databases(texts: Sequence[str]) -> ExampleDatabase:
 def _open(text: str) -> ExampleDatabase:
     from hypothesis.database import DirectoryBasedExampleDatabase, ReadOnlyDatabase
 
+    if not text.removeprefix(READ_ONLY).strip():
+        raise WrongUse(f"'{text}' names no database; a database is {FORMS}")
     if text.startswith(READ_ONLY):
         folder = Path(text.removeprefix(READ_ONLY))
         if not folder.is_dir():

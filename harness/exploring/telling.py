@@ -12,17 +12,21 @@ from rich.text import Text
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.exploring.exploration import Progress, Replayed
+from ucm_cts.harness.exploring.exploration import Fate, Progress, Replayed
+from ucm_cts.harness.exploring.memory import Remembered
 from ucm_cts.harness.report.failures import file_name, incident_file, replay_command, shortest_first
 from ucm_cts.harness.report.foreign import clean_report, one_line
 from ucm_cts.harness.report.write import write_whole
 from ucm_cts.harness.results import Execution, FailedExecution, IncidentReport, Report, RequirementResult
-from ucm_cts.harness.running.incidents import may_wait
+from ucm_cts.harness.running.incident_causes import cause_of_incident, during
+from ucm_cts.harness.running.incidents import is_waiting
 
 FILE = "exploration.json"
 
 SHOWN = 20
 """So many failures, and so many incidents, are told in the terminal; the file has them all."""
+
+_COLOURS: dict[Fate, str] = {"still there": "red", "no longer shown": "green", "not told": "yellow"}
 
 _STEPS = 12
 """So many steps of the shortest scenario are told."""
@@ -46,20 +50,24 @@ class Failure(Value, frozen=True):
 
 
 class Mishap(Value, frozen=True):
-    """An incident, with the scenario it cost."""
+    """One cause of incidents: the shortest scenario that met it, and how often it was met."""
 
     kind: str
     detail: str
+    operation: str
+    occurrences: int
+    steps: tuple[str, ...]
     file: str
     replay: str
 
 
 class Known(Value, frozen=True):
-    """A remembered failure, and whether it is still there."""
+    """A remembered failure, or the ``kind`` of a remembered incident, and whether it is still there; null if nobody knows."""
 
     requirement: str
+    kind: str
     cause: str
-    still_there: bool
+    still_there: bool | None
 
 
 class Found(Value, frozen=True):
@@ -83,10 +91,10 @@ class Found(Value, frozen=True):
 
 def is_found(report: Report) -> bool:
     """Did anything fail, or not come back although nobody may wait for ever?"""
-    return bool(_mishaps(report)) or any(result.verdict == "fail" for result in report.requirements)
+    return bool(mishaps(report)) or any(result.verdict == "fail" for result in report.requirements)
 
 
-def _mishaps(report: Report) -> list[tuple[int, IncidentReport]]:
+def mishaps(report: Report) -> list[tuple[int, IncidentReport]]:
     """Incidents with their numbers, less what was not tried, and less calls that may wait for a start that never comes.
 
     Once such calls have been seen waiting, a hang of which nothing more is known is taken for another one.
@@ -99,12 +107,6 @@ def _mishaps(report: Report) -> list[tuple[int, IncidentReport]]:
         and not waiting[number]
         and not (any(waiting) and item.incident.kind == "hang" and not item.execution.trace)
     ]
-
-
-def is_waiting(execution: Execution) -> bool:
-    """Did it hang in a call that may wait for a component to be started?"""
-    hangs = execution.incident is not None and execution.incident.kind == "hang"
-    return hangs and may_wait(execution.scenario, execution.trace)
 
 
 def write_exploration(report: Report, far: Progress, known: Sequence[Replayed], out: Path) -> None:
@@ -127,12 +129,21 @@ def _found(report: Report, far: Progress, known: Sequence[Replayed]) -> Found:
         far.of,
         far.events,
         _failures(report),
-        tuple(
-            Mishap(item.incident.kind, item.incident.detail, incident_file(n), replay_command(incident_file(n), report))
-            for n, item in enumerate(report.incidents)
-        ),
-        tuple(Known(k.remembered.requirement, k.remembered.cause, k.is_there) for k in known),
+        tuple(_mishap(report, number, item) for number, item in enumerate(report.incidents)),
+        tuple(map(_known, known)),
     )
+
+
+def _mishap(report: Report, number: int, item: IncidentReport) -> Mishap:
+    cause, file = cause_of_incident(item.execution), incident_file(number)
+    told = item.incident.kind, item.incident.detail, cause.operation, item.occurrences, _steps(item.execution)
+    return Mishap(*told, file, replay_command(file, report))
+
+
+def _known(replayed: Replayed) -> Known:
+    one = replayed.remembered
+    is_there = {"still there": True, "no longer shown": False}.get(replayed.fate)
+    return Known(one.requirement, "" if one.requirement else one.rule, one.cause, is_there)
 
 
 def _failures(report: Report) -> tuple[Failure, ...]:
@@ -157,10 +168,7 @@ def _steps(execution: Execution) -> tuple[str, ...]:
 def known_text(known: Sequence[Replayed], unreadable: int) -> RenderableType:
     """What became of the failures that were remembered."""
     lines = [
-        Text.assemble(
-            ("still there      " if k.is_there else "no longer shown  ", "red" if k.is_there else "green"),
-            f"{k.remembered.requirement}  {one_line(k.remembered.observed, 200)}",
-        )
+        Text.assemble((f"{k.fate:15}  ", _COLOURS[k.fate]), f"{_name(k.remembered)}  {one_line(_observed(k), 200)}")
         for k in known
     ]
     if unreadable:
@@ -168,14 +176,23 @@ def known_text(known: Sequence[Replayed], unreadable: int) -> RenderableType:
     return Group(*map(_cut, lines))
 
 
+def _name(one: Remembered) -> str:
+    return one.requirement or one.rule
+
+
+def _observed(replayed: Replayed) -> str:
+    incident = replayed.remembered.incident
+    return replayed.remembered.observed + (during(incident) if incident is not None else "")
+
+
 def found_text(report: Report, far: Progress, out: Path) -> RenderableType:
     """The end of an exploration: how much was run, then each cause of failure in a few lines."""
     failures = _failures(report)
     standing = [failure for failure in failures if not failure.unstable]
-    incidents = _mishaps(report)
+    incidents = mishaps(report)
     found = f"{len(standing)} causes of failure" if standing else "nothing found"
     if incidents:
-        found = f"{len(standing)} causes of failure, {len(incidents)} incidents"
+        found = f"{len(standing)} causes of failure, {len(incidents)} of incidents"
     covered = f"{far.rows} of {far.of} rows of the life-cycle table, {far.events} pairs of events"
     lines = [
         Text.assemble(
@@ -195,11 +212,13 @@ def found_text(report: Report, far: Progress, out: Path) -> RenderableType:
     if incidents:
         lines.append(Text())
     for number, item in incidents[:SHOWN]:
-        told = f"  {one_line(item.incident.detail, 160)}  {incident_file(number)}"
+        often = f"{item.occurrences} times" if item.occurrences > 1 else "once"
+        what = f"{one_line(item.incident.detail, 160)}{during(cause_of_incident(item.execution))}"
+        told = f"  {often}  {incident_file(number)}  {what}"
         lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), told)))
     if len(incidents) > SHOWN:
-        lines.append(Text(f"and {len(incidents) - SHOWN} more incidents"))
-    waiting = sum(is_waiting(item.execution) for item in report.incidents)
+        lines.append(Text(f"and {len(incidents) - SHOWN} more causes of incidents"))
+    waiting = sum(item.occurrences for item in report.incidents if is_waiting(item.execution))
     if waiting:
         lines.append(
             Text(f"{waiting} scenarios hung in calls that may wait for a component to be started: no failure", "dim")

@@ -68,8 +68,11 @@ class Campaign:
         known_failures: Sequence[KnownFailure] = (),
         statement: Statement | None = None,
         watch: Callable[[Answer, Ledger], None] | None = None,
+        distinct_incidents: bool = False,
     ) -> None:
-        """``watch`` is told of each answer that is a trace, and of what the judge says of it."""
+        """``watch`` is told of each answer that is a trace, and of what the judge says of it. Of ``distinct_incidents`` the
+        report has one of each cause, of others all.
+        """
         self._driver = driver
         self._watch = watch
         self._profile = profile
@@ -78,7 +81,7 @@ class Campaign:
         self.checked: list[TestPurpose] = []
         self._judge = Judge(load_life_cycle(), self.statement.claims)
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
-        self._tally = Tally()
+        self._tally = Tally(distinct_incidents)
         check_statement(self.statement, profile, self._requirements, self._tally)
         self._doubts = Doubts(driver, self._judge)
         self._payloads = Payloads(driver.seed)

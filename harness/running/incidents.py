@@ -86,7 +86,7 @@ def finding_of_incident(execution: Execution) -> Finding | None:
     call = last_open_call(execution.trace)
     if call is None or incident is None or incident.kind not in FRAMEWORK_INCIDENTS:
         return None
-    if incident.kind == "hang" and may_wait(execution.scenario, execution.trace):
+    if is_waiting(execution):
         return None
     operation = s.operation(execution.scenario.steps[call.step])
     if operation not in DECLARED:
@@ -125,6 +125,12 @@ def may_wait(scenario: Scenario, trace: Trace) -> bool:
             case Enter(hook="on_shutdown"):
                 ready[event.component, event.instance] = False
     return bool(invoked or +pending) and not all(ready.values())
+
+
+def is_waiting(execution: Execution) -> bool:
+    """Did it hang in a call that may wait for a component to be started?"""
+    hangs = execution.incident is not None and execution.incident.kind == "hang"
+    return hangs and may_wait(execution.scenario, execution.trace)
 
 
 def last_open_call(trace: Trace) -> Call | None:
