@@ -24,13 +24,15 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue import load_life_cycle
 from ucm_cts.harness.exploring.changing import LONGEST, changed
 from ucm_cts.harness.exploring.core_writer import CoreWriter
-from ucm_cts.harness.exploring.exploration import Exploration
+from ucm_cts.harness.exploring.exploration import IN_VAIN, Exploration
 from ucm_cts.harness.exploring.foresight import transitions
 from ucm_cts.harness.exploring.memory import Memory, Remembered
 from ucm_cts.harness.exploring.novelty import Guide
 from ucm_cts.harness.exploring.writer import Writer
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.running.driver import Driver
+from ucm_cts.harness.results import Execution, Incident, IncidentKind
+from ucm_cts.harness.running.driver import Driver, Limits
+from ucm_cts.harness.running.incident_causes import DistinctIncidents, cause_of_incident
 from ucm_cts.harness.running.incidents import may_wait
 from ucm_cts.harness.scenarios.scripts import Script, problems, to_scenario
 from ucm_cts.harness.stating.statement import default_statement
@@ -57,6 +59,10 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert f"✗ {REQUIREMENT}" in outcome.out
     assert "ucm-cts replay " in outcome.out
     return folder / "out"
+
+
+def remembered_files(database: Path) -> list[Path]:
+    return [path for path in database.rglob("*") if path.is_file() and b"scenario" in path.read_bytes()]
 
 
 def exploration(folder: Path) -> Any:
@@ -124,6 +130,7 @@ def test_calls_may_wait_for_a_start_that_never_comes(here: Path) -> None:
         outcome.out.split()
     )
     assert {mishap["kind"] for mishap in exploration(here / "out")["incidents"]} == {"hang"}
+    assert remembered_files(here / "out" / "examples") == []
 
 
 BODY = 1, 1, 0, "one", 1
@@ -158,6 +165,133 @@ def test_crashes_are_failures_and_do_not_end_it(here: Path) -> None:
     (crash,) = (failure for failure in told["failures"] if failure["cause"] == "start crash")
     assert crash["steps"] == ["add_component", "start", "start"]
     assert ucm_cts("replay", here / "out" / crash["file"], "subjects:Crashing").status == 1
+
+
+@pytest.mark.parametrize("adapter", ["DiesInAdd", "DiesAtOnce", "HangsInAdd"])
+def test_it_ends_when_nothing_can_be_tried_any_more(adapter: str) -> None:
+    limits = Limits(seconds=0.2, incident_seconds=0.1)
+    with Driver(locate(f"hostile.failing:{adapter}"), 1, limits) as driver:
+        memory = Memory(InMemoryExampleDatabase(), "", "container")
+        exploring = Exploration(driver, "container", default_statement(), memory)
+        *_, far = exploring.explore()
+        met, left_out = exploring.report().incidents
+    assert far.failures == 1
+    assert met.incident.kind == ("hang" if adapter == "HangsInAdd" else "exit")
+    assert far.scenarios == exploring.report().scenarios + left_out.occurrences
+    assert left_out.incident.kind == "untried"
+    assert left_out.occurrences >= IN_VAIN
+
+
+def test_incidents_are_told_once_remembered_and_tried_first(here: Path) -> None:
+    arguments = "--seed", "1", "--database", "kept", "--budget"
+    subject = "hostile.failing:DiesAtOnce"
+    first = ucm_cts("explore", subject, *arguments, "4scenarios", "--out", "first")
+    assert (first.status, first.err) == (1, "")
+    assert "✗ 0 causes of failure, 1 of incidents" in first.out
+    assert "⚡ exit  4 times  failures/incident-1.json  exit status 7" in first.out
+    (mishap,) = exploration(here / "first")["incidents"]
+    assert (mishap["kind"], mishap["operation"], mishap["occurrences"]) == ("exit", "", 4)
+    assert [path.name for path in (here / "first" / "failures").iterdir()] == ["incident-1.json"]
+    assert len(remembered_files(here / "kept")) == 1
+    again = ucm_cts("explore", subject, *arguments, "1scenarios", "--out", "again")
+    assert "still there      exit  exit status 7" in again.out
+    assert exploration(here / "again")["known"][0]["still_there"] is True
+    assert len(remembered_files(here / "kept")) == 1
+    mended = ucm_cts("explore", REFERENCE, *arguments, "1scenarios", "--out", "mended")
+    assert (mended.status, mended.err) == (0, "")
+    assert "no longer shown  exit  exit status 7" in mended.out
+    assert exploration(here / "mended")["known"] == [
+        {"requirement": "", "kind": "exit", "cause": "exit status #", "still_there": False}
+    ]
+    assert remembered_files(here / "kept") == []
+
+
+def test_nonsense_answers_are_one_cause_however_many(here: Path) -> None:
+    arguments = "--budget", "30scenarios", "--seed", "1", "--out", "out"
+    assert ucm_cts("explore", "hostile.failing:AddsNothing", *arguments).status == 1
+    (mishap,) = exploration(here / "out")["incidents"]
+    assert mishap["kind"] == "refused"
+    assert mishap["occurrences"] > 20
+    replay = ucm_cts("replay", here / "out" / mishap["file"], "hostile.failing:AddsNothing")
+    assert (replay.status, "refused" in replay.out) == (1, True)
+    assert len(remembered_files(here / "out" / "examples")) == 1
+
+
+def test_what_incidents_hide_is_not_forgotten() -> None:
+    database = InMemoryExampleDatabase()
+    failure = remember(database, "product")
+    memory = Memory(database, "product", "container")
+    for adapter, seconds in (("DiesInAdd", 60.0), ("DiesInAdd", 0.0), ("DiesAtOnce", 60.0)):
+        with Driver(locate(f"hostile.failing:{adapter}"), 1, Limits(incident_seconds=seconds)) as driver:
+            (replayed,) = Exploration(driver, "container", default_statement(), memory).replay()
+        assert (replayed.remembered, replayed.fate) == (failure, "not told")
+        assert memory.recall() == [failure]
+
+
+# which incidents are the same
+
+
+def incident(
+    kind: IncidentKind, detail: str, *trace: t.Event, names: tuple[str, ...] = (), steps: int = 1
+) -> Execution:
+    scenario = Scenario({name: s.Declaration() for name in names}, (s.Start(),) * steps)
+    return Execution("drawn", scenario, trace, Incident(kind, detail))
+
+
+CALLED = t.Call(1, 1, 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        (incident("crash", "SIGSEGV"), incident("crash", "SIGABRT")),
+        (incident("crash", "SIGSEGV"), incident("exit", "SIGSEGV")),
+        (incident("crash", "SIGSEGV", CALLED), incident("crash", "SIGSEGV")),
+        (incident("refused", "no bolts\nat 1"), incident("refused", "no nuts\nat 1")),
+    ],
+)
+def test_incidents_with_different_causes(one: Execution, other: Execution) -> None:
+    assert cause_of_incident(one) != cause_of_incident(other)
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        (incident("hang", "no answer within 0.5 s", CALLED), incident("hang", "no answer within 12 s", CALLED)),
+        (incident("refused", "at 0x7f00aa"), incident("refused", "at 0x11")),
+        (incident("refused", "id 3f2a9c0e-11aa"), incident("refused", "id 77777777-eeee")),
+        (incident("refused", "bolts\nline 1"), incident("refused", "bolts\nline 2 and more")),
+        (incident("refused", "bob is odd", names=("bob",)), incident("refused", "ann is odd", names=("ann",))),
+        (incident("hang", "never came back: worker1, worker2"), incident("hang", "never came back: worker6")),
+    ],
+)
+def test_incidents_with_one_cause(one: Execution, other: Execution) -> None:
+    assert cause_of_incident(one) == cause_of_incident(other)
+
+
+def test_the_shortest_scenario_of_each_cause_of_incidents_is_kept() -> None:
+    unknown = incident("crash", "SIGSEGV")
+    known = [incident("crash", "SIGSEGV", CALLED, steps=steps) for steps in (5, 3, 4)]
+    odd = msgspec.structs.replace(unknown, incident=Incident("crash", "SIGSEGV", reproduced=False))
+    distinct = DistinctIncidents()
+    for execution in unknown, *known, unknown, odd, incident("hang", "no answer"):
+        distinct.add(execution)
+    assert [(report.execution, report.occurrences) for report in distinct.reports] == [
+        (known[1], 5),
+        (odd, 1),
+        (incident("hang", "no answer"), 1),
+    ]
+
+
+def test_calls_that_may_wait_are_another_cause() -> None:
+    scenario = Scenario({}, (s.Invoke("one", 1),))
+    hang = Execution("drawn", scenario, (*STARTED, INVOKED), Incident("hang", "no answer"))
+    waits = msgspec.structs.replace(hang, trace=(*STOPPED, INVOKED))
+    assert cause_of_incident(hang)[:3] == cause_of_incident(waits)[:3]
+    assert cause_of_incident(hang) != cause_of_incident(waits)
+
+
+# how it ends
 
 
 def test_an_interrupt_ends_it_with_what_was_found(here: Path) -> None:
@@ -262,6 +396,8 @@ def test_what_cannot_be_read_is_told_and_left_alone(here: Path) -> None:
         (("--budget", "60"), "'60' is no budget"),
         (("--budget", "1.5scenarios"), "'1.5scenarios' is no budget"),
         (("--database", "file"), "failures cannot be kept in 'file': File exists"),
+        (("--database", ""), "'' names no database; a database is a folder, readonly:folder, or package.module:NAME"),
+        (("--database", "readonly:"), "'readonly:' names no database"),
         (("--database", "readonly:nowhere"), "there is no folder 'nowhere' to read failures from"),
         (("--database", "nowhere:database"), "the database 'nowhere:database' cannot be loaded: ModuleNotFoundError"),
         (("--database", "json:loads"), "'json:loads' is a function and no hypothesis ExampleDatabase"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from pathlib import Path
 
 import msgspec
@@ -52,6 +54,22 @@ def test_what_hangs_too_long_is_left_out_and_all_else_is_tried() -> None:
     hangs = found[1::3].count("hang")
     assert 2 <= hangs <= 6
     assert found[1::3] == ["hang"] * hangs + ["untried"] * (40 - hangs)
+
+
+def test_a_source_without_end_is_answered_even_if_nothing_of_it_can_be_tried() -> None:
+    drawn = itertools.count()
+
+    def endless() -> Iterator[tuple[str, Scenario]]:
+        for number in drawn:
+            assert number < 1000, "nobody takes so many"
+            yield f"{number}", STARTS if number < 2 else STOPS
+
+    limits = Limits(seconds=0.2, incident_seconds=0)
+    with Driver(locate("hostile.failing:HangsInStop"), seed=1, limits=limits) as driver:
+        answers = list(itertools.islice(driver.run(endless()), 200))
+    assert [answer.name for answer in answers] == [f"{n}" for n in range(200)]
+    found = [answer.incident.kind if answer.incident else "" for answer in answers]
+    assert found == ["", "", "hang", *["untried"] * 197]
 
 
 def test_time_for_incidents_is_an_option_and_what_it_costs_is_inconclusive() -> None:

@@ -18,6 +18,7 @@ import msgspec
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.results import Execution, IncidentKind
 from ucm_cts.harness.running.incident_causes import IncidentCause, cause_of_incident
 from ucm_cts.harness.tally import cause_of
@@ -60,7 +61,7 @@ class Remembered(Value, frozen=True):
         """An incident that breaks no requirement."""
         assert execution.incident is not None
         kind, detail, operation, _ = cause_of_incident(execution)
-        return cls("", kind, detail, execution.incident.detail, execution.scenario, operation)
+        return cls("", kind, detail, one_line(execution.incident.detail), execution.scenario, operation)
 
     @property
     def identity(self) -> Identity:

@@ -6,6 +6,8 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Mapping
+from typing import Any
 
 from ucm_cts.adapters.contract.adapter import ContainerHandle
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
@@ -36,3 +38,33 @@ class IsSlow(ReferenceAdapter):
         if sub_container is None:
             threading.Event().wait()
         super().remove_container(manager, sub_container)
+
+
+class DiesAtOnce(ReferenceAdapter):
+    """Ends its host as soon as it is made."""
+
+    def __init__(self) -> None:
+        os._exit(7)
+
+
+class DiesInAdd(ReferenceAdapter):
+    """Ends its host when a component is added."""
+
+    def add_component(self, container: ContainerHandle, implementation: str, attributes: Mapping[str, str]) -> int:
+        os._exit(5)
+
+
+class HangsInAdd(ReferenceAdapter):
+    """Never comes back when a component is added."""
+
+    def add_component(self, container: ContainerHandle, implementation: str, attributes: Mapping[str, str]) -> int:
+        threading.Event().wait()
+        raise AssertionError
+
+
+class AddsNothing(ReferenceAdapter):
+    """Says of each component that it adds that it is none."""
+
+    def add_component(self, container: ContainerHandle, implementation: str, attributes: Mapping[str, str]) -> Any:
+        super().add_component(container, implementation, attributes)
+        return None
