@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import random
@@ -17,6 +18,7 @@ import msgspec
 import pytest
 from command_line import ucm_cts, within
 from hypothesis.database import DirectoryBasedExampleDatabase, InMemoryExampleDatabase
+from rich.console import Console
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
@@ -28,6 +30,7 @@ from ucm_cts.harness.exploring.exploration import IN_VAIN, Exploration
 from ucm_cts.harness.exploring.foresight import transitions
 from ucm_cts.harness.exploring.memory import Memory, Remembered
 from ucm_cts.harness.exploring.novelty import Guide
+from ucm_cts.harness.exploring.telling import found_text
 from ucm_cts.harness.exploring.writer import Writer
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.results import Execution, Incident, IncidentKind
@@ -174,10 +177,15 @@ def test_it_ends_when_nothing_can_be_tried_any_more(adapter: str) -> None:
         memory = Memory(InMemoryExampleDatabase(), "", "container")
         exploring = Exploration(driver, "container", default_statement(), memory)
         *_, far = exploring.explore()
-        met, left_out = exploring.report().incidents
+        report = exploring.report()
+    met, left_out = report.incidents
     assert far.failures == 1
     assert met.incident.kind == ("hang" if adapter == "HangsInAdd" else "exit")
-    assert far.scenarios == exploring.report().scenarios + left_out.occurrences
+    assert far.scenarios == report.scenarios + left_out.occurrences
+    console = Console(file=io.StringIO(), width=200)
+    with console.capture() as told:
+        console.print(found_text(report, far, Path("out")))
+    assert f"in {far.scenarios} scenarios ({left_out.occurrences} not tried)" in told.get()
     assert left_out.incident.kind == "untried"
     assert left_out.occurrences >= IN_VAIN
 

@@ -193,11 +193,13 @@ def found_text(report: Report, far: Progress, out: Path) -> RenderableType:
     found = f"{len(standing)} causes of failure" if standing else "nothing found"
     if incidents:
         found = f"{len(standing)} causes of failure, {len(incidents)} of incidents"
+    left_out = sum(item.occurrences for item in report.incidents if item.incident.kind == "untried")
+    drawn = f"{far.scenarios} scenarios{f' ({left_out} not tried)' if left_out else ''}"
     covered = f"{far.rows} of {far.of} rows of the life-cycle table, {far.events} pairs of events"
     lines = [
         Text.assemble(
             (("✗ " if is_found(report) else "✓ ") + found, "bold red" if is_found(report) else "bold green"),
-            f"  in {far.scenarios} scenarios: {covered}",
+            f"  in {drawn}: {covered}",
         )
     ]
     for failure in standing[:SHOWN]:
