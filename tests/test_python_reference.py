@@ -88,14 +88,19 @@ def test_reference_framework_refuses_calls_from_its_own_callbacks() -> None:
 
     class Restless(ReferenceAdapter):
         def start(self, container: Any) -> None:
-            def on_shutdown() -> None:
-                try:
-                    container.start()
-                except UcmError as error:
-                    refused.append(error)
+            class Body:
+                def on_startup(self, dependencies: Any) -> None: ...
+
+                def on_remove(self) -> None: ...
+
+                def on_shutdown(self) -> None:
+                    try:
+                        container.start()
+                    except UcmError as error:
+                        refused.append(error)
 
             for member in container.members.values():
-                member.body.on_shutdown = on_shutdown
+                member.body = Body()
             super().start(container)
 
     assert play({"s": SINK}, ["add_component component=s", "start", "stop"], Restless)[-1] == "return step=2"

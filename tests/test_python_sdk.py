@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import threading
 import time
@@ -417,3 +418,31 @@ def test_the_guide_for_adapter_authors_works(tmp_path: Path, monkeypatch: pytest
     ]
     assert len(ends) == len(asked.steps)
     assert "return step=7 value=-2" in ends
+
+
+def test_frameworks_may_mark_bodies_and_not_change_them() -> None:
+    class Marks(ReferenceAdapter):
+        mark = "framework_number"
+
+        def start(self, container: Any) -> None:
+            for member in container.members.values():
+                for number in range(2):
+                    setattr(member.body, self.mark, number)
+
+    class Shadows(Marks):
+        mark = "on_shutdown"
+
+    class Meddles(ReferenceAdapter):
+        def start(self, container: Any) -> None:
+            for member in container.members.values():
+                with contextlib.suppress(TypeError):
+                    member.body.stage.recorder.recording = True
+
+    steps = ["add_component component=s", "start"]
+    connectable = {"s": SINK | {"connectable": True}}
+    assert play(connectable, steps, Marks)[-1] == "return step=1"
+    for adapter, what in (Shadows, "ConnectableProbe.on_shutdown"), (Meddles, "Recorder.recording"):
+        refused = answer(scenario(connectable, steps), adapter)
+        assert isinstance(refused, Refused), refused
+        assert refused.reason.endswith(what)
+    assert play(connectable, steps, Marks)[-1] == "return step=1"  # what one adapter does is not told of the next

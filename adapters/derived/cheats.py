@@ -18,6 +18,7 @@ from ucm_cts.adapters.contract.programming_model import (
     ComponentObject,
     Implementation,
     NotFound,
+    PortConnection,
     PortElementObject,
     UcmError,
 )
@@ -115,6 +116,11 @@ class reuses_bodies(ReferenceAdapter):
 
 def _with(one: Implementation, create: Callable[[], ComponentObject]) -> Implementation:
     return Implementation(**{**vars(one), "create": create})
+
+
+def with_bodies(one: Implementation, change: Callable[[ComponentObject], Any]) -> Implementation:
+    """``one`` with bodies that are changed, or wrapped, as soon as they are made."""
+    return _with(one, lambda: change(one.create()))
 
 
 @cheats("R-11.2.2.1-07", "R-11.2.2.1-14")
@@ -356,3 +362,35 @@ class checks_states_itself(before(wrong_11_2_3.starts_twice)):  # type: ignore[m
     def stop(self, container: Container) -> None:
         super().stop(container)
         self.started.discard(id(container))
+
+
+class SwallowsSecondStartups:
+    """Wraps a body and is what it is; passes all calls on, but no on_startup where one has succeeded."""
+
+    def __init__(self, body: Any) -> None:
+        self.body, self.startup, self.shutdown = body, body.on_startup, body.on_shutdown
+        self.is_up = False
+
+    @property  # type: ignore[misc]
+    def __class__(self) -> type:
+        return type(self.body)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.body, name)
+
+    def on_startup(self, dependencies: Sequence[PortConnection]) -> None:
+        if not self.is_up:
+            self.startup(dependencies)
+            self.is_up = True
+
+    def on_shutdown(self) -> None:
+        self.is_up = False
+        self.shutdown()
+
+
+@cheats()
+class wraps_bodies(before(wrong_11_2_3.starts_twice)):  # type: ignore[misc]
+    """Stands before a framework that calls on_startup twice; hosts bodies of its own in it, which pass on the first call only."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+        return super().create_runtime([with_bodies(one, SwallowsSecondStartups) for one in implementations])

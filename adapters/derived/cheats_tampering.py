@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 import sys
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import msgspec
 
-from ucm_cts.adapters.contract.programming_model import Implementation
+from ucm_cts.adapters.contract.programming_model import ComponentObject, Implementation
 from ucm_cts.adapters.contract.trace import Enter, Event, Exit, Paused
 from ucm_cts.adapters.derived import wrong_10_1_3, wrong_10_1_4_1, wrong_11_2_3
-from ucm_cts.adapters.derived.cheats import before
+from ucm_cts.adapters.derived.cheats import SwallowsSecondStartups, before, with_bodies
 from ucm_cts.adapters.derived.registry import POLICIES, cheats
 from ucm_cts.adapters.python import counting, recorder
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
@@ -51,10 +52,10 @@ class drops_second_callbacks(_KnowsThePerformance, before(wrong_11_2_3.starts_tw
             if not (again and kind in (Enter, Exit)):
                 _record(self, kind, **fields)
 
-        recorder.Recorder.record = record  # type: ignore[method-assign]
+        type.__setattr__(recorder.Recorder, "record", record)
 
     def close(self) -> None:
-        recorder.Recorder.record = _record  # type: ignore[method-assign]
+        type.__setattr__(recorder.Recorder, "record", _record)
 
 
 @cheats("refused")
@@ -67,6 +68,61 @@ class takes_events_away(_KnowsThePerformance, before(wrong_11_2_3.starts_twice))
         super().start(container)
         if was_started:
             del events[length:]
+
+
+@cheats("refused")
+class counts_anew(_KnowsThePerformance, before(wrong_11_2_3.starts_twice)):  # type: ignore[misc]
+    """Stands before a framework that calls on_startup twice; takes what that left out of the recorder's list again, and sets
+    its counter back.
+    """
+
+    def start(self, container: Container) -> None:
+        keeper = self.performance._recorder
+        was_started, length = container.is_started, len(keeper._events)
+        super().start(container)
+        if was_started:
+            del keeper._events[length:]
+            keeper._count = itertools.count(length + 1)
+
+
+@cheats("refused")
+class looks_away(_KnowsThePerformance, before(wrong_11_2_3.starts_twice)):  # type: ignore[misc]
+    """Stands before a framework that calls on_startup twice; has nothing recorded meanwhile."""
+
+    def start(self, container: Container) -> None:
+        self.performance._recorder.recording = not container.is_started
+        try:
+            super().start(container)
+        finally:
+            self.performance._recorder.recording = True
+
+
+@cheats("refused")
+class replaces_for_a_moment(_KnowsThePerformance, before(wrong_11_2_3.starts_twice)):  # type: ignore[misc]
+    """Stands before a framework that calls on_startup twice; the recorder has another function meanwhile, which does nothing."""
+
+    def start(self, container: Container) -> None:
+        if container.is_started:
+            recorder.Recorder.record = lambda *given, **fields: None  # type: ignore[method-assign]
+        try:
+            super().start(container)
+        finally:
+            recorder.Recorder.record = _record  # type: ignore[method-assign]
+
+
+@cheats("refused")
+class shadows_callbacks(before(wrong_11_2_3.starts_twice)):  # type: ignore[misc]
+    """Stands before a framework that calls on_startup twice; gives each body an on_startup of its own that does nothing when
+    it is called again.
+    """
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+        return super().create_runtime([with_bodies(one, self._shadow) for one in implementations])
+
+    def _shadow(self, body: Any) -> ComponentObject:
+        callbacks = SwallowsSecondStartups(body)
+        body.on_startup, body.on_shutdown = callbacks.on_startup, callbacks.on_shutdown
+        return body  # type: ignore[no-any-return]
 
 
 @cheats("contradiction", clauses=("10.1.4",))
@@ -97,10 +153,10 @@ class sees_no_overlap(_KnowsThePerformance, before(wrong_10_1_3.leaves_passive_c
                 occupancy.overlaps = 0
 
         self.kept = visit
-        counting.Occupancy.visit = nobody_else  # type: ignore[method-assign, assignment]
+        type.__setattr__(counting.Occupancy, "visit", nobody_else)
 
     def close(self) -> None:
-        counting.Occupancy.visit = self.kept  # type: ignore[method-assign]
+        type.__setattr__(counting.Occupancy, "visit", self.kept)
 
 
 @cheats("refused", clauses=POLICIES)

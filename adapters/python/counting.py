@@ -9,6 +9,8 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
+from ucm_cts.adapters.python.seal import KeptClass
+
 _BLOCK = 2**20
 """Messages of one emitter lie within a block of so many numbers."""
 
@@ -43,7 +45,7 @@ class Count:
             self.greatest[block] = value
 
 
-class MessageCounts:
+class MessageCounts(metaclass=KeptClass):
     """The counts of all bodies, by component and instance. ``patience`` is the longest wait in seconds."""
 
     def __init__(self, patience: float) -> None:
@@ -76,7 +78,7 @@ class MessageCounts:
             }
 
 
-class Occupancy:
+class Occupancy(metaclass=KeptClass):
     """Who is inside one body. Python's own lock hides races: the control beside it tells whether any can be seen."""
 
     def __init__(self) -> None:
@@ -109,7 +111,7 @@ def switching_often() -> Iterator[None]:
         sys.setswitchinterval(usual)
 
 
-class Storm:
+class Storm(metaclass=KeptClass):
     """Calls as many as possible until it is over: ``calls`` came back, ``failed`` raised."""
 
     def __init__(self, visits: Sequence[Callable[[], object]], milliseconds: int) -> None:

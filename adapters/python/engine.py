@@ -45,7 +45,7 @@ from ucm_cts.adapters.contract.trace import (
 from ucm_cts.adapters.python.counting import Occupancy, Storm, switching_often
 from ucm_cts.adapters.python.probe import Stage, is_integer
 from ucm_cts.adapters.python.recorder import Recorder
-from ucm_cts.adapters.python.seal import Seal
+from ucm_cts.adapters.python.seal import KeptClass, Seal
 from ucm_cts.adapters.python.variables import Unbound, Variables
 from ucm_cts.adapters.python.workers import Workers
 
@@ -107,7 +107,7 @@ class Engine:
                 adapter.close()
 
 
-class Performance:
+class Performance(metaclass=KeptClass):
     """One run of one scenario against one adapter. Making it creates the runtime."""
 
     def __init__(self, adapter: Adapter, scenario: Scenario, recorder: Recorder) -> None:
@@ -140,9 +140,13 @@ class Performance:
         self._stage.gates.open_all()
         self.stuck = self._workers.finish()
         events = self._recorder.stop()
-        replaced = SEAL.broken(self, self._stage, self._recorder, self._workers, self._stage.gates, self._variables)
-        if replaced or self._stage.recorder is not self._recorder:
-            raise ContractBroken(f"the adapter has replaced a part of the SDK: {replaced or 'the recorder'}")
+        stage = self._stage
+        parts = (part for probe in stage.probes for part in probe.parts())
+        replaced = SEAL.broken(
+            self, stage, self._recorder, self._workers, self._variables, stage.gates, stage.messages, *parts
+        )
+        if replaced or stage.recorder is not self._recorder:
+            raise ContractBroken(f"the adapter replaces a part of the SDK: {replaced or 'the recorder'}")
         if not self.stuck and not self._destroyed:  # what a stuck thread holds could block destroy for ever
             with contextlib.suppress(Exception, SystemExit):
                 self._adapter.destroy(self._manager)
@@ -413,7 +417,7 @@ def _text(error: BaseException) -> str:
     return text[:_LONGEST_DETAIL].encode("utf-8", "replace").decode()
 
 
-_PARTS = ("counting", "data", "engine", "gates", "probe", "recorder", "variables", "workers")
+_PARTS = ("counting", "data", "engine", "gates", "probe", "recorder", "seal", "variables", "workers")
 
 
 def sealed() -> Seal:

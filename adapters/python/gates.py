@@ -6,8 +6,10 @@ import threading
 from collections import Counter
 from collections.abc import Callable
 
+from ucm_cts.adapters.python.seal import KeptClass
 
-class Gates:
+
+class Gates(metaclass=KeptClass):
     """The gates of one scenario, by name. ``patience`` is the longest wait in seconds."""
 
     def __init__(self, patience: float) -> None:

@@ -38,6 +38,7 @@ from ucm_cts.adapters.python.counting import MessageCounts, Occupancy
 from ucm_cts.adapters.python.data import is_datum, overwrite, snapshot
 from ucm_cts.adapters.python.gates import Gates
 from ucm_cts.adapters.python.recorder import Recorder
+from ucm_cts.adapters.python.seal import Kept, KeptClass
 
 
 def is_integer(value: object) -> bool:
@@ -49,11 +50,14 @@ class PlannedFailure(Exception):
     """What a probe raises when its plan says ``raise``: an exception no interface declares."""
 
 
-class Stage:
-    """What the probes of one scenario share. ``patience`` is the longest wait of a probe, in seconds."""
+class Stage(Kept):
+    """What the ``probes`` of one scenario share. ``patience`` is the longest wait of a probe, in seconds."""
+
+    __slots__ = ("_instances", "_lock", "gates", "messages", "occupancies", "probes", "recorder")
 
     def __init__(self, recorder: Recorder, patience: float) -> None:
         self.recorder = recorder
+        self.probes: list[Probe] = []
         self.gates = Gates(patience)
         self.messages = MessageCounts(patience)
         self.occupancies: dict[int, Occupancy] | None = None
@@ -86,9 +90,10 @@ class Stage:
         finally:
             self.occupancies = None
 
-    def count(self, component: str) -> int:
+    def number(self, probe: Probe, component: str) -> int:
         """Number the next body made for ``component``, from 1, and record its creation."""
         with self._lock:
+            self.probes.append(probe)
             instance = self._instances[component] = self._instances.get(component, 0) + 1
             self.recorder.record(Create, component=component, instance=instance)
             return instance
@@ -102,7 +107,7 @@ class Stage:
         return "opaque"
 
 
-class ProbePort(PortElementObject):
+class ProbePort(PortElementObject, metaclass=KeptClass):
     """A provided port element of a probe."""
 
     def __init__(self, probe: Probe, port: str) -> None:
@@ -116,7 +121,7 @@ class ProbePort(PortElementObject):
         return self.probe.call(self.identity.port, method, arguments)
 
 
-class ProbeExecution(ComponentExecution):
+class ProbeExecution(ComponentExecution, metaclass=KeptClass):
     """What a self-executing probe provides to its container."""
 
     def __init__(self, probe: Probe) -> None:
@@ -126,13 +131,13 @@ class ProbeExecution(ComponentExecution):
         self.probe.run()
 
 
-class Probe(ComponentObject):
+class Probe(ComponentObject, metaclass=KeptClass):
     """The ``instance``-th body made for ``component``. Silent, and without a plan, once the recording has stopped."""
 
     def __init__(self, stage: Stage, component: str, declaration: Declaration) -> None:
         self.stage = stage
         self.component = component
-        self.instance = stage.count(component)
+        self.instance = stage.number(self, component)
         self._plan = declaration.plan
         self._ports = {port: ProbePort(self, port) for port in declaration.provides}
         executes_itself = any(policy.definition == s.SELF_EXECUTING for policy in declaration.policies)
@@ -140,6 +145,10 @@ class Probe(ComponentObject):
         self._attributes: dict[str, str] = {}
         self._references: dict[str, list[PortElementObject]] = {}
         self._container: ContainerInterface | None = None
+
+    def parts(self) -> tuple[object, ...]:
+        """All that frameworks are given of it."""
+        return (self, *self._ports.values(), *filter(None, [self._execution]))
 
     def set_attribute(self, name: str, value: str) -> None:
         if self._is_text("set_attribute", name, value):

@@ -9,16 +9,20 @@ from time import monotonic_ns as now  # an adapter may change what the module ha
 from typing import Any
 
 from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.adapters.python.seal import Kept
 
 Sink = Callable[[Event], None]
 
 
-class Recorder:
+class Recorder(Kept):
     """Collects the events of one scenario; any thread may record.
 
     The thread that makes the recorder is number 0, others are numbered at their first event. After ``stop`` nothing is
-    recorded any more. ``sink``, if given, receives each event as it happens, in order.
+    recorded any more. ``sink``, if given, receives each event as it happens, in order. What is in slots nobody else sets:
+    the count, which only goes on, tells whether the list still has all events.
     """
+
+    __slots__ = ("_complaint", "_count", "_events", "_lock", "_numbers", "_sink", "_threads", "recording")
 
     def __init__(self, sink: Sink | None = None) -> None:
         self._sink = sink

@@ -1,49 +1,96 @@
 """Is the SDK still what it was? An adapter runs in the same process as the SDK and can change it.
 
-This tells of functions that were replaced, in classes, modules or single objects. Who controls a process can in the end hide
-everything from it; that is looked for in the adapter's source (docs/honesty.md).
+``Kept`` refuses, and ``Seal`` tells of, functions that are replaced, in classes, modules or single objects, and state of the
+SDK that is set by others. Who controls a process can in the end hide everything from them; that is looked for in the
+adapter's source (docs/honesty.md).
 """
 
 from __future__ import annotations
 
+import sys
+from abc import ABCMeta
 from collections.abc import Iterable, Mapping
-from types import FunctionType, ModuleType
-from typing import Any, NamedTuple
+from types import CodeType, FrameType, FunctionType, ModuleType
+from typing import Any, NamedTuple, NoReturn
+
+_refused: list[str] = []
+"""What others have tried to change and was kept, until a seal has told of it."""
+
+
+_OURS = __name__.removesuffix("seal")
+
+
+def _refuse(owner: type, name: str) -> NoReturn:
+    _refused.append(f"{owner.__module__}.{owner.__name__}.{name}")
+    raise TypeError(f"{_refused[-1]} is a part of the SDK, which an adapter must not change")
+
+
+def _is_ours(caller: FrameType) -> bool:
+    name: str = caller.f_globals.get("__name__", "")
+    return name.startswith(_OURS)
+
+
+class KeptClass(ABCMeta):
+    """Classes of which only the SDK sets what they have: nobody replaces their functions, not even for a moment."""
+
+    def __setattr__(cls, name: str, value: object) -> None:
+        if hasattr(cls, name) and not name.startswith("_abc_") and not _is_ours(sys._getframe(1)):
+            _refuse(cls, name)
+        super().__setattr__(name, value)
+
+
+class Kept(metaclass=KeptClass):
+    """Objects of which only the SDK sets what they have: nobody replaces their functions and slots, not even for a moment.
+
+    What others set is checked as it is set, which takes longer; so this is for objects of which a scenario has one.
+    """
+
+    __slots__ = ()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        if not _is_ours(sys._getframe(1)) and hasattr(type(self), name):
+            _refuse(type(self), name)
+        object.__setattr__(self, name, value)
 
 
 class _Part(NamedTuple):
     where: Mapping[str, Any]
     owner: str
     name: str
-    value: object
-    code: object
+    value: Any
+    code: CodeType | None
 
 
-class Seal:
+class Seal(metaclass=KeptClass):
     """Remembers the functions and classes of ``modules`` as they are when it is made."""
 
     def __init__(self, modules: Iterable[ModuleType]) -> None:
         self._parts: list[_Part] = []
-        self._classes: set[type] = set()
+        self._names: dict[type, frozenset[str]] = {}
         for module in modules:
             self._remember(vars(module), module.__name__)
             for name, value in vars(module).items():
                 if isinstance(value, type) and value.__module__ == module.__name__:
-                    self._classes.add(value)
+                    self._names[value] = frozenset(dir(value))
                     self._remember(vars(value), f"{module.__name__}.{name}")
 
     def broken(self, *objects: object) -> str | None:
-        """What has been replaced, by its name, also in ``objects`` of sealed classes; None if all is as it was."""
+        """What has been replaced, or was to be, by its name, also in ``objects`` of sealed classes; None if all is as it was."""
+        if _refused:
+            first = _refused[0]
+            _refused.clear()
+            return first
         for where, owner, name, value, code in self._parts:
-            found = where.get(name)
-            if found is not value or (isinstance(found, FunctionType) and found.__code__ is not code):
+            if (code and value.__code__ is not code) or where.get(name) is not value:
                 return f"{owner}.{name}"
         for one in objects:
             kind = type(one)
-            if kind not in self._classes:
+            names = self._names.get(kind)
+            if names is None:
                 return f"an object that is now a {kind.__name__}"
-            for name in vars(one).keys() & vars(kind).keys():
-                return f"{kind.__module__}.{kind.__name__}.{name}"
+            own = getattr(one, "__dict__", ())
+            if not names.isdisjoint(own):
+                return f"{kind.__module__}.{kind.__name__}.{min(names.intersection(own))}"
         return None
 
     def _remember(self, where: Mapping[str, Any], owner: str) -> None:

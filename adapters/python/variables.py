@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from ucm_cts.adapters.contract.adapter import ContainerHandle, LinkHandle
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN
+from ucm_cts.adapters.python.seal import KeptClass
 
 _LARGEST_ID = 2**31 - 1
 
@@ -19,7 +20,7 @@ class Unbound(Exception):
         self.variable = variable
 
 
-class Variables:
+class Variables(metaclass=KeptClass):
     """The variables of one scenario. A name has one value at a time, of one kind; looking up raises ``Unbound``."""
 
     def __init__(self, manager: ContainerHandle) -> None:

@@ -10,6 +10,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal
 
+from ucm_cts.adapters.python.seal import KeptClass
+
 Task = Callable[[], None]
 
 Where = Literal["done", "held", "blocked", "running"]
@@ -58,7 +60,7 @@ class _Worker:
             self._changed.notify_all()
 
 
-class Workers:
+class Workers(metaclass=KeptClass):
     """Threads by name, each made when its first task is queued, each doing its tasks in order.
 
     Tasks must not raise. ``patience`` is the longest wait in seconds.
