@@ -104,7 +104,7 @@ class _ToTheFirst(Services):
         return super()._request(method, arguments) if not others else Link._request(others[0], method, arguments)
 
 
-@breaks(_TEMPLATE, clauses=_CLAUSES)
+@breaks(_TEMPLATE, clauses=_CLAUSES, also=(_CALLS,))  # one of another interface may take the values as they are
 class finds_methods_by_name(Base):
     """A call goes to whatever connection has a method of that name."""
 

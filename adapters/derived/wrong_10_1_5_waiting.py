@@ -36,7 +36,7 @@ class _GivesUp(Services):
         return outcome[0] if outcome else self.nothing(method)
 
 
-@breaks(_BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN, "R-10.1.3.2-17"))
+@breaks(_BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN, _CALLS, "R-10.1.3.2-17"))
 class does_not_wait_long(Base):
     """Who waits too long for a server gets zeros."""
 
