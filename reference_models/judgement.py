@@ -27,59 +27,17 @@ from ucm_cts.adapters.contract.trace import (
     Stressed,
     Timeout,
 )
-from ucm_cts.reference_models import (
-    rules_bursts,
-    rules_callbacks,
-    rules_claims,
-    rules_clock,
-    rules_dependencies,
-    rules_execution,
-    rules_interactions,
-    rules_message_phases,
-    rules_messages,
-    rules_operations,
-    rules_policies,
-    rules_return_codes,
-    rules_services,
-    rules_stress,
-    rules_trace,
-    rules_values,
-)
 from ucm_cts.reference_models.adoption import adopt
 from ucm_cts.reference_models.claims import Claims
 from ucm_cts.reference_models.duties import Duties
-from ucm_cts.reference_models.executions import BusinessCall, Caller, Executions
+from ucm_cts.reference_models.executions import BusinessCall, Executions
 from ucm_cts.reference_models.heard import Heard
 from ucm_cts.reference_models.interactions import Interactions
-from ucm_cts.reference_models.ledger import Ledger, Where, checks, in_order_of
+from ucm_cts.reference_models.ledger import Ledger, Where
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.runtime import Member, Runtime, Window
 from ucm_cts.reference_models.situations import Situations
-
-RULE_MODULES = (
-    rules_operations,
-    rules_dependencies,
-    rules_interactions,
-    rules_callbacks,
-    rules_claims,
-    rules_execution,
-    rules_policies,
-    rules_stress,
-    rules_messages,
-    rules_message_phases,
-    rules_return_codes,
-    rules_services,
-    rules_clock,
-    rules_trace,
-    rules_bursts,
-    rules_values,
-)
-"""Importing these registers all rules; rules of one moment look in this order."""
-
-in_order_of(module.__name__ for module in RULE_MODULES)
-
-
-Check = Callable[..., None]
+from ucm_cts.reference_models.watching import Watch, followed_in
 
 _BUSINESS = frozenset(("exchange", "run", "method"))
 """Where bodies are entered that is no callback."""
@@ -87,29 +45,6 @@ _BUSINESS = frozenset(("exchange", "run", "method"))
 _NOTHING_HAPPENS = frozenset((Timeout, Settled))
 _CONTAINER_CALLS = frozenset(get_args(s.ContainerCall))
 _CONNECTOR_CALLS = frozenset(get_args(s.ConnectorCall))
-
-
-class Watch:
-    """The checks that have something to look at in scenarios where so much is ``followed``, by moment."""
-
-    def __init__(self, followed: frozenset[Where]) -> None:
-        self.ended = {op: checks("ended", op, followed) for op in rules_operations.DECLARED}
-        self.entered = {hook: checks("entered", hook, followed) for hook in get_args(s.Hook)}
-        self.called: dict[Caller, tuple[Check, ...]] = {
-            who: checks("called", who, followed) for who in get_args(Caller)
-        }
-        self.answered = checks("answered", "exchange", followed)
-        self.replied = checks("replied", "exchange", followed)
-        self.noted = checks("noted", "siblings", followed)
-        self.began = checks("began")
-        self.over = checks("over")
-        self.served = checks("served")
-        self.waited = checks("waited")
-        self.linked = checks("linked")
-        self.delivered = checks("delivered")
-        self.completed = checks("completed")
-        self.told = checks("told")
-        self.closed = checks("closed")
 
 
 class Judge:
@@ -126,7 +61,7 @@ class Judge:
 
         Where two operations overlap, because one of them took too long, reading ends: who did what cannot be told.
         """
-        followed = _followed(scenario)
+        followed = followed_in(scenario)
         watch = self._watches.get(followed)
         if watch is None:
             watch = self._watches[followed] = Watch(followed)
@@ -139,21 +74,6 @@ class Judge:
                 interactions.latest = event.t
         reading.close()
         return reading.ledger
-
-
-def _followed(scenario: s.Scenario) -> frozenset[Where]:
-    """What is to be followed in a scenario."""
-    followed: set[Where] = set()
-    if scenario.interfaces:
-        followed.add("interactions")
-    for declaration in scenario.components.values():
-        if declaration.policies:
-            followed.update(("policies", "interactions"))
-        if declaration.fragment:
-            followed.add("fragments")
-        if declaration.attributes:
-            followed.add("attributes")
-    return frozenset(followed)
 
 
 class _Thread:
