@@ -25,6 +25,7 @@ from command_line import report_of, ucm_cts, within
 import ucm_cts as package
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.derived import MUTANTS
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
@@ -33,6 +34,7 @@ from ucm_cts.harness.results import Verdict
 from ucm_cts.harness.running.integrity import contradiction
 from ucm_cts.harness.scenarios.probes import load_probe_types
 from ucm_cts.harness.scenarios.scripts import read_scripts, to_scenario
+from ucm_cts.harness.selftest.matrix import Matrix
 from ucm_cts.reference_models.judgement import Judge
 
 ROOT = Path(__file__).parent.parent
@@ -373,3 +375,23 @@ def test_example_of_profile_core_serves(here: Path) -> None:
     verdicts = {entry["id"]: entry["verdict"] for entry in entries}
     assert {verdicts[f"R-10.1.5.1-{number}"] for number in ("01", "03", "05", "08")} == {"pass"}
     assert [one for one, verdict in verdicts.items() if verdict == "fail"] == ["R-10.1-01"]
+
+
+def test_detection_tells_what_the_published_matrix_says() -> None:
+    matrix = msgspec.json.decode((ROOT / "results" / "detection" / "matrix.json").read_bytes(), type=Matrix)
+    assert matrix.is_proved
+    assert matrix.is_all
+    names = {mutant.name for mutant in matrix.mutants}
+    of_models = {name for name in names if name.startswith("models of ")}
+    unseen = [cheat for cheat in matrix.cheats if not cheat.due]
+    told = (ROOT / "docs" / "detection.md").read_text()
+    for what, number in {
+        "mutants of the Python reference framework": len(names & MUTANTS.keys()),
+        "native mutants of the C++ reference framework": len(names - MUTANTS.keys() - of_models),
+        "mutants of models": len(of_models),
+        "testable requirements": len(matrix.testable),
+        "conformant variants": len(matrix.variants),
+        "cheats": len(matrix.cheats) - len(unseen),
+        "cheats that no observation can show": len(unseen),
+    }.items():
+        assert f"\n| {what} | {number} | " in told, what
