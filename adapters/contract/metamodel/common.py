@@ -1,0 +1,51 @@
+"""What all classes of the meta-model have in common (9.1.4)."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator
+
+import msgspec
+
+
+class Element(msgspec.Struct, frozen=True, kw_only=True, gc=False):
+    """Anything that a model holds. ``line`` is where it begins in the model's file, counted from 1; 0 if nobody knows.
+
+    An element never knows what contains it, and two equal elements at different places are equal.
+    """
+
+    line: int = 0
+
+
+class SimpleComment(Element, frozen=True, kw_only=True):
+    """A comment that belongs to the model, not to its file (9.1.4.3)."""
+
+    text: str = ""
+
+
+class Named(Element, frozen=True, kw_only=True):
+    """Anything with a name, which the text calls identifier (9.1.4.1). An empty ``name`` is an error that checking tells."""
+
+    name: str = ""
+    comments: tuple[SimpleComment, ...] = ()
+
+
+@functools.cache
+def child_fields(kind: type[Element]) -> tuple[str, ...]:
+    """The fields of ``kind`` that hold elements."""
+    return tuple(field.name for field in msgspec.structs.fields(kind) if field.default == ())
+
+
+def children(element: Element) -> Iterator[Element]:
+    """What ``element`` contains directly, field by field, each field in the model's order."""
+    for field in child_fields(type(element)):
+        yield from getattr(element, field)
+
+
+def walk(element: Element) -> Iterator[Element]:
+    """``element`` and all that it contains, parents first, however deep."""
+    waiting = [element]
+    while waiting:
+        current = waiting.pop()
+        yield current
+        waiting.extend(reversed(tuple(children(current))))

@@ -1,0 +1,70 @@
+"""Is a model well-formed? Walks it once and asks the rules that were registered for each kind of element."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.names import Names, Scope, each_element
+from ucm_cts.adapters.toolchain.diagnostics import Diagnostic
+
+Complaint = tuple[Element, str]
+"""The element that is wrong, and what is wrong with it and how to mend it."""
+
+Look = Callable[[Any, Scope], Iterator[Complaint]]
+
+
+@dataclass(frozen=True)
+class Rule:
+    """``look`` is asked about each element of ``kinds``, with the scope in which its references are looked up."""
+
+    name: str
+    requirement: str
+    kinds: tuple[type[Element], ...]
+    look: Look
+
+
+RULES: dict[str, Rule] = {}
+"""All rules, in the order in which they were registered."""
+
+
+def rule(requirement: str, *kinds: type[Element]) -> Callable[[Look], Look]:
+    """Register a function as the rule for ``requirement`` that looks at elements of ``kinds`` (``Model`` for the whole).
+
+    Several functions may stand for one requirement; their names differ.
+    """
+
+    def register(look: Look) -> Look:
+        name = look.__name__
+        assert name not in RULES, f"two rules are called {name}"
+        RULES[name] = Rule(name, requirement, kinds, look)
+        return look
+
+    return register
+
+
+def check(model: Model, file: str, rules: Mapping[str, Rule]) -> list[Diagnostic]:
+    """What ``rules`` have against ``model``, in the order of its lines."""
+    names = Names(model)
+    found = [d for r in rules.values() if Model in r.kinds for d in _told(r, model, names.root, file)]
+    asked: dict[type[Element], tuple[Rule, ...]] = {}
+    for element, scope in each_element(model, names):
+        kind = type(element)
+        if kind not in asked:
+            asked[kind] = tuple(r for r in rules.values() if issubclass(kind, r.kinds))
+        for one in asked[kind]:
+            for wrong, message in one.look(element, scope):
+                found.append(_diagnostic(one, wrong, message, file))
+    return sorted(found, key=lambda diagnostic: diagnostic.line)
+
+
+def _told(one: Rule, model: Model, root: Scope, file: str) -> Iterator[Diagnostic]:
+    for wrong, message in one.look(model, root):
+        yield _diagnostic(one, wrong, message, file)
+
+
+def _diagnostic(one: Rule, wrong: Element, message: str, file: str) -> Diagnostic:
+    return Diagnostic(file, wrong.line, message, one.requirement)

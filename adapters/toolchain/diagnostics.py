@@ -1,0 +1,21 @@
+"""What the tool chain has to say against a model, a line each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """``message`` names the element and the remedy; ``requirement`` is empty where the model could not even be read."""
+
+    file: str
+    line: int
+    message: str
+    requirement: str = ""
+    clause: str = ""
+
+    def __str__(self) -> str:
+        clause = self.clause or self.requirement.removeprefix("R-").rpartition("-")[0]
+        told = ", ".join(filter(None, (self.requirement, f"clause {clause}" if clause else "")))
+        return f"{self.file}:{self.line}: error: {self.message}{f' [{told}]' if told else ''}"
