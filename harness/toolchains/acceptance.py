@@ -1,0 +1,135 @@
+"""Judges profile pim: what a tool chain made of each question, and which requirements that keeps or breaks.
+
+Refusing a broken model counts only if its legal twin was accepted, so nobody passes by refusing everything. A refused legal model is
+held against the requirement that it was written for only if no simpler legal model was refused; a legal variant only
+if its twin was accepted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from lxml import etree
+
+from ucm_cts.harness.toolchains.corpus import Question
+
+RULES = {
+    "legal_models_accepted": "A legal model that uses it is accepted, and so is each legal variant of an accepted model.",
+    "broken_models_refused": "A model that breaks it, and is legal otherwise, is refused.",
+}
+"""The rules that the catalogue names, and what each says."""
+
+Outcome = Literal["kept", "broken", "unclear"]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a tool chain made of a model: ``accepted`` is None if it came to no answer. ``lines`` are those that its diagnostics
+    point to, none if it does not tell them; ``told`` is the first one.
+    """
+
+    accepted: bool | None
+    lines: frozenset[int] = frozenset()
+    told: str = ""
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What one answer says of the requirement of its question. ``expected`` and ``observed`` are for people."""
+
+    question: Question
+    rule: str
+    outcome: Outcome
+    expected: str = ""
+    observed: str = ""
+
+
+def judge(questions: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judgement]:
+    """A judgement for each question that was answered."""
+    by_name = {q.name: q for q in questions}
+    refused = {
+        name: constructs(by_name[name].text)
+        for name, answer in answers.items()
+        if answer.accepted is False and by_name[name].due == "accept" and not by_name[name].twin
+    }
+    return [_judged(q, answers, refused) for q in questions if q.name in answers]
+
+
+def _judged(q: Question, answers: Mapping[str, Answer], refused: Mapping[str, frozenset[str]]) -> Judgement:
+    answer = answers[q.name]
+    rule = "legal_models_accepted" if q.due == "accept" else "broken_models_refused"
+    if answer.accepted is None:
+        return Judgement(q, rule, "unclear", observed=f"no answer: {answer.told}")
+    twin = answers.get(q.twin) if q.twin else None
+    if q.twin and (twin is None or not twin.accepted):
+        return Judgement(q, rule, "unclear", observed=f"its legal twin {q.twin} was not accepted")
+    if q.due == "accept":
+        return _of_legal(q, answer, rule, refused)
+    if answer.accepted:
+        return Judgement(q, rule, "broken", f"the model is refused: {q.because}", "it was accepted")
+    if answer.lines and q.changed and not answer.lines & _about(q):
+        where = ", ".join(map(str, sorted(answer.lines)))
+        observed = f"refused, but for something in line {where}, which has nothing to do with it: {answer.told}"
+        return Judgement(q, rule, "unclear", observed=observed)
+    return Judgement(q, rule, "kept")
+
+
+def _of_legal(q: Question, answer: Answer, rule: str, refused: Mapping[str, frozenset[str]]) -> Judgement:
+    if answer.accepted:
+        return Judgement(q, rule, "kept")
+    if not q.twin:
+        simpler = next((name for name, used in refused.items() if used < refused[q.name]), None)
+        if simpler is not None:
+            return Judgement(q, rule, "unclear", observed=f"the simpler model {simpler} was refused, too")
+    expected = f"the model is accepted{f': {q.because}' if q.because else ''}"
+    return Judgement(q, rule, "broken", expected, f"it was refused: {answer.told or 'without a word'}")
+
+
+def _about(q: Question) -> frozenset[int]:
+    """The lines of what was changed, of what that is part of or consists of, and of all that shares a name with it."""
+    try:
+        root = etree.fromstring(q.text.encode())
+    except etree.XMLSyntaxError:
+        return frozenset(range(1, q.text.count("\n") + 2))
+    elements = [e for e in root.iter(etree.Element) if isinstance(e.tag, str)]
+    touched = [inner for e in elements if _line(e) in q.changed for inner in e.iter(etree.Element)]
+    named = {word for element in touched for word in _words(element)}
+    related = [*touched, *(e for e in elements if named.intersection(_words(e)))]
+    lines = {_line(e) for one in related for e in (one, *one.iterancestors())} | set(q.changed)
+    return frozenset(line for end in lines for line in _start_tag(q.text.splitlines(), end))
+
+
+def _line(element: etree._Element) -> int:
+    return int(str(element.sourceline or 0))
+
+
+def _start_tag(lines: Sequence[str], end: int) -> Iterator[int]:
+    """The lines of the start tag that ends in line ``end``; parsers differ in which of them they tell."""
+    line = end
+    yield line
+    while 1 < line <= len(lines) and "<" not in lines[line - 1]:
+        line -= 1
+        yield line
+
+
+def _words(element: etree._Element) -> set[str]:
+    """The last parts of all names in the element's attributes."""
+    return {text.replace(".", "::").rpartition("::")[2] for text in map(str, element.attrib.values())} - {""}
+
+
+_LITERALS = frozenset(
+    ("kind", "direction", "mode", "nature", "multiplicity", "applicability", "charBase", "indexType", "defaultCase")
+)
+
+
+def constructs(text: str) -> frozenset[str]:
+    """The kinds of things that a model uses: elements inside others, attributes, and the words that attributes choose from."""
+    found: set[str] = set()
+    for element in etree.fromstring(text.encode()).iter(etree.Element):
+        parent = element.getparent()
+        found.add(f"{str(parent.tag) if parent is not None else ''}/{element.tag!s}")
+        for attribute, value in ((str(a), str(v)) for a, v in element.attrib.items()):
+            found.add(f"{element.tag!s}@{attribute}={value if attribute in _LITERALS else ''}")
+    return frozenset(found)
