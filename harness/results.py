@@ -60,10 +60,29 @@ class Execution(Value, frozen=True):
     incident: Incident | None = None
 
 
+class Processed(Value, frozen=True):
+    """One model through one command of a tool chain. ``name`` is the question's, ``task`` what was asked, ``status`` the exit
+    status, None if it did not end by itself; ``output`` what it printed. ``twin`` is the legal model that ``model`` was
+    made of, empty if it was not; ``place`` is where in a generated file it is wrong, ``excerpt`` what stands there.
+    """
+
+    name: str
+    task: str
+    model: str
+    command: tuple[str, ...]
+    status: int | None
+    output: str
+    incident: Incident | None = None
+    twin: str = ""
+    place: str = ""
+    excerpt: str = ""
+
+
 class FailedExecution(Value, frozen=True):
     """A finding with the shortest execution that shows it, and how many executions of the run showed the same cause.
 
-    There is no ``execution`` where models or the vendor's statement show it and nothing was run. ``unstable`` says why it is
+    There is no ``execution`` where models or the vendor's statement show it and nothing was run, and ``processed`` instead where a
+    tool chain was asked. ``unstable`` says why it is
     not held against the framework: a second look did not show it. ``steady`` is what that look saw instead.
     """
 
@@ -73,6 +92,7 @@ class FailedExecution(Value, frozen=True):
     waived: str = ""
     unstable: str = ""
     steady: Execution | None = None
+    processed: Processed | None = None
 
 
 class RequirementResult(Value, frozen=True):

@@ -1,0 +1,1 @@
+"""Tool chains derived from the reference one: mutants, each with one thing wrong, and conformant variants."""

@@ -1,0 +1,120 @@
+"""A tool chain as its vendor describes it: a TOML file with a command line for each task (docs/toolchains.md)."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.documents import DocumentError, convert, read_toml
+
+Task = Literal["check", "idl", "cpp11", "cpp03"]
+"""What a tool chain can be asked to do with a model."""
+
+MODEL, OUT = "{model}", "{out}"
+
+DIAGNOSTIC = r"^(?:.*?[:(])?(?P<line>[0-9]+)(?:[:,][0-9]+)?\)?\s*:"
+"""Finds the line in a diagnostic such as ``model.xml:12: ...``, ``model.xml:12:5: ...`` or ``model.xml(12,5): ...``."""
+
+LARGEST = 256 * 1024
+
+
+class Command(Value, frozen=True):
+    """How one task is done: ``command`` holds ``{model}`` and, for generators, ``{out}``, an empty folder.
+
+    ``refuses`` are the exit statuses that mean that the model is refused; 0 means that it is accepted, and any other is a failure of
+    the tool. ``diagnostic`` is a regular expression with a group ``line``. ``compiler``, ``include`` (folders below
+    ``{out}``) and ``headers`` (patterns below ``{out}``) are for C++ only.
+    """
+
+    command: tuple[str, ...]
+    refuses: tuple[int, ...] = (1,)
+    diagnostic: str = DIAGNOSTIC
+    compiler: tuple[str, ...] = ()
+    include: tuple[str, ...] = (".",)
+    headers: tuple[str, ...] = ("**/*.h", "**/*.hh", "**/*.hpp", "**/*.hxx")
+
+
+class ToolChain(Value, frozen=True):
+    """A product and its commands. ``seconds`` and ``memory`` (MiB, resident) limit each call."""
+
+    product: str
+    version: str
+    check: Command | None = None
+    idl: Command | None = None
+    cpp11: Command | None = None
+    cpp03: Command | None = None
+    seconds: float = 20.0
+    memory: int = 1024
+    folder: str = ""
+    source: str = ""
+
+    def command_for(self, task: Task) -> Command | None:
+        """How ``task`` is done, None if the vendor does not say."""
+        commands: dict[Task, Command | None] = {
+            "check": self.check,
+            "idl": self.idl,
+            "cpp11": self.cpp11,
+            "cpp03": self.cpp03,
+        }
+        return commands[task]
+
+
+def read_toolchain(path: Path) -> ToolChain:
+    """The tool chain that the file at ``path`` describes. Raises ``DocumentError`` for whatever is wrong with it."""
+    document, lines = read_toml(path, LARGEST)
+    document.pop("folder", None)
+    places = {"$": 1} | {f"$.{place}": line for place, line in lines.items()}
+    described = convert(path, document, ToolChain, places)
+    for task in ("check", "idl", "cpp11", "cpp03"):
+        _check(path, task, described.command_for(task), lines)
+    if not described.product.strip():
+        raise DocumentError(path, lines.get("product"), "product is empty; say what is to be certified")
+    if not (described.seconds > 0 and described.memory > 0):
+        raise DocumentError(path, lines.get("seconds"), "seconds and memory are greater than 0")
+    return msgspec.structs.replace(described, folder=str(path.parent.resolve()), source=path.name)
+
+
+def _check(path: Path, task: Task, command: Command | None, lines: dict[str, int]) -> None:
+    if command is None:
+        return
+
+    def wrong(key: str, problem: str) -> DocumentError:
+        return DocumentError(path, lines.get(f"{task}.{key}") or lines.get(task), problem)
+
+    words = " ".join(command.command)
+    if not command.command:
+        raise wrong("command", f"the command for {task} is empty; write the program and its arguments, each in quotes")
+    if MODEL not in words:
+        raise wrong("command", f"the command for {task} does not name {MODEL}, which stands for the model's file")
+    if task != "check" and OUT not in words:
+        raise wrong("command", f"the command for {task} does not name {OUT}, which stands for the folder to write to")
+    if 0 in command.refuses or not command.refuses:
+        raise wrong("refuses", "refuses lists the exit statuses that refuse a model; 0 accepts it")
+    try:
+        groups = re.compile(command.diagnostic, re.MULTILINE).groupindex
+    except re.error as error:
+        raise wrong("diagnostic", f"the diagnostic is no regular expression: {error}") from None
+    if "line" not in groups:
+        raise wrong("diagnostic", "the diagnostic has no group (?P<line>...)")
+
+
+def program(toolchain: ToolChain, command: Command) -> list[str]:
+    """The words of ``command`` with the program as the operating system finds it.
+
+    A program with a slash is looked for below the description's folder, any other on the path and beside this Python. Raises
+    ``DocumentError`` if there is none.
+    """
+    name = command.command[0]
+    beside = str(Path(sys.executable).parent)
+    at = str(Path(toolchain.folder) / name) if "/" in name else name
+    found = shutil.which(at) or shutil.which(at, path=beside)
+    if found is None:
+        where = f"{at} cannot be run" if "/" in name else f"no program '{name}' on the path"
+        raise DocumentError(Path(toolchain.folder) / toolchain.source, None, f"{where}; correct the command")
+    return [found, *command.command[1:]]

@@ -1,0 +1,174 @@
+"""Runs one command of a tool chain on one model, and survives whatever it does."""
+
+from __future__ import annotations
+
+import os
+import re
+import select
+import signal
+import subprocess
+import tempfile
+import time
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+from ucm_cts.harness.results import Incident, Processed
+from ucm_cts.harness.toolchains.description import MODEL, OUT, Command, Task, ToolChain, program
+
+MODEL_FILE = "model.xml"
+
+_OUTPUT = 1 << 18
+_FLOOD = 1 << 24
+_LOOK_SECONDS = 0.05
+_FILES = 2_000
+_FILES_BYTES = 64 << 20
+_PAGE = os.sysconf("SC_PAGE_SIZE")
+_MIB = 1 << 20
+
+
+@dataclass(frozen=True)
+class Made:
+    """What became of a model: the evidence, whether the tool accepted it (None: it came to no answer), the lines that its
+    diagnostics name, and the text files it wrote, by path.
+    """
+
+    processed: Processed
+    accepted: bool | None
+    lines: frozenset[int] = frozenset()
+    files: Mapping[str, str] = field(default_factory=dict)
+
+
+class Processor(Protocol):
+    """Whoever can be asked to do a task with a model."""
+
+    def process(self, task: Task, name: str, text: str) -> Made:
+        """Do ``task`` with the model ``text``; ``name`` is the question's. Never raises for what the tool does."""
+
+
+class CommandLine:
+    """A tool chain behind its command lines; each call gets a folder and a process group of its own."""
+
+    def __init__(self, toolchain: ToolChain) -> None:
+        """Raises ``DocumentError`` if a program is not there."""
+        self._toolchain = toolchain
+        self._programs: dict[Task, tuple[Command, list[str]]] = {}
+        for task in ("check", "idl", "cpp11", "cpp03"):
+            command = toolchain.command_for(task)
+            if command is not None:
+                self._programs[task] = (command, program(toolchain, command))
+
+    def process(self, task: Task, name: str, text: str) -> Made:
+        command, words = self._programs[task]
+        with tempfile.TemporaryDirectory(prefix="ucm-cts-") as folder:
+            model, out = Path(folder) / MODEL_FILE, Path(folder) / "out"
+            model.write_text(text, encoding="utf-8")
+            out.mkdir()
+            filled = [w.replace(MODEL, str(model)).replace(OUT, str(out)) for w in words]
+            ended = _run(filled, folder, self._toolchain)
+            output = ended.output.replace(f"{folder}/", "")
+            shown = tuple(w.replace(MODEL, MODEL_FILE).replace(OUT, "out") for w in command.command)
+            incident = ended.incident or _odd_status(ended.status, command)
+            processed = Processed(name, task, text, shown, ended.status, output, incident)
+            if incident is not None:
+                return Made(processed, None)
+            accepted = ended.status == 0
+            return Made(processed, accepted, named_lines(output, command.diagnostic), _files(out) if accepted else {})
+
+
+def named_lines(output: str, diagnostic: str) -> frozenset[int]:
+    """The lines of the model that ``output`` names."""
+    found = re.finditer(diagnostic, output[:_OUTPUT], re.MULTILINE)
+    return frozenset(int(match["line"]) for match in found if match["line"] and match["line"].isdecimal())
+
+
+def _odd_status(status: int | None, command: Command) -> Incident | None:
+    if status is None or status == 0 or status in command.refuses:
+        return None
+    if status < 0:
+        return Incident("crash", f"killed by {signal.Signals(-status).name}")
+    listed = ", ".join(map(str, command.refuses))
+    return Incident("exit", f"exit status {status}, which neither accepts (0) nor refuses ({listed})")
+
+
+@dataclass(frozen=True)
+class _Ended:
+    status: int | None
+    output: str
+    incident: Incident | None = None
+
+
+def _run(words: list[str], folder: str, limits: ToolChain) -> _Ended:
+    try:
+        process = subprocess.Popen(
+            words,
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+    except OSError as error:
+        return _Ended(None, "", Incident("unreachable", f"{words[0]} cannot be run: {error.strerror}"))
+    with process:
+        assert process.stdout is not None
+        try:
+            kept, incident = _watch(process, process.stdout.fileno(), limits)
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+        status = process.wait()
+    return _Ended(status if incident is None else None, kept.decode(errors="replace"), incident)
+
+
+def _watch(process: subprocess.Popen[bytes], source: int, limits: ToolChain) -> tuple[bytes, Incident | None]:
+    """The output of ``process`` until it ends or goes too far."""
+    kept, total = bytearray(), 0
+    deadline = time.monotonic() + limits.seconds
+    poll = select.poll()
+    poll.register(source, select.POLLIN)
+    while True:
+        if poll.poll(_LOOK_SECONDS * 1000):
+            chunk = os.read(source, 1 << 16)
+            total += len(chunk)
+            kept += chunk[: max(0, _OUTPUT - len(kept))]
+            if not chunk:
+                break
+        if total > _FLOOD:
+            return bytes(kept), Incident("flood", f"more than {_FLOOD // _MIB} MiB of output")
+        if process.poll() is not None and not poll.poll(0):
+            break  # a child that it left behind holds the pipe
+        if time.monotonic() > deadline:
+            return bytes(kept), Incident("hang", f"no end after {limits.seconds:g} s")
+        used = _resident(process.pid)
+        if used > limits.memory * _MIB:
+            return bytes(kept), Incident("memory", f"more than {limits.memory} MiB of memory")
+    try:
+        process.wait(max(0.1, deadline - time.monotonic()))
+    except subprocess.TimeoutExpired:
+        return bytes(kept), Incident("hang", f"no end after {limits.seconds:g} s")
+    return bytes(kept), None
+
+
+def _resident(pid: int) -> int:
+    try:
+        with open(f"/proc/{pid}/statm", "rb") as stream:
+            return int(stream.read().split()[1]) * _PAGE
+    except (OSError, IndexError, ValueError):
+        return 0
+
+
+def _files(out: Path) -> dict[str, str]:
+    """The text files below ``out``; links and what is beyond the limits are left out."""
+    found: dict[str, str] = {}
+    left = _FILES_BYTES
+    for path in sorted(out.rglob("*")):
+        if len(found) == _FILES or path.is_symlink() or not path.is_file():
+            continue
+        left -= path.stat().st_size
+        if left < 0:
+            break
+        found[str(path.relative_to(out))] = path.read_text(encoding="utf-8", errors="replace")
+    return found
