@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator
+from typing import Any, TypeVar
 
 import msgspec
 
@@ -15,6 +16,9 @@ class Element(msgspec.Struct, frozen=True, kw_only=True, gc=False):
     """
 
     line: int = 0
+
+
+T = TypeVar("T", bound=Element)
 
 
 class SimpleComment(Element, frozen=True, kw_only=True):
@@ -40,6 +44,16 @@ def children(element: Element) -> Iterator[Element]:
     """What ``element`` contains directly, field by field, each field in the model's order."""
     for field in child_fields(type(element)):
         yield from getattr(element, field)
+
+
+def without_lines(element: T) -> T:
+    """``element`` as if nobody knew where it and all inside it stand: what two files say is then equal or not."""
+    changed: dict[str, Any] = {"line": 0}
+    for field in element.__struct_fields__:
+        value = getattr(element, field)
+        if type(value) is tuple:
+            changed[field] = tuple(without_lines(child) for child in value)
+    return msgspec.structs.replace(element, **changed)
 
 
 def walk(element: Element) -> Iterator[Element]:

@@ -1,0 +1,417 @@
+"""Reads UCM models: bytes of XML in any printed spelling become a ``Model``, and whatever does not fit becomes a problem.
+
+Models come from others and may be hostile: size, depth and the number of problems are bounded, document types and so entities
+are refused. Reading is fast because the parser hands over attributes under the names of fields already (``_RENAMED``), so
+that an element in canonical spelling is built by one call; all others take the way through ``_mended``.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Callable, Mapping
+from typing import Any, Literal, NamedTuple
+from xml.parsers import expat
+
+import msgspec
+
+from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.contracts import StringType
+from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
+from ucm_cts.adapters.contract.metamodel.spelling import (
+    IGNORED,
+    OTHER_WORDS,
+    SHORT_STRINGS,
+    SPELLINGS,
+    TAGS,
+    TRUTHS,
+    Spelling,
+    contained,
+    containers,
+)
+
+LARGEST = 512 * 1024 * 1024
+"""Bytes that a model may have."""
+
+DEEPEST = 256
+"""Elements that may stand inside one another."""
+
+LONGEST = 10_000_000
+"""Bytes that one tag or comment may have, and all text where none belongs."""
+
+MOST_TAGS = 10_000_000
+MOST_PROBLEMS = 1000
+"""How many are told of one file."""
+
+ENCODINGS = ("utf-8", "utf-16", "us-ascii", "iso-8859-1")
+
+Kind = Literal[
+    "not XML",
+    "refused",
+    "unknown element",
+    "misplaced element",
+    "unknown attribute",
+    "missing attribute",
+    "bad literal",
+    "bad number",
+    "text",
+]
+
+
+class Problem(msgspec.Struct, frozen=True, kw_only=True):
+    """What is wrong in a file: ``element`` is the tag that it is about, ``clause`` the one that says otherwise; either may be
+    empty. ``message`` names the remedy. A problem of kind "not XML" or "refused" ends the reading.
+    """
+
+    kind: Kind
+    line: int
+    element: str
+    message: str
+    clause: str = ""
+
+
+class Reading(msgspec.Struct, frozen=True, kw_only=True):
+    """What could be read of the file called ``name``, and what could not. After "not XML" and "refused" the model is empty."""
+
+    name: str
+    model: Model
+    problems: tuple[Problem, ...] = ()
+
+
+def read_model(xml: bytes, name: str) -> Reading:
+    """The model that ``xml`` holds. Never raises, whatever ``xml`` is."""
+    reader = _Reader(xml)
+    reader.read(texts=False)
+    if reader.has_text:
+        reader = _Reader(xml)
+        reader.read(texts=True)
+    problems = sorted(reader.problems, key=lambda problem: problem.line)
+    return Reading(name=name, model=reader.model, problems=tuple(problems))
+
+
+class _Stop(Exception):
+    """Reading cannot go on."""
+
+    def __init__(self, kind: Kind, message: str) -> None:
+        super().__init__(message)
+        self.kind: Kind = kind
+
+
+class _Numbers(dict[str, int]):
+    """What numerals mean; those that were met are remembered. Raises ``ValueError``."""
+
+    def __missing__(self, text: str) -> int:
+        if not _NUMBER.fullmatch(text):
+            raise ValueError(text)
+        number = int(text)
+        if len(self) < _REMEMBERED:
+            self[text] = number
+        return number
+
+
+_NUMBER = re.compile(r"[+-]?[0-9]{1,20}")
+_REMEMBERED = 10_000
+_NUMBERS = _Numbers()
+
+Converter = Callable[[str], object]
+
+
+class _Entry(NamedTuple):
+    """A class at one place: ``field`` of what is around it takes it, ``inside`` is what may stand in it, by tag."""
+
+    spelling: Spelling
+    tag: str
+    field: str
+    build: Callable[..., Element]
+    fields: frozenset[str]
+    required: frozenset[str]
+    converters: tuple[tuple[str, Converter], ...]
+    inside: dict[str, _Entry]
+
+
+_Frame = tuple[_Entry, dict[str, Any], dict[str, list[Element]]]
+
+
+def _string_of(chars: str, **values: Any) -> StringType:
+    return StringType(char_base=chars, **values)
+
+
+def _entries() -> dict[str, _Entry]:
+    """What may be outermost."""
+    insides: dict[type[Element], dict[str, _Entry]] = {cls: {} for cls in SPELLINGS}
+    for outer, inside in insides.items():
+        for inner, field in contained(outer).items():
+            inside.update(_spelled(inner, field, insides))
+    root = dict(_spelled(Model, "model", insides))
+    for module in MODULES:
+        root.update(_spelled(module, "modules", insides))
+    return root
+
+
+def _spelled(cls: type[Element], field: str, insides: Mapping[type[Element], dict[str, _Entry]]) -> dict[str, _Entry]:
+    spelling = SPELLINGS[cls]
+    converters: list[tuple[str, Converter]] = [(f, words.__getitem__) for f, words in spelling.literals.items()]
+    converters += [(f, _NUMBERS.__getitem__) for f in spelling.numbers]
+    converters += [(f, TRUTHS.__getitem__) for f in spelling.truths]
+    entry = _Entry(
+        spelling=spelling,
+        tag=spelling.tag,
+        field=field,
+        build=cls,
+        fields=frozenset(spelling.attributes.values()) | spelling.contained.keys(),
+        required=spelling.required,
+        converters=tuple(converters),
+        inside=insides[cls],
+    )
+    found = {tag: entry._replace(tag=tag) for tag in (spelling.tag, *spelling.other_tags)}
+    if cls is StringType:
+        for tag, chars in SHORT_STRINGS.items():
+            found[tag] = entry._replace(
+                tag=tag,
+                build=functools.partial(_string_of, chars),
+                fields=entry.fields - {"char_base"},
+                required=entry.required - {"char_base"},
+            )
+    return found
+
+
+_OUTERMOST = _entries()
+
+_HIDDEN = "\0"
+_FIELDS = {field for cls in SPELLINGS for field in cls.__struct_fields__}
+_RENAMED = {field: _HIDDEN + field for field in _FIELDS} | {
+    attribute: field for spelling in SPELLINGS.values() for attribute, field in spelling.attributes.items()
+}
+"""Names of attributes as the parser is to hand them over: fields for those in canonical spelling. Others that are called like
+a field are hidden, so that nobody can write to it.
+"""
+_PRINTED = {told: printed for printed, told in _RENAMED.items()}
+
+_SPACE = " \t\r\n"
+
+_BETWEEN = "}"
+"""Stands between the namespace and the name of what is in one."""
+
+
+class _Reader:
+    """One pass over a model."""
+
+    def __init__(self, xml: bytes) -> None:
+        self.xml = xml
+        self.problems: list[Problem] = []
+        self.model = Model()
+        self.has_text = False
+        self._texts = 0
+        self._namespace = ""
+        self._inside = _OUTERMOST
+        self._children: dict[str, list[Element]] = {}
+        self._stack: list[_Frame] = []
+        self._skipped = 0
+        self._told: _Frame | None = None
+        self._parser = expat.ParserCreate(namespace_separator=_BETWEEN, intern=dict(_RENAMED))
+        self._parser.XmlDeclHandler = self._declaration
+        self._parser.StartDoctypeDeclHandler = self._doctype
+
+    def read(self, texts: bool) -> None:
+        """Read all; where text stands is only looked at if ``texts``, otherwise only whether there is any."""
+        seen: set[str] = set()
+        self._parser.buffer_text = not texts
+        self._parser.CharacterDataHandler = self._text if texts else seen.add
+        self._parser.StartElementHandler, self._parser.EndElementHandler = self._handlers()
+        try:
+            self._feed()
+        except _Stop as stop:
+            self._end_with(stop.kind, str(stop), self._parser.CurrentLineNumber)
+        except expat.ExpatError as error:
+            problem = expat.ErrorString(error.code) or "it is malformed"
+            self._end_with("not XML", f"is not XML: {problem}; mend it there", error.lineno)
+        except (LookupError, ValueError):  # of encodings that Python does not know, or cannot use here
+            self._end_with("not XML", "is in an unknown encoding; save it as UTF-8", 1)
+        else:
+            self.has_text = any(text.strip(_SPACE) for text in seen)
+            self.model = _model(self._children)
+
+    def _feed(self) -> None:
+        if len(self.xml) > LARGEST:
+            raise _Stop("refused", f"is larger than {LARGEST} bytes; split it")
+        if self.xml.count(b"<") > MOST_TAGS:
+            raise _Stop("refused", f"has more than {MOST_TAGS} tags; split it")
+        piece = 1 << 20
+        for begin in range(0, len(self.xml), piece):
+            self._parser.Parse(self.xml[begin : begin + piece], False)
+            if begin - self._parser.CurrentByteIndex > LONGEST:
+                raise _Stop("refused", f"a tag or comment is longer than {LONGEST} bytes; shorten it")
+        self._parser.Parse(b"", True)
+
+    def _end_with(self, kind: Kind, message: str, line: int) -> None:
+        self.model = Model()
+        self.problems.append(Problem(kind=kind, line=line, element="", message=message))
+
+    def _problem(self, kind: Kind, element: str, message: str, clause: str = "", line: int = 0) -> None:
+        if len(self.problems) == MOST_PROBLEMS:
+            raise _Stop("refused", f"has more than {MOST_PROBLEMS} problems; mend those first")
+        told = line or self._parser.CurrentLineNumber
+        self.problems.append(Problem(kind=kind, line=told, element=element, message=message, clause=clause))
+
+    # what the parser calls
+
+    def _handlers(self) -> tuple[Callable[[str, dict[str, Any]], None], Callable[[str], None]]:
+        """What is called at the beginning and the end of each element; closures, because they are called so often."""
+        parser, stack = self._parser, self._stack
+        inside = _OUTERMOST
+        children = self._children
+
+        def start(tag: str, values: dict[str, Any]) -> None:
+            nonlocal inside, children
+            entry = inside.get(tag)
+            if entry is None:
+                entry = self._entry(tag, inside)
+                if entry is None:
+                    self._skip(start, end)
+                    return
+            if len(stack) == DEEPEST:
+                raise _Stop("refused", f"is nested deeper than {DEEPEST} elements; make it flatter")
+            values["line"] = parser.CurrentLineNumber
+            stack.append((entry, values, children))
+            inside = entry.inside
+            children = {}
+
+        def end(_tag: str) -> None:
+            nonlocal inside, children
+            entry, values, around = stack.pop()
+            for field, held in children.items():
+                values[field] = tuple(held)
+            try:
+                if not entry.required <= values.keys():
+                    raise KeyError
+                for field, convert in entry.converters:
+                    if field in values:
+                        values[field] = convert(values[field])
+                element = entry.build(**values)
+            except (TypeError, KeyError, ValueError):
+                element = self._mended(entry, values)
+            children = around
+            held_around = around.get(entry.field)
+            if held_around is None:
+                around[entry.field] = [element]
+            else:
+                held_around.append(element)
+            inside = stack[-1][0].inside if stack else _OUTERMOST
+
+        return start, end
+
+    def _skip(self, start: Callable[[str, dict[str, Any]], None], end: Callable[[str], None]) -> None:
+        """Take no notice of the element that begins here, nor of all inside."""
+        self._skipped = 1
+
+        def deeper(_tag: str, _values: object) -> None:
+            self._skipped += 1
+            if self._skipped + len(self._stack) > DEEPEST:
+                raise _Stop("refused", f"is nested deeper than {DEEPEST} elements; make it flatter")
+
+        def back(_tag: str) -> None:
+            self._skipped -= 1
+            if not self._skipped:
+                self._parser.StartElementHandler, self._parser.EndElementHandler = start, end
+
+        self._parser.StartElementHandler, self._parser.EndElementHandler = deeper, back
+
+    def _declaration(self, _version: str, encoding: str | None, _standalone: int) -> None:
+        if encoding is not None and encoding.lower() not in ENCODINGS:
+            raise _Stop("refused", f"is said to be '{encoding[:40]}'; save it as UTF-8")
+
+    def _doctype(self, *_: object) -> None:
+        raise _Stop("refused", "has a document type, which may hold entities; take the DOCTYPE out")
+
+    def _text(self, text: str) -> None:
+        self._texts += len(text.strip(_SPACE))
+        if self._texts > LONGEST:
+            raise _Stop("refused", f"has more than {LONGEST} characters of text, where none belongs; take it out")
+        if self._skipped or not text.strip(_SPACE) or self._told is self._stack[-1]:
+            return
+        self._told = self._stack[-1]
+        tag = self._told[0].tag
+        shown = " ".join(text.split())[:40]
+        message = f"'{shown}' stands in {tag}, where no text belongs; take it out, or make it an XML comment"
+        self._problem("text", tag, message)
+
+    # what is not in canonical spelling
+
+    def _entry(self, tag: str, inside: dict[str, _Entry]) -> _Entry | None:
+        """What an element is whose tag may not stand here as it is, if it is anything; otherwise that is a problem."""
+        namespace, between, local = tag.rpartition(_BETWEEN)
+        if not self._stack and between:
+            self._namespace = namespace
+        if between and namespace == self._namespace and local in inside:
+            return inside[local]
+        shown = local[:80]
+        if local not in TAGS or namespace != self._namespace:
+            known = ", ".join(sorted({entry.spelling.tag for entry in inside.values()})) or "nothing"
+            around = self._stack[-1][0].tag if self._stack else "a model"
+            message = f"{shown} is not known; {around} may hold {known}"
+            self._problem("unknown element", shown, message, self._stack[-1][0].spelling.clause if self._stack else "")
+        else:
+            spelling = SPELLINGS[TAGS[local]]
+            places = ", ".join(containers(spelling.cls))
+            message = f"{shown} cannot stand here" + (f", only in {places}" if places else "; it must be outermost")
+            self._problem("misplaced element", shown, message, spelling.clause)
+        return None
+
+    def _mended(self, entry: _Entry, values: dict[str, Any]) -> Element:
+        """The element that ``values`` make once other spellings are replaced and what does not fit is left out and told."""
+        fitting = {key: value for key, value in values.items() if key in entry.fields}
+        fitting["line"] = line = values.pop("line")
+        for key, value in values.items():
+            if key not in entry.fields and _BETWEEN not in key:
+                self._other(entry, _PRINTED.get(key, key), value, fitting)
+        for field in sorted(entry.required - fitting.keys()):
+            attribute = entry.spelling.attribute(field)
+            message = f"{entry.tag}{_called(fitting)} has no {attribute}; give it one"
+            self._problem("missing attribute", entry.tag, message, entry.spelling.clause, line)
+        for field, convert in entry.converters:
+            if isinstance(fitting.get(field), str):
+                self._convert(entry, field, convert, fitting)
+        return entry.build(**fitting)
+
+    def _other(self, entry: _Entry, attribute: str, value: str, fitting: dict[str, Any]) -> None:
+        """Take an attribute in another spelling for the field that it means, or tell that it means nothing."""
+        spelling = entry.spelling
+        field = spelling.other_attributes.get(attribute)
+        if (spelling.cls, attribute) in IGNORED or (attribute == "identifier" and "name" in fitting):
+            return
+        if field in entry.fields:
+            value = OTHER_WORDS.get((spelling.cls, attribute), {}).get(value, value)
+            if fitting.setdefault(field, value) == value:
+                return
+        known = ", ".join(spelling.attribute(field) for field in sorted(entry.fields - spelling.contained.keys()))
+        message = f"{entry.tag}{_called(fitting)} has an attribute {attribute[:80]}; it may have {known or 'none'}"
+        self._problem("unknown attribute", entry.tag, message, spelling.clause, fitting["line"])
+
+    def _convert(self, entry: _Entry, field: str, convert: Converter, fitting: dict[str, Any]) -> None:
+        """Replace the text of a field by what it means; leave the field out if it means nothing."""
+        text = fitting.pop(field)
+        try:
+            fitting[field] = convert(text)
+        except (KeyError, ValueError):
+            shown = f"{entry.tag}{_called(fitting)}: {entry.spelling.attribute(field)} is '{text[:80]}'"
+            words = entry.spelling.literals.get(field) or (TRUTHS if field in entry.spelling.truths else None)
+            if words is None:
+                message = f"{shown}, which is not a number of at most 20 digits"
+                self._problem("bad number", entry.tag, message, entry.spelling.clause, fitting["line"])
+            else:
+                known = ", ".join(dict.fromkeys(str(word) for word in words if words[word] == word or word in TRUTHS))
+                message = f"{shown}, but must be one of {known}"
+                self._problem("bad literal", entry.tag, message, entry.spelling.clause, fitting["line"])
+
+
+def _called(values: Mapping[str, Any]) -> str:
+    return f" '{values['name'][:80]}'" if values.get("name") else ""
+
+
+def _model(outermost: Mapping[str, list[Element]]) -> Model:
+    """The model of a file with these outermost elements, of which XML allows one."""
+    for model in outermost.get("model", ()):
+        assert isinstance(model, Model)
+        return model
+    modules = tuple(module for module in outermost.get("modules", ()) if isinstance(module, MODULES))
+    return Model(line=modules[0].line if modules else 0, modules=modules)
