@@ -12,6 +12,7 @@ import msgspec
 
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.documents import read
+from ucm_cts.harness.profiles import PARTS
 from ucm_cts.reference_models.life_cycle import LifeCycleTable
 
 Level = Literal["shall", "should", "may", "statement"]
@@ -63,7 +64,7 @@ def load_requirements() -> tuple[Requirement, ...]:
 
 def in_the_making(profile: str) -> str:
     """Why a run cannot choose ``profile`` yet; nothing for a profile that is complete or that nobody knows."""
-    requirements = [r for r in load_requirements() if r.profile == profile]
+    requirements = [r for r in load_requirements() if r.profile in PARTS.get(profile, (profile,))]
     pending = sum(bool(r.pending) for r in requirements)
     if not pending:
         return ""
@@ -76,12 +77,22 @@ def in_the_making(profile: str) -> str:
 @functools.cache
 def load_interpretations() -> tuple[Interpretation, ...]:
     """All decisions about unclear places. Raises ``DocumentError``."""
-    files = (("container", "interpretations.yaml"), ("core", "interpretations_10_1.yaml"))
     return tuple(
         msgspec.structs.replace(entry, profile=profile)
-        for profile, name in files
-        for entry in read(SUITE / name, list[Interpretation])
+        for profile, pattern in _INTERPRETATIONS.items()
+        for path in sorted(SUITE.glob(pattern))
+        for entry in read(path, list[Interpretation])
     )
+
+
+_INTERPRETATIONS = {
+    "container": "interpretations.yaml",
+    "core": "interpretations_10_1.yaml",
+    "pim": "interpretations_9*.yaml",
+    "idl": "interpretations_12.yaml",
+    "cpp": "interpretations_13.yaml",
+}
+"""Where the decisions about unclear places are, by the part of a profile that asks first."""
 
 
 class Capability(Value, frozen=True):

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
+from click.core import ParameterSource
 
 import ucm_cts
 from ucm_cts.adapters.contract.messages import Welcome
@@ -33,6 +34,7 @@ from ucm_cts.harness.options import (
     seed_option,
     timeout_option,
 )
+from ucm_cts.harness.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.report.command import compare
 from ucm_cts.harness.report.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
@@ -50,6 +52,7 @@ from ucm_cts.harness.stating.applicability import purposes_for
 from ucm_cts.harness.stating.files import check_subject, stated_by
 from ucm_cts.harness.stating.writing import write_statement
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.toolchains.command import certify_toolchain
 from ucm_cts.reference_models.judgement import Judge
 
 
@@ -72,6 +75,11 @@ def cli() -> None:
 )
 @click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
 @ics_option
+@click.option(
+    "--toolchain",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Certify the tool chain that this file describes, instead of an adapter.",
+)
 @click.option("--repeat", type=click.IntRange(min=1), default=1, show_default=True, help="Runs, with a seed each.")
 @in_process_option
 @timeout_option
@@ -90,7 +98,9 @@ def cli() -> None:
     show_default=True,
     help="Systematic suites find out frameworks with so many states more than the life-cycle table gives them.",
 )
+@click.pass_context
 def run(
+    context: click.Context,
     adapter: str,
     profile: str,
     expression: str,
@@ -98,6 +108,7 @@ def run(
     out: Path,
     known_failures: Path | None,
     ics: Path | None,
+    toolchain: Path | None,
     repeat: int,
     in_process: bool,
     timeout: float,
@@ -105,12 +116,20 @@ def run(
     incident_time: float,
     systematic: int,
 ) -> None:
-    """Run a profile on ADAPTER and write report.html, report.json and junit.xml.
+    """Run a profile on ADAPTER, or on a tool chain, and write report.html, report.json and junit.xml.
 
     ADAPTER is a short name (reference-cpp, reference-py, ipopo, ...), package.module:Class, a pybind11 module, an
     executable, tcp://host:port or unix:/path. Exit status: 0 conformant, 1 not conformant or inconclusive, 2 wrong
     use, 3 the harness failed.
     """
+    if toolchain is not None:
+        _refuse(
+            context, ("adapter", "seed", "repeat", "in_process", "timeout", "memory", "incident_time", "systematic")
+        )
+        chosen = profile if _is_given(context, "profile") else TOOLCHAIN_PROFILES[0]
+        certify_toolchain(toolchain, chosen, expression, out, known_failures, ics)
+    if profile in TOOLCHAIN_PROFILES:
+        raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
     console = Output()
     known = known_today(known_failures)
     statement = stated_by(ics, adapter)
@@ -168,6 +187,20 @@ def run(
         console.print(f"{cut_short}; the report holds the runs before", markup=False, soft_wrap=True)
     status = NOT_CONFORMANT if outdated or interrupted or cut_short or not succeeded(report) else CONFORMANT
     leave(console, status, f"; the report is in {out}")
+
+
+def _is_given(context: click.Context, parameter: str) -> bool:
+    return context.get_parameter_source(parameter) is ParameterSource.COMMANDLINE
+
+
+def _refuse(context: click.Context, parameters: Sequence[str]) -> None:
+    """Raise ``WrongUse`` if one of ``parameters`` was given, because only adapters have them."""
+    for parameter in context.command.params:
+        if parameter.name in parameters and _is_given(context, parameter.name):
+            name = "ADAPTER" if parameter.name == "adapter" else parameter.opts[0]
+            raise WrongUse(
+                f"{name} is for frameworks behind adapters, and --toolchain names a tool chain; leave one out"
+            )
 
 
 def _is_of(identity: Welcome, report: Report) -> bool:

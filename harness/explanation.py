@@ -11,7 +11,8 @@ from rich.text import Text
 from ucm_cts.harness.catalogue import Need, Requirement, load_capabilities, load_interpretations, load_requirements
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.models.core_models import CHECKS
-from ucm_cts.harness.scenarios.purposes import PROFILES, load_purposes
+from ucm_cts.harness.profiles import FRAMEWORK_PROFILES
+from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.reference_models.ledger import RULES
 
 
@@ -41,7 +42,7 @@ def explanation(identifier: str) -> RenderableType:
     for rule in requirement.rules:
         doc = CHECKS[rule] if rule in CHECKS else (RULES[rule].check.__doc__ or "").strip().splitlines()[0]
         lines += [Text(), Text(f"Rule {rule}: ", style="bold") + Text(doc)]
-    offered = load_purposes(requirement.profile) if requirement.profile in PROFILES else ()
+    offered = load_purposes(requirement.profile) if requirement.profile in FRAMEWORK_PROFILES else ()
     purposes = [p for p in offered if requirement.id in p.requirements]
     if purposes:
         lines += [Text(), Text("Scenarios that exercise it:", style="bold")]

@@ -10,8 +10,8 @@ from typing import Any, NoReturn
 import click
 
 from ucm_cts.harness.catalogue import in_the_making
+from ucm_cts.harness.profiles import FRAMEWORK_PROFILES, PROFILES
 from ucm_cts.harness.running.driver import Limits
-from ucm_cts.harness.scenarios.purposes import PROFILES
 from ucm_cts.harness.terminal import Output
 
 CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
@@ -51,6 +51,9 @@ class Profile(click.Choice):  # type: ignore[type-arg] # generic since click 8.2
 
 adapter_argument = click.argument("adapter", default=DEFAULT_ADAPTER, required=False)
 profile_option = click.option("--profile", type=Profile(PROFILES), default="container", show_default=True)
+framework_profile_option = click.option(
+    "--profile", type=Profile(FRAMEWORK_PROFILES), default="container", show_default=True
+)
 in_process_option = click.option("--in-process", is_flag=True, help="No host process: for debuggers and sanitizers.")
 seed_option = click.option("--seed", type=int, help="Repeat a run: names and payloads are drawn from it.")
 ics_option = click.option("--ics", type=click.Path(dir_okay=False, path_type=Path), help="The vendor's statement.")

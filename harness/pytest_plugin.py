@@ -57,11 +57,11 @@ def pytest_configure(config: pytest.Config) -> None:
     profile = config.getoption("--iut-profile")
     if profile != _PROFILE:
         from ucm_cts.harness.catalogue import in_the_making
-        from ucm_cts.harness.scenarios.purposes import PROFILES
+        from ucm_cts.harness.profiles import FRAMEWORK_PROFILES
 
-        if profile not in PROFILES:
+        if profile not in FRAMEWORK_PROFILES:
             problem = in_the_making(profile) or f"there is no profile '{profile}'"
-            raise pytest.UsageError(f"{problem}; there is {', '.join(PROFILES)}")
+            raise pytest.UsageError(f"{problem}; there is {', '.join(FRAMEWORK_PROFILES)}")
     if config.getoption("--iut-ics"):
         _statement(config)
 

@@ -10,7 +10,7 @@ import msgspec
 from ucm_cts.harness.catalogue import Requirement
 from ucm_cts.harness.known_failures import KnownFailure, waiver_for
 from ucm_cts.harness.models.core_models import Comparison
-from ucm_cts.harness.report.failures import length
+from ucm_cts.harness.report.failures import reading_length, shortest_first
 from ucm_cts.harness.results import (
     FRAMEWORK_INCIDENTS,
     Execution,
@@ -18,6 +18,7 @@ from ucm_cts.harness.results import (
     Incident,
     IncidentReport,
     Overall,
+    Processed,
     RequirementResult,
     TransitionResult,
     Verdict,
@@ -115,14 +116,21 @@ class Tally:
             doubted = FailedExecution(finding, execution, occurrences, "", reason, steady)
             self.failures[cause_of(finding)] = doubted
 
-    def add_failure(self, finding: Finding, execution: Execution | None) -> None:
+    def doubt_processed(self, finding: Finding, processed: Processed | None, reason: str) -> None:
+        """``finding`` of a tool chain does not stand: a second look at what ``processed`` shows did not show it."""
+        known = self.failures[cause_of(finding)]
+        if known.processed == processed:
+            self.failures[cause_of(finding)] = msgspec.structs.replace(known, unstable=reason)
+
+    def add_failure(self, finding: Finding, execution: Execution | None, processed: Processed | None = None) -> None:
         """One more execution that shows ``finding``, or something else that does."""
         known = self.failures.get(cause_of(finding))
+        new = FailedExecution(finding, execution, processed=processed)
         if known is None or known.unstable:
             occurrences = known.occurrences + 1 if known is not None else 1
-            self.failures[cause_of(finding)] = FailedExecution(finding, execution, occurrences)
+            self.failures[cause_of(finding)] = msgspec.structs.replace(new, occurrences=occurrences)
             return
-        best = known if length(known.execution) <= length(execution) else FailedExecution(finding, execution)
+        best = min(known, new, key=reading_length)
         self.failures[cause_of(finding)] = msgspec.structs.replace(best, occurrences=known.occurrences + 1)
 
     def replace(self, cause: Cause, finding: Finding, execution: Execution) -> None:
@@ -180,7 +188,7 @@ class Tally:
         self, requirement: Requirement, failures: list[FailedExecution], known_failures: Sequence[KnownFailure]
     ) -> RequirementResult:
         exercised = self.exercised[requirement.id]
-        by_length = sorted(failures, key=lambda f: length(f.execution))
+        by_length = shortest_first(tuple(failures))
         waived = tuple(
             msgspec.structs.replace(f, waived=waiver_for(f.finding, known_failures))
             for f in by_length

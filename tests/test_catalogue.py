@@ -18,8 +18,9 @@ from ucm_cts.harness.catalogue import (
     load_requirements,
 )
 from ucm_cts.harness.models.core_models import CHECKS, checked
+from ucm_cts.harness.profiles import PROFILES
 from ucm_cts.harness.scenarios.life_cycle import generated_purposes
-from ucm_cts.harness.scenarios.purposes import PROFILES, load_purposes
+from ucm_cts.harness.scenarios.purposes import load_purposes
 from ucm_cts.reference_models.ledger import RULES
 
 REQUIREMENTS = {r.id: r for r in load_requirements()}

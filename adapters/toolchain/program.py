@@ -27,7 +27,7 @@ class Program:
     def check(self, text: bytes, file: str) -> tuple[Model | None, list[Diagnostic]]:
         """The model in ``text``, and what is wrong with it; ``file`` is what diagnostics call it."""
         reading = self.read(text, file)
-        told = [Diagnostic(file, p.line, p.message, p.requirement, p.clause) for p in reading.problems]
+        told = [Diagnostic(file, p.line, p.message, clause=p.clause) for p in reading.problems]
         if reading.model is None or told:
             return None, told
         told = check(reading.model, file, self.rules)

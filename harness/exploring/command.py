@@ -24,10 +24,10 @@ from ucm_cts.harness.options import (
     NOT_CONFORMANT,
     Folder,
     adapter_argument,
+    framework_profile_option,
     ics_option,
     in_process_option,
     leave,
-    profile_option,
     seed_option,
     timeout_option,
 )
@@ -81,7 +81,7 @@ class _Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 
     show_default=True,
     help="How long to draw scenarios, or how many: 60s, 5m, 2h, 500scenarios.",
 )
-@profile_option
+@framework_profile_option
 @seed_option
 @click.option(
     "--out", type=Folder(file_okay=False, path_type=Path), default=Path("ucm-cts-exploration"), show_default=True

@@ -20,12 +20,12 @@ from ucm_cts.harness.exploring.core_writer import CoreWriter
 from ucm_cts.harness.exploring.memory import Identity, Memory, Remembered
 from ucm_cts.harness.exploring.novelty import Events, Guide
 from ucm_cts.harness.exploring.writer import Writer
+from ucm_cts.harness.profiles import PARTS
 from ucm_cts.harness.results import Report
 from ucm_cts.harness.running.campaign import Campaign, Checked
 from ucm_cts.harness.running.driver import Answer, Driver
 from ucm_cts.harness.running.incident_causes import IncidentCause, cause_of_incident
 from ucm_cts.harness.running.incidents import is_waiting
-from ucm_cts.harness.scenarios.purposes import PARTS
 from ucm_cts.harness.scenarios.scripts import TestPurpose
 from ucm_cts.harness.stating.applicability import fitting
 from ucm_cts.harness.stating.statement import Statement

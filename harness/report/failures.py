@@ -29,7 +29,12 @@ def file_name(requirement: str, number: int) -> str:
 
 def shortest_first(findings: tuple[FailedExecution, ...]) -> list[FailedExecution]:
     """Findings by the length of their scenarios; those without come first."""
-    return sorted(findings, key=lambda failed: length(failed.execution))
+    return sorted(findings, key=reading_length)
+
+
+def reading_length(failed: FailedExecution) -> tuple[int, int]:
+    """How long a reader has to read: a scenario's steps, then events; or a model's lines."""
+    return (failed.processed.model.count("\n"), 0) if failed.processed is not None else length(failed.execution)
 
 
 def length(execution: Execution | None) -> tuple[int, int]:

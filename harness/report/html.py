@@ -12,6 +12,7 @@ import jinja2
 from markupsafe import Markup
 
 from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.profiles import PARTS
 from ucm_cts.harness.report import life_cycle_diagram, sequence_svg
 from ucm_cts.harness.report.excerpt import compare, excerpt
 from ucm_cts.harness.report.failures import (
@@ -29,7 +30,6 @@ from ucm_cts.harness.report.sequence_text import failure_text, to_text
 from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.transitions import STATES, RowSeen, choices, rows_seen, worst
 from ucm_cts.harness.results import FailedExecution, IncidentReport, Report, RequirementResult
-from ucm_cts.harness.scenarios.purposes import PARTS
 from ucm_cts.reference_models.life_cycle import LifeCycleTable, State
 
 FINDINGS = 3

@@ -11,13 +11,13 @@ import ucm_cts
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.known_failures import KnownFailure
+from ucm_cts.harness.profiles import PARTS
 from ucm_cts.harness.results import Effort, Execution, Report
 from ucm_cts.harness.running.doubts import TIMED, Doubt, Doubts
 from ucm_cts.harness.running.driver import Answer, Driver
 from ucm_cts.harness.running.incidents import finding_of_incident
 from ucm_cts.harness.running.shortening import Shortening
 from ucm_cts.harness.scenarios.payloads import Payloads
-from ucm_cts.harness.scenarios.purposes import PARTS
 from ucm_cts.harness.scenarios.scripts import TestPurpose
 from ucm_cts.harness.stating.checks import check_statement
 from ucm_cts.harness.stating.statement import Statement, default_statement

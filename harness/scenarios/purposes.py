@@ -6,6 +6,7 @@ import functools
 from collections.abc import Callable
 
 from ucm_cts.harness.catalogue import load_life_cycle, load_options, load_requirements
+from ucm_cts.harness.profiles import PARTS
 from ucm_cts.harness.scenarios.circles import circle_purposes
 from ucm_cts.harness.scenarios.container_services import container_service_purposes
 from ucm_cts.harness.scenarios.data import data_purposes
@@ -19,12 +20,6 @@ from ucm_cts.harness.scenarios.startups import startup_purposes
 from ucm_cts.harness.scenarios.stress import stress_purposes
 from ucm_cts.harness.scenarios.systematic import systematic_purposes
 from ucm_cts.harness.scenarios.unforeseen import unforeseen_purposes
-
-PROFILES = ("container", "core")
-"""What a run can choose: profiles that are complete."""
-
-PARTS = {"container": ("container",), "core": ("container", "core")}
-"""The requirements that belong to a profile, by what the catalogue files them under."""
 
 _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     overlap_purposes,

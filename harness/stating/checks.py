@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ucm_cts.harness.catalogue import Requirement
 from ucm_cts.harness.models.core_models import compare
-from ucm_cts.harness.scenarios.purposes import PARTS
+from ucm_cts.harness.profiles import PARTS
 from ucm_cts.harness.stating.applicability import asked_in_vain, why_not
 from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.harness.tally import Tally

@@ -6,14 +6,13 @@ import difflib
 import math
 from collections.abc import Collection, Iterator
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, Protocol
 
-from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue import load_options
 from ucm_cts.harness.documents import DocumentError, read_toml
 from ucm_cts.harness.hosting.locate import WrongUse, published_statement
+from ucm_cts.harness.profiles import PARTS
 from ucm_cts.harness.report.foreign import one_line
-from ucm_cts.harness.scenarios.purposes import PARTS
 from ucm_cts.harness.stating.statement import IXIT, Statement, default_statement
 
 LARGEST = 256 * 1024
@@ -29,15 +28,25 @@ def stated_by(path: Path | None, adapter: str) -> Statement:
     return read_statement(path) if path is not None else default_statement()
 
 
-def check_subject(statement: Statement, identity: Welcome, profile: str) -> None:
-    """Is ``statement`` about the product that the adapter tells, and about ``profile``? Raises ``WrongUse`` if not."""
+class Identity(Protocol):
+    """Who says which product it is: an adapter's welcome, or the description of a tool chain."""
+
+    @property
+    def product(self) -> str: ...
+
+    @property
+    def version(self) -> str: ...
+
+
+def check_subject(statement: Statement, identity: Identity, profile: str) -> None:
+    """Is ``statement`` about the product that ``identity`` tells, and about ``profile``? Raises ``WrongUse`` if not."""
     for what, stated, told in (
         ("product", statement.product, identity.product),
         ("version", statement.version, identity.version),
     ):
         if stated and one_line(stated) != one_line(told):
             raise WrongUse(
-                f"{statement.source} is about {what} '{one_line(stated, 80)}', and the adapter says '{one_line(told, 80)}'; "
+                f"{statement.source} is about {what} '{one_line(stated, 80)}', and the product under test says it is '{one_line(told, 80)}'; "
                 "check whom it is about and correct it there"
             )
     if profile not in statement.profiles:

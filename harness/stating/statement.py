@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue import load_capabilities, load_options
-from ucm_cts.harness.scenarios.purposes import PARTS
+from ucm_cts.harness.profiles import PARTS
 from ucm_cts.reference_models.claims import TOLERANCES, Claims
 
 HOOKS = ("transport-fault", "connector-fault", "trace-sink")

@@ -13,8 +13,8 @@ import ucm_cts
 from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue import Interpretation, load_capabilities, load_interpretations
 from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.profiles import PARTS
 from ucm_cts.harness.report.foreign import one_line
-from ucm_cts.harness.scenarios.purposes import PARTS
 from ucm_cts.harness.stating.files import stated_by
 from ucm_cts.harness.stating.statement import IXIT, Statement
 

@@ -11,9 +11,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+import msgspec
 from lxml import etree
 
-from ucm_cts.harness.toolchains.corpus import Question
+from ucm_cts.harness.results import FRAMEWORK_INCIDENTS
+from ucm_cts.harness.stating.statement import Statement
+from ucm_cts.harness.toolchains.campaign import Fact
+from ucm_cts.harness.toolchains.corpus import Question, questions
+from ucm_cts.harness.toolchains.processing import Made
+from ucm_cts.reference_models.findings import Finding
 
 RULES = {
     "legal_models_accepted": "A legal model that uses it is accepted, and so is each legal variant of an accepted model.",
@@ -27,12 +33,13 @@ Outcome = Literal["kept", "broken", "unclear"]
 @dataclass(frozen=True)
 class Answer:
     """What a tool chain made of a model: ``accepted`` is None if it came to no answer. ``lines`` are those that its diagnostics
-    point to, none if it does not tell them; ``told`` is the first one.
+    point to, none if it does not tell them; ``told`` is the first one. ``died`` says that the tool did not end in order.
     """
 
     accepted: bool | None
     lines: frozenset[int] = frozenset()
     told: str = ""
+    died: bool = False
 
 
 @dataclass(frozen=True)
@@ -46,20 +53,71 @@ class Judgement:
     observed: str = ""
 
 
-def judge(questions: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judgement]:
+class Acceptance:
+    """The examination of profile pim: all questions for what the vendor declares."""
+
+    def __init__(self, statement: Statement, expression: str = "") -> None:
+        """Of the questions only those whose name or requirement holds one of the words of ``expression``, and their twins."""
+        asked = [q for q in questions() if all(map(statement.meets, q.under))]
+        words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
+        if words:
+            wanted = [q for q in asked if any(w in f"{q.name} {q.requirement}".lower() for w in words)]
+            twins = {q.twin for q in wanted}
+            asked = [q for q in asked if q in wanted or q.name in twins]
+        self._questions = asked
+        self._texts = {q.name: q.text for q in asked}
+
+    @property
+    def models(self) -> Sequence[tuple[str, str]]:
+        """Name and text of each question."""
+        return tuple(self._texts.items())
+
+    def judge(self, made: dict[str, Made]) -> Iterator[Fact]:
+        """What the answers say."""
+        answers = {name: _answer(one) for name, one in made.items()}
+        for judgement in judge(self._questions, answers):
+            yield self._fact(judgement, made[judgement.question.name])
+
+    def _fact(self, judgement: Judgement, made: Made) -> Fact:
+        q = judgement.question
+        asked = (q.twin, q.name) if q.twin else (q.name,)
+        measure = f"models to {q.due}"
+        if judgement.outcome == "unclear":
+            return Fact(q.requirement, asked, unclear=judgement.observed, measure=measure)
+        if judgement.outcome == "kept":
+            return Fact(q.requirement, asked, measure=measure)
+        finding = Finding(q.requirement, judgement.rule, q.name, judgement.expected, judgement.observed)
+        processed = msgspec.structs.replace(made.processed, twin=self._texts.get(q.twin, ""))
+        return Fact(q.requirement, asked, finding, processed=processed, measure=measure)
+
+
+def _answer(made: Made) -> Answer:
+    incident = made.processed.incident
+    if incident is None:
+        first = next((line for line in made.processed.output.splitlines() if line.strip()), "")
+        return Answer(made.accepted, made.lines, first.strip()[:300])
+    told = f"{incident.kind}: {incident.detail}"
+    return Answer(None, told=told, died=incident.kind in FRAMEWORK_INCIDENTS - {"exit"})
+
+
+def judge(asked: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judgement]:
     """A judgement for each question that was answered."""
-    by_name = {q.name: q for q in questions}
+    by_name = {q.name: q for q in asked}
     refused = {
         name: constructs(by_name[name].text)
         for name, answer in answers.items()
         if answer.accepted is False and by_name[name].due == "accept" and not by_name[name].twin
     }
-    return [_judged(q, answers, refused) for q in questions if q.name in answers]
+    return [_judged(q, answers, refused) for q in asked if q.name in answers]
 
 
 def _judged(q: Question, answers: Mapping[str, Answer], refused: Mapping[str, frozenset[str]]) -> Judgement:
     answer = answers[q.name]
     rule = "legal_models_accepted" if q.due == "accept" else "broken_models_refused"
+    if answer.died:
+        return Judgement(
+            q, rule, "broken", f"the model is {'accepted' if q.due == 'accept' else 'refused'}", answer.told
+        )
     if answer.accepted is None:
         return Judgement(q, rule, "unclear", observed=f"no answer: {answer.told}")
     twin = answers.get(q.twin) if q.twin else None

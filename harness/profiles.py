@@ -1,0 +1,24 @@
+"""The profiles: what a run can certify, and which requirements belong to each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+FRAMEWORK_PROFILES = ("container", "core")
+"""Of running frameworks, behind an adapter."""
+
+TOOLCHAIN_PROFILES = ("pim", "idl", "cpp11", "cpp03")
+"""Of tool chains, behind command lines."""
+
+PROFILES = (*FRAMEWORK_PROFILES, *TOOLCHAIN_PROFILES)
+"""What a run can choose, once nothing of it is pending."""
+
+PARTS: Mapping[str, tuple[str, ...]] = {
+    "container": ("container",),
+    "core": ("container", "core"),
+    "pim": ("pim",),
+    "idl": ("idl",),
+    "cpp11": ("cpp", "cpp11"),
+    "cpp03": ("cpp", "cpp03"),
+}
+"""The requirements that belong to a profile, by what the catalogue files them under."""

@@ -1,0 +1,159 @@
+"""One run against a tool chain: ask, judge, take a second look, and add up; the counterpart of ``running/campaign.py``."""
+
+from __future__ import annotations
+
+import datetime
+import os
+import time
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from typing import Protocol
+
+import msgspec
+
+import ucm_cts
+from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.harness.known_failures import KnownFailure
+from ucm_cts.harness.profiles import PARTS
+from ucm_cts.harness.results import Effort, Processed, Report
+from ucm_cts.harness.stating.statement import Statement
+from ucm_cts.harness.tally import Tally, overall
+from ucm_cts.harness.toolchains.description import Task
+from ucm_cts.harness.toolchains.processing import Made, Processor
+from ucm_cts.reference_models.findings import Finding
+
+TASKS: dict[str, Task] = {"pim": "check", "idl": "idl", "cpp11": "cpp11", "cpp03": "cpp03"}
+"""What a tool chain is asked to do for each profile."""
+
+
+class Fact(msgspec.Struct, frozen=True):
+    """One thing that what was made of a model says of a requirement.
+
+    ``finding`` is None where it was kept. ``unclear`` says why it says nothing, and then counts for nothing. ``asked`` are the
+    names of the models whose processing it rests on, the last one being that which shows it.
+    """
+
+    requirement: str
+    asked: tuple[str, ...]
+    finding: Finding | None = None
+    unclear: str = ""
+    processed: Processed | None = None
+    measure: str = ""
+
+
+class Examination(Protocol):
+    """What a profile asks of a tool chain, and how it judges what comes of it."""
+
+    @property
+    def models(self) -> Sequence[tuple[str, str]]:
+        """The models to be processed, each with its name, simple ones first."""
+
+    def judge(self, made: dict[str, Made]) -> Iterable[Fact]:
+        """What ``made``, by the names of the models, says."""
+
+
+class ToolChainCampaign:
+    """Asks a tool chain all that belongs to a profile. Use ``ask`` once, then ``judge`` and ``look_again``, then ``report``."""
+
+    def __init__(
+        self,
+        processor: Processor,
+        examination: Examination,
+        identity: tuple[str, str],
+        profile: str,
+        statement: Statement,
+        known_failures: Sequence[KnownFailure] = (),
+        jobs: int = os.cpu_count() or 1,
+        source: str = "",
+    ) -> None:
+        """``identity`` is the product and its version, ``source`` the file that describes it."""
+        self._processor = processor
+        self._examination = examination
+        self._identity = identity
+        self._profile = profile
+        self._statement = statement
+        self._known = known_failures
+        self._jobs = jobs
+        self._source = source
+        self._made: dict[str, Made] = {}
+        self._facts: list[Fact] = []
+        self._tally = Tally()
+        self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
+        self._measures: Counter[str] = Counter()
+        self._began = time.monotonic()
+        self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
+
+    def ask(self) -> Iterator[str]:
+        """Have each model processed, several at a time; yields the name of each when it is done."""
+        task = TASKS[self._profile]
+        waiting = iter(self._examination.models)
+        running: dict[Future[Made], str] = {}
+        with ThreadPoolExecutor(self._jobs) as pool:
+            try:
+                while True:
+                    for name, text in waiting:
+                        running[pool.submit(self._processor.process, task, name, text)] = name
+                        if len(running) >= 2 * self._jobs:
+                            break
+                    if not running:
+                        return
+                    done, _ = wait(running, return_when=FIRST_COMPLETED)
+                    for future in done:
+                        name = running.pop(future)
+                        self._made[name] = future.result()
+                        yield name
+            finally:
+                pool.shutdown(cancel_futures=True)
+
+    def judge(self) -> None:
+        """Judge what was made so far."""
+        self._facts = list(self._examination.judge(self._made))
+        for fact in self._facts:
+            self._measures[fact.measure or "facts"] += 1
+            if fact.unclear:
+                self._tally.settle(fact.requirement, "inconclusive", f"{fact.asked[-1]}: {fact.unclear}")
+                continue
+            self._tally.exercised[fact.requirement] += 1
+            if fact.finding is not None:
+                self._tally.add_failure(fact.finding, None, fact.processed)
+
+    def look_again(self) -> Iterator[str]:
+        """Have what broke a requirement processed once more: what does not show again is unstable, and no verdict.
+
+        One model for each requirement is enough; yields each requirement.
+        """
+        texts = dict(self._examination.models)
+        broken = {fact.requirement: fact for fact in reversed(self._facts) if fact.finding is not None}
+        for requirement, fact in broken.items():
+            again = {name: self._processor.process(TASKS[self._profile], name, texts[name]) for name in fact.asked}
+            facts = self._examination.judge(self._made | again)
+            shown = any(f.requirement == requirement and f.finding and f.asked == fact.asked for f in facts)
+            if not shown and fact.finding is not None:
+                self._tally.doubt_processed(
+                    fact.finding, fact.processed, "a second try of the same model did not show it"
+                )
+            yield requirement
+
+    def report(self) -> Report:
+        """All verdicts of the run so far."""
+        results = self._tally.results(self._requirements, self._known)
+        return Report(
+            product=self._identity[0],
+            version=self._identity[1],
+            profile=self._profile,
+            verdict=overall(results, ()),
+            requirements=results,
+            transitions=self._tally.transitions(load_life_cycle())[:0],
+            incidents=(),
+            adapter=self._source,
+            suite_version=ucm_cts.__version__,
+            seed=0,
+            started=self._started,
+            seconds=round(time.monotonic() - self._began, 3),
+            scenarios=len(self._made),
+            events=len(self._facts),
+            statement=self._statement,
+            readings={},
+            effort=Effort(dict(self._measures.most_common())),
+        )
