@@ -10,6 +10,7 @@ from typing import Any
 import msgspec
 import yaml
 
+from ucm_cts.harness.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.results import Execution, FailedExecution, Report
 
@@ -21,10 +22,13 @@ STATEMENT = f"{FOLDER}/ics.toml"
 _ODD = re.compile(r"[^A-Za-z0-9._-]+")
 
 
-def file_name(requirement: str, number: int) -> str:
-    """Where the ``number``-th failure (from 0, the shortest) of a requirement is saved, relative to the report."""
+def file_name(requirement: str, number: int, kind: str = "json") -> str:
+    """Where the ``number``-th failure (from 0, the shortest) of a requirement is saved, relative to the report.
+
+    ``kind`` is ``json`` for a scenario, ``xml`` for a model.
+    """
     stem = _ODD.sub("-", requirement)[:80].lstrip(".") or "unnamed"
-    return f"{FOLDER}/{stem}{f'-{number + 1}' if number else ''}.json"
+    return f"{FOLDER}/{stem}{f'-{number + 1}' if number else ''}.{kind}"
 
 
 def shortest_first(findings: tuple[FailedExecution, ...]) -> list[FailedExecution]:
@@ -59,6 +63,8 @@ def repeat_command(report: Report) -> str:
     source = report.statement.source
     statement = f" --ics {shlex.quote(one_line(source))}" if source else ""
     runs = f" --repeat {report.runs}" if report.runs > 1 else ""
+    if report.profile in TOOLCHAIN_PROFILES:
+        return f"ucm-cts run --toolchain {adapter} --profile {profile}{statement}"
     return f"ucm-cts run {adapter} --profile {profile} --seed {report.seed}{runs}{statement}"
 
 
@@ -67,14 +73,20 @@ def saved(execution: Execution, exercises: tuple[str, ...]) -> dict[str, Any]:
     return {"scenario": execution.name, "exercises": list(exercises), **msgspec.to_builtins(execution.scenario)}
 
 
-def all_files(report: Report) -> Iterator[tuple[str, dict[str, Any]]]:
+def all_files(report: Report) -> Iterator[tuple[str, bytes]]:
     """Every file to write, by its name relative to the report."""
     for result in report.requirements:
         for number, failed in enumerate(shortest_first(result.findings)):
             if failed.execution is not None:
-                yield file_name(result.id, number), saved(failed.execution, (result.id,))
+                yield file_name(result.id, number), _json(saved(failed.execution, (result.id,)))
+            if failed.processed is not None:
+                yield file_name(result.id, number, "xml"), failed.processed.model.encode(errors="replace")
     for number, incident in enumerate(report.incidents):
-        yield incident_file(number), saved(incident.execution, ())
+        yield incident_file(number), _json(saved(incident.execution, ()))
+
+
+def _json(content: dict[str, Any]) -> bytes:
+    return msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n"
 
 
 def scenario_text(execution: Execution, longest: int = 60) -> str:

@@ -12,7 +12,7 @@ import jinja2
 from markupsafe import Markup
 
 from ucm_cts.harness.catalogue import Requirement
-from ucm_cts.harness.profiles import PARTS
+from ucm_cts.harness.profiles import PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.harness.report import life_cycle_diagram, sequence_svg
 from ucm_cts.harness.report.excerpt import compare, excerpt
 from ucm_cts.harness.report.failures import (
@@ -24,6 +24,7 @@ from ucm_cts.harness.report.failures import (
     shortest_first,
 )
 from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.report.models import ModelLine, command_text, ending, model_lines
 from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, clause_key, count, to_fix
 from ucm_cts.harness.report.sequence import last_call
 from ucm_cts.harness.report.sequence_text import failure_text, to_text
@@ -59,11 +60,14 @@ class Evidence:
     expected: Markup = NOTHING
     text: str = ""
     steady: Markup = NOTHING
+    model: tuple[ModelLine, ...] = ()
+    ending: str = ""
 
     @property
     def size(self) -> int:
         """Bytes it adds to the page."""
-        return sum(len(part.encode()) for part in (self.scenario, self.observed, self.expected, self.text, self.steady))
+        parts = (self.scenario, self.observed, self.expected, self.text, self.steady, *(m.text for m in self.model))
+        return sum(len(part.encode()) for part in parts)
 
 
 @dataclass(frozen=True)
@@ -141,6 +145,7 @@ def to_html(
         script=Markup(script),
         digest=digest,
         repeat=repeat_command(report),
+        of_models=report.profile in TOOLCHAIN_PROFILES,
     )
 
 
@@ -166,7 +171,10 @@ def _items(report: Report, catalogue: Sequence[Requirement], interpretations: Ma
 
 
 def _evidence(failed: FailedExecution, file: str, report: Report, drawn: bool) -> Evidence:
-    execution = failed.execution
+    execution, processed = failed.execution, failed.processed
+    if processed is not None:
+        command = command_text(processed, file.removesuffix("json") + "xml")
+        return Evidence(failed, command, model=tuple(model_lines(processed)) if drawn else (), ending=ending(processed))
     if execution is None:
         return Evidence(failed, "")
     command = replay_command(file, report)

@@ -32,6 +32,10 @@ TRACE = 500
 """So many events, the last ones, are written of the traces of what is unstable."""
 
 
+OUTPUT = 4_000
+"""So many characters of what a command printed are written."""
+
+
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Base of the values of ``report.json``: every field is always there."""
 
@@ -39,7 +43,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 class FindingEntry(Entry, frozen=True):
     """One cause of failure: what was expected and observed, in which scenario, and the file that replays it.
 
-    ``scenario`` and ``replay`` are empty where models or the vendor's statement show it and nothing was run. ``unstable`` says
+    Of a tool chain ``scenario`` names a model, ``model`` is the file that holds it, ``command`` was given it, and ``status`` and
+    ``output`` came of it; ``place`` is in a generated file. ``scenario`` and ``replay`` are empty where models or the vendor's statement show it and nothing was run. ``unstable`` says
     why it is not held against the framework, and is empty if it is; then ``trace`` is one that shows it, and ``steady`` one of
     the same scenario that does not, if there is one.
     """
@@ -53,6 +58,11 @@ class FindingEntry(Entry, frozen=True):
     scenario: str
     events: tuple[Event, ...]
     replay: str
+    model: str = ""
+    command: tuple[str, ...] = ()
+    status: int | None = None
+    output: str = ""
+    place: str = ""
     trace: tuple[Event, ...] = ()
     steady: tuple[Event, ...] = ()
 
@@ -182,7 +192,7 @@ def _requirement(result: RequirementResult, known: Mapping[str, Requirement]) ->
 
 
 def _finding(failed: FailedExecution, replay: str) -> FindingEntry:
-    suspects, execution = set(failed.finding.events), failed.execution
+    suspects, execution, processed = set(failed.finding.events), failed.execution, failed.processed
     events = tuple(event for event in execution.trace if event.n in suspects) if execution is not None else ()
     return FindingEntry(
         rule=failed.finding.rule,
@@ -191,9 +201,14 @@ def _finding(failed: FailedExecution, replay: str) -> FindingEntry:
         occurrences=failed.occurrences,
         waived=failed.waived,
         unstable=failed.unstable,
-        scenario=execution.name if execution is not None else "",
+        scenario=execution.name if execution is not None else processed.name if processed is not None else "",
         events=events[:EVENTS],
         replay=replay if execution is not None else "",
+        model=replay.removesuffix("json") + "xml" if processed is not None else "",
+        command=processed.command if processed is not None else (),
+        status=processed.status if processed is not None else None,
+        output=processed.output[:OUTPUT] if processed is not None else "",
+        place=processed.place if processed is not None else "",
         trace=_trace(execution) if failed.unstable else (),
         steady=_trace(failed.steady),
     )

@@ -10,6 +10,7 @@ from ucm_cts.harness.catalogue import Requirement
 from ucm_cts.harness.report.excerpt import excerpt
 from ucm_cts.harness.report.failures import file_name, incident_file, replay_command, shortest_first
 from ucm_cts.harness.report.foreign import clean, one_line
+from ucm_cts.harness.report.models import command_text, processed_text
 from ucm_cts.harness.report.sequence import last_call
 from ucm_cts.harness.report.sequence_text import failure_text, to_text
 from ucm_cts.harness.results import IncidentReport, Report, RequirementResult
@@ -87,6 +88,9 @@ def _story(result: RequirementResult, report: Report) -> str:
         if failed.execution is not None:
             parts[-1] += f"replay:   {replay_command(file_name(result.id, number), report)}\n\n"
             parts[-1] += failure_text(finding, failed.execution)
+        if failed.processed is not None:
+            file = file_name(result.id, number, "xml")
+            parts[-1] += f"again:    {command_text(failed.processed, file)}\n\n{processed_text(failed.processed)}"
         if failed.steady is not None:
             parts.append(f"not shown when it was run again:\n\n{to_text(excerpt(failed.steady))}")
     if len(shortest) > FINDINGS:

@@ -8,6 +8,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from ucm_cts.harness.known_failures import all_known
+from ucm_cts.harness.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.report.failures import shortest_first
 from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.order import SYMBOLS, count, to_fix
@@ -62,10 +63,11 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
 
 def _counts(report: Report) -> Text:
     line = Text("  ")
+    what = ("models", "facts") if report.profile in TOOLCHAIN_PROFILES else ("scenarios", "events")
     for verdict, number in count(report.requirements).items():
         if number:
             line.append(f"{SYMBOLS[verdict]} {number} {verdict}", _COLOURS[verdict]).append("   ")
-    line.append(f"{report.scenarios:,} scenarios, {report.events:,} events, {report.seconds:.1f} s", "dim")
+    line.append(f"{report.scenarios:,} {what[0]}, {report.events:,} {what[1]}, {report.seconds:.1f} s", "dim")
     return line
 
 

@@ -7,8 +7,6 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-import msgspec
-
 from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_life_cycle, load_requirements
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.profiles import PARTS
@@ -64,14 +62,14 @@ def write_failures(report: Report, out: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     names = set()
     for name, content in all_files(report):
-        write_whole(out / name, msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n")
+        write_whole(out / name, content)
         names.add(out / name)
     if cleaned.statement.source:
         text = to_toml(cleaned.statement, one_line(cleaned.adapter), STATEMENT)
         write_whole(out / STATEMENT, text.encode())
     else:
         (out / STATEMENT).unlink(missing_ok=True)
-    for stale in set(folder.glob("*.json")) - names:
+    for stale in {*folder.glob("*.json"), *folder.glob("*.xml")} - names:
         stale.unlink(missing_ok=True)
 
 

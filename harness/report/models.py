@@ -1,0 +1,74 @@
+"""A tool chain's evidence for people: the model, with what tells it from its legal twin, the command, and what came of it."""
+
+from __future__ import annotations
+
+import difflib
+import shlex
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ucm_cts.harness.results import Processed
+
+AROUND = 4
+"""Lines shown before and after each one that was changed."""
+
+LONGEST = 60
+"""Lines of a model that is shown without a twin."""
+
+
+@dataclass(frozen=True)
+class ModelLine:
+    """A line of a model: ``mark`` is ``+`` for one that its legal twin has not, ``-`` for one that only the twin has, a blank
+    for others, and ``…`` where lines are left out; ``number`` counts in the model itself, None for the twin's.
+    """
+
+    mark: str
+    number: int | None
+    text: str
+
+
+def model_lines(processed: Processed) -> list[ModelLine]:
+    """The model of ``processed``, reduced to what matters."""
+    lines = processed.model.splitlines()
+    if not processed.twin:
+        shown = [ModelLine(" ", number, line) for number, line in enumerate(lines[:LONGEST], 1)]
+        left = len(lines) - len(shown)
+        return [*shown, ModelLine("…", None, f"{left} more lines")] if left else shown
+    before = processed.twin.splitlines()
+    found: list[ModelLine] = []
+    for group in difflib.SequenceMatcher(None, before, lines, autojunk=False).get_grouped_opcodes(AROUND):
+        if found or group[0][3] > 0:
+            found.append(ModelLine("…", None, ""))
+        for kind, first, last, start, end in group:
+            if kind in ("replace", "delete"):
+                found += [ModelLine("-", None, line) for line in before[first:last]]
+            mark = " " if kind == "equal" else "+"
+            found += [ModelLine(mark, start + at + 1, line) for at, line in enumerate(lines[start:end])]
+    return found
+
+
+def model_text(lines: Sequence[ModelLine]) -> str:
+    """``lines`` with their numbers."""
+    return "\n".join(f"{line.mark} {line.number or '':>4}  {line.text}".rstrip() for line in lines)
+
+
+def command_text(processed: Processed, file: str) -> str:
+    """The command that processes ``file``, the saved model, again."""
+    return shlex.join(word.replace("model.xml", file) for word in processed.command)
+
+
+def ending(processed: Processed) -> str:
+    """How the command ended."""
+    if processed.incident is not None:
+        return f"{processed.incident.kind}: {processed.incident.detail}"
+    return f"exit status {processed.status}"
+
+
+def processed_text(processed: Processed) -> str:
+    """All of it as plain text, for a CI's log."""
+    parts = [f"model {processed.name}", model_text(model_lines(processed)), f"{ending(processed)}"]
+    if processed.output:
+        parts.append(f"output:\n{processed.output.rstrip()}")
+    if processed.place:
+        parts.append(f"{processed.place}:\n{processed.excerpt}")
+    return "\n\n".join(parts)
