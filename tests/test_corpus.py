@@ -1,0 +1,45 @@
+"""Cases and operators against the reference tool chain: two independent readings of clause 9, which must agree."""
+
+from __future__ import annotations
+
+import pytest
+
+from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.harness.toolchains.corpus import Question, load_operators, questions
+
+PROGRAM = reference()
+REQUIREMENTS = {r.id: r for r in load_requirements()}
+DEFAULT = [q for q in questions() if all(map(default_statement().meets, q.under))]
+
+
+@pytest.mark.parametrize("question", DEFAULT, ids=lambda q: q.name)
+def test_the_reference_tool_chain_answers_as_it_must(question: Question) -> None:
+    _, told = PROGRAM.check(question.text.encode(), "model.xml")
+    if question.due == "accept":
+        assert not told, "\n".join(map(str, told))
+        return
+    assert told, f"accepted, though {question.because}"
+    reasons = {d.requirement for d in told if d.requirement}
+    assert not reasons or question.requirement in reasons, "refused for something else:\n" + "\n".join(map(str, told))
+
+
+def test_questions_have_names_of_their_own_and_known_requirements() -> None:
+    names = [q.name for q in questions()]
+    assert len(set(names)) == len(names)
+    for q in questions():
+        assert REQUIREMENTS[q.requirement].profile == "pim", q.name
+
+
+def test_every_requirement_has_the_models_that_its_rules_promise() -> None:
+    asked = {(q.requirement, q.due) for q in DEFAULT}
+    for requirement in REQUIREMENTS.values():
+        if requirement.profile == "pim":
+            for rule, due in (("legal_models_accepted", "accept"), ("broken_models_refused", "refuse")):
+                assert ((requirement.id, due) in asked) == (rule in requirement.rules), f"{requirement.id}: {rule}"
+
+
+def test_every_operator_finds_a_place() -> None:
+    used = {q.name.partition("/")[0] for q in questions()}
+    assert not load_operators().keys() - used
