@@ -1,0 +1,52 @@
+"""Our schema of UCM models: is a model in canonical spelling built as clause 9 says, whatever its names refer to?"""
+
+from __future__ import annotations
+
+import functools
+from typing import Any, NamedTuple
+
+import xmlschema
+from lxml import etree
+
+from ucm_cts.harness.catalogue import SUITE
+
+SCHEMA = SUITE / "models" / "ucm.xsd"
+
+
+class Violation(NamedTuple):
+    """A line, counted from 1, and what the schema has against it."""
+
+    line: int
+    message: str
+
+
+@functools.cache
+def schema() -> etree.XMLSchema:
+    """The schema as libxml2 understands it, which is fast. Validating with it is not safe in several threads."""
+    return etree.XMLSchema(etree.parse(SCHEMA))
+
+
+@functools.cache
+def second_opinion() -> xmlschema.XMLSchema10:
+    """The same schema as xmlschema understands it, which is slow, and tells more."""
+    return xmlschema.XMLSchema10(str(SCHEMA))
+
+
+def parser() -> etree.XMLParser:
+    """For models that come from others: no entities, no network, bounded depth and text."""
+    return etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False)
+
+
+def violations(xml: bytes) -> list[Violation]:
+    """What the schema has against the model ``xml``; nothing if it is as it should be."""
+    try:
+        root = etree.fromstring(xml, parser())
+    except etree.XMLSyntaxError as error:
+        return [Violation(error.lineno or 1, f"is not XML: {error.msg}")]
+    about: Any = root.getroottree().docinfo
+    if about.doctype:
+        return [Violation(1, "has a document type")]
+    known = schema()
+    known.validate(root)
+    log: Any = known.error_log
+    return [Violation(error.line, error.message) for error in log]
