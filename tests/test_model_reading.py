@@ -333,8 +333,8 @@ def test_all_is_told() -> None:
         ("missing attribute", 2),
         ("text", 3),
         ("unknown element", 4),
-        ("missing attribute", 5),
         ("unknown attribute", 5),
+        ("missing attribute", 5),
         ("bad literal", 6),
     ]
 
