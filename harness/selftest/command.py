@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import click
@@ -19,6 +19,7 @@ from ucm_cts.harness.selftest.killing import Subject, Thoroughness, all_mutants,
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult, by_clause
 from ucm_cts.harness.selftest.models_killing import all_models
 from ucm_cts.harness.selftest.page import write_matrix
+from ucm_cts.harness.selftest.toolchains import ToolChainSubject, all_subjects
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
 
 TOLD_EVERY = 50
@@ -41,9 +42,17 @@ LISTED = 40
     show_default=True,
     help="Where the kill matrix goes: matrix.html and matrix.json.",
 )
+@click.option("--toolchains", is_flag=True, help="Examine tool chains, derived from the reference tool chain.")
 @click.option("--list", "listed", is_flag=True, help="Name all mutants and variants, and run nothing.")
 def selftest(
-    names_wanted: Sequence[str], quick: bool, whole: bool, jobs: int, seed: int, out: Path, listed: bool
+    names_wanted: Sequence[str],
+    quick: bool,
+    whole: bool,
+    jobs: int,
+    seed: int,
+    out: Path,
+    toolchains: bool,
+    listed: bool,
 ) -> None:
     """Run the suite on subjects whose verdict is known: mutants, each with one defect, conformant variants, and cheats.
 
@@ -52,10 +61,17 @@ def selftest(
     is failed, or a cheat not found out.
     """
     console = Output()
-    mutants, variants = all_mutants(), all_variants()
-    chosen = list(names(mutants | variants, names_wanted, all_cheats()))
-    cheats = [name for name in all_cheats() if name in names_wanted or not names_wanted]
-    models = () if names_wanted else all_models()
+    subjects: Mapping[str, Subject | ToolChainSubject]
+    cheats: list[str] = []
+    models: tuple[str, ...] = ()
+    if toolchains:
+        subjects = all_subjects()
+        chosen = list(names(subjects, names_wanted))
+    else:
+        subjects = {**all_mutants(), **all_variants()}
+        chosen = list(names(subjects, names_wanted, all_cheats()))
+        cheats = [name for name in all_cheats() if name in names_wanted or not names_wanted]
+        models = () if names_wanted else all_models()
     if listed:
         _list(chosen, cheats, models, console)
         return
@@ -67,10 +83,11 @@ def selftest(
         models,
         cheats if names_wanted or not quick else [],
         is_all=not (names_wanted or quick),
+        of_toolchains=toolchains,
     )
     if not conduct.number:
         raise WrongUse("--quick leaves conformant variants out, and nobody else is named; leave out --quick")
-    if not any(subject.is_native for subject in mutants.values()):
+    if not toolchains and not any(isinstance(s, Subject) and s.is_native for s in subjects.values()):
         console.print("native mutants are left out: their executable comes with an installed ucm-cts, and is not here")
     prepare_folder(out)
     interrupted = _conduct(conduct, console)
@@ -83,7 +100,9 @@ def selftest(
     sys.exit(0 if conduct.matrix.is_proved and not interrupted else 1)
 
 
-def _list(chosen: Sequence[Subject], cheats: Sequence[str], models: Sequence[str], console: Output) -> None:
+def _list(
+    chosen: Sequence[Subject | ToolChainSubject], cheats: Sequence[str], models: Sequence[str], console: Output
+) -> None:
     for subject in chosen:
         told = f"breaks {', '.join(subject.breaks)}: {subject.lie}" if subject.breaks else "is conformant"
         console.print(f"{subject.name} {told}", markup=False, soft_wrap=True)

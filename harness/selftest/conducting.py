@@ -22,6 +22,7 @@ from ucm_cts.harness.selftest.killing import (
 )
 from ucm_cts.harness.selftest.matrix import CheatResult, Matrix, MutantResult, VariantResult
 from ucm_cts.harness.selftest.models_killing import examine_models
+from ucm_cts.harness.selftest.toolchains import ToolChainSubject, examine_toolchain, testable_of_toolchains
 from ucm_cts.reference_models.ledger import RULES
 
 Result = MutantResult | VariantResult | CheatResult
@@ -34,13 +35,14 @@ ALL_CHECKS = RULES.keys() | CHECKS.keys()
 class Conduct:
     """A self-test under way; ``matrix`` tells what is known at any time, also after an interrupt."""
 
-    mutants: Sequence[Subject]
-    variants: Sequence[Subject]
+    mutants: Sequence[Subject | ToolChainSubject]
+    variants: Sequence[Subject | ToolChainSubject]
     how: Thoroughness
     jobs: int
     models: Sequence[str] = ()
     cheats: Sequence[str] = ()
     is_all: bool = False
+    of_toolchains: bool = False
     _done: dict[str, Result] = field(default_factory=dict)
     _began: float = field(default_factory=time.monotonic)
 
@@ -54,7 +56,10 @@ class Conduct:
         self._examine_all(self.cheats, tell, uses=1)  # they run beside the harness, and may leave anything behind
 
     def _examine_all(
-        self, subjects: Sequence[Subject | str], tell: Callable[[Result], None], uses: int | None = None
+        self,
+        subjects: Sequence[Subject | ToolChainSubject | str],
+        tell: Callable[[Result], None],
+        uses: int | None = None,
     ) -> None:
         """Several at a time; no process examines more of them than it has ``uses``."""
         context = multiprocessing.get_context("spawn")
@@ -89,7 +94,7 @@ class Conduct:
             ucm_cts.__version__,
             self.how.seed,
             round(time.monotonic() - self._began, 1),
-            testable(),
+            testable_of_toolchains() if self.of_toolchains else testable(),
             tuple(sorted((r for r in results if isinstance(r, MutantResult)), key=_by_name)),
             tuple(sorted((r for r in results if isinstance(r, VariantResult)), key=_by_name)),
             self.how.whole,
@@ -108,13 +113,15 @@ def testable() -> tuple[str, ...]:
     return tuple(r.id for r in load_requirements() if r.level != "may" and any(rule in ALL_CHECKS for rule in r.rules))
 
 
-def _examine(subject: Subject | str, how: Thoroughness) -> Result:
+def _examine(subject: Subject | ToolChainSubject | str, how: Thoroughness) -> Result:
     if isinstance(subject, str):
         return examine_cheat(all_cheats()[subject])
+    if isinstance(subject, ToolChainSubject):
+        return examine_toolchain(subject)
     return examine_mutant(subject, how) if subject.breaks else examine_variant(subject, how)
 
 
-def _result(future: Future[Result], subject: Subject | str) -> Result:
+def _result(future: Future[Result], subject: Subject | ToolChainSubject | str) -> Result:
     try:
         return future.result()
     except BrokenProcessPool:

@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeVar
 
 import msgspec
 
@@ -250,7 +251,10 @@ def _right_traces(adapter: str, seed: int) -> _RightTraces:
     return _RightTraces(adapter, seed)
 
 
-def names(subjects: Mapping[str, Subject], wanted: Sequence[str], others: Collection[str] = ()) -> Iterator[Subject]:
+T = TypeVar("T")
+
+
+def names(subjects: Mapping[str, T], wanted: Sequence[str], others: Collection[str] = ()) -> Iterator[T]:
     """The ``wanted`` ones of ``subjects``, all if none is named. Raises ``WrongUse`` if one is not even among ``others``."""
     for name in wanted:
         if name not in subjects and name not in others:

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import NoReturn
 
 import ucm_cts
-from ucm_cts.harness.catalogue import in_the_making
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.known_failures import known_today, stale, succeeded
 from ucm_cts.harness.options import CONFORMANT, NOT_CONFORMANT, leave
@@ -15,11 +14,11 @@ from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import prepare_folder, save_report
 from ucm_cts.harness.stating.files import check_subject, read_statement
-from ucm_cts.harness.stating.statement import Statement, default_statement
+from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
-from ucm_cts.harness.toolchains.acceptance import Acceptance
-from ucm_cts.harness.toolchains.campaign import TASKS, Examination, ToolChainCampaign
+from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
 from ucm_cts.harness.toolchains.description import read_toolchain
+from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.processing import CommandLine
 
 
@@ -66,14 +65,6 @@ def certify_toolchain(
         console.print("interrupted: the report holds what was measured so far")
     status = NOT_CONFORMANT if outdated or interrupted or not succeeded(report) else CONFORMANT
     leave(console, status, f"; the report is in {out}")
-
-
-def examination_for(profile: str, statement: Statement, expression: str = "") -> Examination:
-    """What ``profile`` asks, as far as it concerns ``expression`` and what the vendor states. Raises ``WrongUse``."""
-    unfinished = in_the_making(profile)
-    if unfinished:
-        raise WrongUse(unfinished)
-    return Acceptance(statement, expression)
 
 
 def _conduct(campaign: ToolChainCampaign, models: int, console: Output) -> bool:

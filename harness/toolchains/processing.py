@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
+from ucm_cts.adapters.toolchain.program import Program
 from ucm_cts.harness.results import Incident, Processed
 from ucm_cts.harness.toolchains.description import MODEL, OUT, Command, Task, ToolChain, program
 
@@ -76,6 +77,28 @@ class CommandLine:
                 return Made(processed, None)
             accepted = ended.status == 0
             return Made(processed, accepted, named_lines(output, command.diagnostic), _files(out) if accepted else {})
+
+
+class InProcess:
+    """A tool chain of ours in this very process, for the self-test: quick, and not isolated."""
+
+    def __init__(self, program: Program) -> None:
+        self._program = program
+
+    def process(self, task: Task, name: str, text: str) -> Made:
+        files: Mapping[str, str] = {}
+        try:
+            if task == "check":
+                _, told = self._program.check(text.encode(), MODEL_FILE)
+            else:
+                files, told = self._program.generate(task, text.encode(), MODEL_FILE)
+        except Exception as problem:  # noqa: BLE001 - a mutant may do anything
+            incident = Incident("crash", f"{type(problem).__name__}: {problem}")
+            return Made(Processed(name, task, text, ("ucm-cts-toolchain", task), None, "", incident), None)
+        output = "".join(f"{diagnostic}\n" for diagnostic in told)
+        status = 1 if told else 0
+        processed = Processed(name, task, text, ("ucm-cts-toolchain", task, MODEL_FILE), status, output)
+        return Made(processed, not told, frozenset(diagnostic.line for diagnostic in told), files)
 
 
 def named_lines(output: str, diagnostic: str) -> frozenset[int]:
