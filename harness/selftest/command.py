@@ -66,7 +66,7 @@ def selftest(
     models: tuple[str, ...] = ()
     if toolchains:
         subjects = all_subjects()
-        chosen = list(names(subjects, names_wanted))
+        chosen: list[Subject | ToolChainSubject] = list(names(subjects, names_wanted))
     else:
         subjects = {**all_mutants(), **all_variants()}
         chosen = list(names(subjects, names_wanted, all_cheats()))
