@@ -122,12 +122,11 @@ def run(
     executable, tcp://host:port or unix:/path. Exit status: 0 conformant, 1 not conformant or inconclusive, 2 wrong
     use, 3 the harness failed.
     """
+    drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
     if toolchain is not None:
-        _refuse(
-            context, ("adapter", "seed", "repeat", "in_process", "timeout", "memory", "incident_time", "systematic")
-        )
+        _refuse(context, ("adapter", "repeat", "in_process", "timeout", "memory", "incident_time", "systematic"))
         chosen = profile if _is_given(context, "profile") else TOOLCHAIN_PROFILES[0]
-        certify_toolchain(toolchain, chosen, expression, out, known_failures, ics)
+        certify_toolchain(toolchain, chosen, expression, out, known_failures, ics, drawn)
     if profile in TOOLCHAIN_PROFILES:
         raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
     console = Output()
@@ -138,7 +137,6 @@ def run(
         purposes = select(purposes, expression)
         if not purposes:
             raise WrongUse(f"no test purpose matches -k '{expression}'; try a requirement, a clause or an operation")
-    drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
     limits = Limits(timeout, memory, incident_seconds=incident_time)
     door = locate(adapter, in_process)
     reports: list[Report] = []

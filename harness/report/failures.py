@@ -64,7 +64,7 @@ def repeat_command(report: Report) -> str:
     statement = f" --ics {shlex.quote(one_line(source))}" if source else ""
     runs = f" --repeat {report.runs}" if report.runs > 1 else ""
     if report.profile in TOOLCHAIN_PROFILES:
-        return f"ucm-cts run --toolchain {adapter} --profile {profile}{statement}"
+        return f"ucm-cts run --toolchain {adapter} --profile {profile} --seed {report.seed}{statement}"
     return f"ucm-cts run {adapter} --profile {profile} --seed {report.seed}{runs}{statement}"
 
 

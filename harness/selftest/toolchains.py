@@ -16,6 +16,7 @@ from ucm_cts.harness.results import RequirementResult
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
 from ucm_cts.harness.stating.statement import Statement, default_statement
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
+from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.processing import InProcess
 
@@ -51,7 +52,7 @@ def examine_toolchain(subject: ToolChainSubject) -> MutantResult | VariantResult
     derived = known[subject.name]
     profile = _PROFILES[derived.task]
     statement = declaring(derived.declares)
-    examination = examination_for(profile, statement)
+    examination = examination_for(profile, statement, Dress())
     program = derived.derive(reference())
     campaign = ToolChainCampaign(InProcess(program), examination, (subject.name, ""), profile, statement, jobs=1)
     for _ in campaign.ask():

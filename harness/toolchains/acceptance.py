@@ -8,7 +8,7 @@ if its twin was accepted.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import msgspec
@@ -17,7 +17,8 @@ from lxml import etree
 from ucm_cts.harness.results import FRAMEWORK_INCIDENTS
 from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.harness.toolchains.campaign import Fact
-from ucm_cts.harness.toolchains.corpus import Question, questions
+from ucm_cts.harness.toolchains.corpus import Question, differing_lines, questions
+from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.processing import Made
 from ucm_cts.reference_models.findings import Finding
 
@@ -56,16 +57,16 @@ class Judgement:
 class Acceptance:
     """The examination of profile pim: all questions for what the vendor declares."""
 
-    def __init__(self, statement: Statement, expression: str = "") -> None:
-        """Of the questions only those whose name or requirement holds one of the words of ``expression``, and their twins."""
+    def __init__(self, statement: Statement, dress: Dress, expression: str = "") -> None:
+        """All models are dressed. Of the questions only those whose name or requirement holds one of the words of ``expression``, and their twins."""
         asked = [q for q in questions() if all(map(statement.meets, q.under))]
         words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
         if words:
             wanted = [q for q in asked if any(w in f"{q.name} {q.requirement}".lower() for w in words)]
             twins = {q.twin for q in wanted}
             asked = [q for q in asked if q in wanted or q.name in twins]
-        self._questions = asked
-        self._texts = {q.name: q.text for q in asked}
+        self._questions = dressed(asked, dress)
+        self._texts = {q.name: q.text for q in self._questions}
 
     @property
     def models(self) -> Sequence[tuple[str, str]]:
@@ -89,6 +90,15 @@ class Acceptance:
         finding = Finding(q.requirement, judgement.rule, q.name, judgement.expected, judgement.observed)
         processed = msgspec.structs.replace(made.processed, twin=self._texts.get(q.twin, ""))
         return Fact(q.requirement, asked, finding, processed=processed, measure=measure)
+
+
+def dressed(asked: Sequence[Question], dress: Dress) -> list[Question]:
+    """The questions ``asked`` as a tool chain gets them."""
+    texts = {q.name: dress.of(q.text) for q in asked}
+    return [
+        replace(q, text=texts[q.name], changed=differing_lines(texts[q.twin], texts[q.name]) if q.twin else q.changed)
+        for q in asked
+    ]
 
 
 def _answer(made: Made) -> Answer:

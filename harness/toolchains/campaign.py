@@ -66,8 +66,9 @@ class ToolChainCampaign:
         known_failures: Sequence[KnownFailure] = (),
         jobs: int = os.cpu_count() or 1,
         source: str = "",
+        seed: int = 0,
     ) -> None:
-        """``identity`` is the product and its version, ``source`` the file that describes it."""
+        """``identity`` is the product and its version, ``source`` the file that describes it, ``seed`` the run's."""
         self._processor = processor
         self._examination = examination
         self._identity = identity
@@ -76,6 +77,7 @@ class ToolChainCampaign:
         self._known = known_failures
         self._jobs = jobs
         self._source = source
+        self._seed = seed
         self._made: dict[str, Made] = {}
         self._facts: list[Fact] = []
         self._tally = Tally()
@@ -148,7 +150,7 @@ class ToolChainCampaign:
             incidents=(),
             adapter=self._source,
             suite_version=ucm_cts.__version__,
-            seed=0,
+            seed=self._seed,
             started=self._started,
             seconds=round(time.monotonic() - self._began, 3),
             scenarios=len(self._made),

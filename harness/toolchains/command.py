@@ -18,12 +18,13 @@ from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
 from ucm_cts.harness.toolchains.description import read_toolchain
+from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.processing import CommandLine
 
 
 def certify_toolchain(
-    path: Path, profile: str, expression: str, out: Path, known_failures: Path | None, ics: Path | None
+    path: Path, profile: str, expression: str, out: Path, known_failures: Path | None, ics: Path | None, seed: int
 ) -> NoReturn:
     """Run ``profile`` on the tool chain that the file at ``path`` describes, write the report to ``out``, and end.
 
@@ -37,12 +38,14 @@ def certify_toolchain(
     known = known_today(known_failures)
     statement = read_statement(ics) if ics is not None else default_statement()
     check_subject(statement, toolchain, profile)
-    examination = examination_for(profile, statement, expression)
+    examination = examination_for(profile, statement, Dress(seed, toolchain.dialect), expression)
     if not examination.models:
         raise WrongUse(f"no model matches -k '{expression}'; try a requirement or a part of its id")
     console = Output()
     name = one_line(f"{toolchain.product} {toolchain.version}", 80)
-    console.print(f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}", markup=False, soft_wrap=True)
+    console.print(
+        f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}, seed {seed}", markup=False, soft_wrap=True
+    )
     prepare_folder(out)
     campaign = ToolChainCampaign(
         CommandLine(toolchain),
@@ -52,6 +55,7 @@ def certify_toolchain(
         statement,
         known,
         source=str(path),
+        seed=seed,
     )
     interrupted = _conduct(campaign, len(examination.models), console)
     report = campaign.report()

@@ -10,6 +10,7 @@ from typing import Literal
 
 import msgspec
 
+from ucm_cts.adapters.contract.metamodel.writing import CANONICAL, Dialect
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.documents import DocumentError, convert, read_toml
 
@@ -41,7 +42,7 @@ class Command(Value, frozen=True):
 
 
 class ToolChain(Value, frozen=True):
-    """A product and its commands. ``seconds`` and ``memory`` (MiB, resident) limit each call."""
+    """A product, its commands, and how it spells models. ``seconds`` and ``memory`` (MiB, resident) limit each call."""
 
     product: str
     version: str
@@ -49,6 +50,7 @@ class ToolChain(Value, frozen=True):
     idl: Command | None = None
     cpp11: Command | None = None
     cpp03: Command | None = None
+    dialect: Dialect = CANONICAL
     seconds: float = 20.0
     memory: int = 1024
     folder: str = ""

@@ -7,11 +7,12 @@ from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.harness.toolchains.acceptance import Acceptance
 from ucm_cts.harness.toolchains.campaign import Examination
+from ucm_cts.harness.toolchains.dressing import Dress
 
 
-def examination_for(profile: str, statement: Statement, expression: str = "") -> Examination:
-    """What ``profile`` asks, as far as it concerns ``expression`` and what the vendor states. Raises ``WrongUse``."""
+def examination_for(profile: str, statement: Statement, dress: Dress, expression: str = "") -> Examination:
+    """What ``profile`` asks, with models in ``dress``, as far as it concerns ``expression`` and what the vendor states. Raises ``WrongUse``."""
     unfinished = in_the_making(profile)
     if unfinished:
         raise WrongUse(unfinished)
-    return Acceptance(statement, expression)
+    return Acceptance(statement, dress, expression)

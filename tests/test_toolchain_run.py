@@ -1,0 +1,144 @@
+"""``ucm-cts run --toolchain``: verdicts of tool chains that keep the rules, lie, die or do not end, and what people read of them."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from command_line import Outcome, ucm_cts, within
+
+FAKE = Path(__file__).parent / "toolchains" / "fake.py"
+CASE = "structure"
+"""Models of one kind are enough to tell behaviours apart."""
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    within(tmp_path, monkeypatch)
+    return tmp_path
+
+
+def describe(path: Path, command: list[str], **more: object) -> Path:
+    rows = [f"{key} = {json.dumps(value)}" for key, value in more.items()]
+    text = ['product = "fake"', 'version = "1"', *rows, "[check]", f"command = {json.dumps(command)}"]
+    path.write_text("\n".join(text) + "\n")
+    return path
+
+
+def run_fake(here: Path, behaviour: str, **more: object) -> tuple[Outcome, dict[str, Any]]:
+    command = [sys.executable, str(FAKE), behaviour, "check", "{model}"]
+    toolchain = describe(here / "fake.toml", command, **more)
+    outcome = ucm_cts("run", "--toolchain", toolchain, "-k", CASE, "--out", "out")
+    assert "Traceback" not in outcome.out + outcome.err
+    return outcome, json.loads((here / "out" / "report.json").read_text())
+
+
+def verdicts(report: dict[str, Any], rule: str = "") -> set[str]:
+    """Of the requirements that were asked about."""
+    return {
+        r["verdict"]
+        for r in report["requirements"]
+        if (r["exercised"] or r["findings"] or "twin" in r["reason"] or "no answer" in r["reason"])
+        and (not rule or any(f["rule"] == rule for f in r["findings"]))
+    }
+
+
+def test_a_tool_chain_that_accepts_everything_fails_what_it_should_refuse(here: Path) -> None:
+    outcome, report = run_fake(here, "accepts_everything")
+    assert outcome.status == 1
+    assert verdicts(report, "broken_models_refused") == {"fail"}
+    assert not verdicts(report, "legal_models_accepted")
+
+
+def test_a_tool_chain_that_refuses_everything_passes_nothing(here: Path) -> None:
+    outcome, report = run_fake(here, "refuses_everything")
+    assert outcome.status == 1
+    assert verdicts(report) <= {"fail", "inconclusive"}
+    assert verdicts(report, "legal_models_accepted") == {"fail"}
+    assert not verdicts(report, "broken_models_refused")
+
+
+def test_refusing_for_another_reason_is_no_pass(here: Path) -> None:
+    outcome, report = run_fake(here, "refuses_for_another_reason")
+    assert outcome.status == 1
+    assert "fail" not in verdicts(report)
+    told = [r["reason"] for r in report["requirements"] if r["verdict"] == "inconclusive" and "9999" in r["reason"]]
+    assert told
+
+
+@pytest.mark.parametrize(("behaviour", "told"), [("dies", "SIGABRT"), ("hangs", "no end after")])
+def test_what_dies_or_hangs_fails_and_the_run_goes_on(here: Path, behaviour: str, told: str) -> None:
+    outcome, report = run_fake(here, behaviour, seconds=0.4 if behaviour == "hangs" else 20)
+    assert outcome.status == 1
+    findings = [f for r in report["requirements"] for f in r["findings"]]
+    assert findings
+    assert all(told in f["observed"] for f in findings)
+
+
+@pytest.mark.parametrize(("behaviour", "told"), [("floods", "MiB of output"), ("ends_oddly", "exit status 70")])
+def test_what_gives_no_answer_decides_nothing(here: Path, behaviour: str, told: str) -> None:
+    outcome, report = run_fake(here, behaviour)
+    assert outcome.status == 1
+    assert verdicts(report) == {"inconclusive"}
+    assert any(told in r["reason"] for r in report["requirements"])
+
+
+@pytest.mark.parametrize("behaviour", ["leaves_a_child", "prints_rubbish"])
+def test_odd_manners_do_not_matter(here: Path, behaviour: str) -> None:
+    _, report = run_fake(here, behaviour)
+    assert verdicts(report) == {"pass"}
+
+
+def test_a_failure_shows_the_model_and_how_to_try_again(here: Path) -> None:
+    outcome, report = run_fake(here, "accepts_everything")
+    finding = next(f for r in report["requirements"] for f in r["findings"])
+    saved = here / "out" / finding["model"]
+    assert saved.read_text().startswith("<")
+    assert finding["status"] == 0
+    page = (here / "out" / "report.html").read_text()
+    assert 'class="added"' in page
+    assert "lines in which it differs" in page
+    assert finding["scenario"] in page
+    assert "models" in outcome.out
+    junit = (here / "out" / "junit.xml").read_text()
+    assert f"{FAKE} accepts_everything check {finding['model']}" in junit
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ('version = "1"\n[check]\ncommand = ["true", "{model}"]', "missing required field `product`"),
+        ('product = "p"\nversion = "1"\n[check]\ncommand = ["true"]', "does not name {model}"),
+        ('product = "p"\nversion = "1"\n[check]\ncommand = []', "is empty"),
+        ('product = "p"\nversion = "1"\n[idl]\ncommand = ["true", "{model}"]', "does not name {out}"),
+        ('product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\nrefuses = [0]', "0 accepts it"),
+        (
+            'product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\ndiagnostic = "("',
+            "no regular expression",
+        ),
+        ('product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\ndiagnostic = "x"', "(?P<line>...)"),
+        ('product = "p"\nversion = "1"\n[check]\ncommand = ["no-such-tool", "{model}"]', "no program 'no-such-tool'"),
+        ('product = "p"\nversion = "1"\n[chekc]\ncommand = ["true", "{model}"]', "chekc"),
+        ('product = "p"\nversion = "1"\n', "does not say how 'check' is done"),
+        ("product = ", "not TOML"),
+    ],
+)
+def test_wrong_descriptions_are_wrong_use(here: Path, text: str, told: str) -> None:
+    (here / "wrong.toml").write_text(text)
+    outcome = ucm_cts("run", "--toolchain", "wrong.toml")
+    assert outcome.status == 2
+    assert told in outcome.err
+    assert "wrong.toml" in outcome.err
+    assert outcome.err.count("\n") == 1
+
+
+def test_what_belongs_to_adapters_is_wrong_use(here: Path) -> None:
+    toolchain = describe(here / "t.toml", ["true", "{model}"])
+    assert "ADAPTER is for frameworks" in ucm_cts("run", "reference-py", "--toolchain", toolchain).err
+    assert "--repeat is for frameworks" in ucm_cts("run", "--toolchain", toolchain, "--repeat", "2").err
+    assert "is of frameworks" in ucm_cts("run", "--toolchain", toolchain, "--profile", "core").err
+    assert "--toolchain" in ucm_cts("run", "--profile", "pim").err
+    assert "cannot be read" in ucm_cts("run", "--toolchain", "nothing.toml").err

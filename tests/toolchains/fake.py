@@ -1,0 +1,71 @@
+"""Tool chains that lie, die or talk too much: ``fake.py BEHAVIOUR check MODEL``. Each is told apart by what it does."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable
+
+from ucm_cts.adapters.toolchain.program import reference
+
+
+def accepts_everything(text: str) -> int:
+    """It never refuses."""
+    return 0
+
+
+def refuses_everything(text: str) -> int:
+    """It never accepts, so what it refuses proves nothing."""
+    return 1
+
+
+def refuses_for_another_reason(text: str) -> int:
+    """Its verdicts are right, and its diagnostics are about a line that has nothing to do with it."""
+    if not reference().check(text.encode(), "model.xml")[1]:
+        return 0
+    print("model.xml:9999: I do not like this")
+    return 1
+
+
+def dies(text: str) -> int:
+    """It is killed by a signal where it should refuse."""
+    if reference().check(text.encode(), "model.xml")[1]:
+        os.abort()
+    return 0
+
+
+def hangs(text: str) -> int:
+    """It never comes back."""
+    time.sleep(3600)
+    return 0
+
+
+def floods(text: str) -> int:
+    """It does not stop talking."""
+    while True:
+        os.write(1, b"x" * 65536)
+
+
+def ends_oddly(text: str) -> int:
+    """Its exit status means nothing that was described."""
+    return 70
+
+
+def leaves_a_child(text: str) -> int:
+    """A child of its own goes on, with the output open."""
+    if os.fork() == 0:
+        time.sleep(3600)
+    return 1 if reference().check(text.encode(), "model.xml")[1] else 0
+
+
+def prints_rubbish(text: str) -> int:
+    """Its output is no text."""
+    sys.stdout.buffer.write(b"\xff\xfe\x00\x1b[2Jmodel.xml:1: \x80\n" * 3)
+    return 1 if reference().check(text.encode(), "model.xml")[1] else 0
+
+
+if __name__ == "__main__":
+    behaviour: Callable[[str], int] = globals()[sys.argv[1]]
+    with open(sys.argv[3], encoding="utf-8") as stream:
+        sys.exit(behaviour(stream.read()))
