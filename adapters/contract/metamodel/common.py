@@ -49,10 +49,8 @@ def children(element: Element) -> Iterator[Element]:
 def without_lines(element: T) -> T:
     """``element`` as if nobody knew where it and all inside it stand: what two files say is then equal or not."""
     changed: dict[str, Any] = {"line": 0}
-    for field in element.__struct_fields__:
-        value = getattr(element, field)
-        if type(value) is tuple:
-            changed[field] = tuple(without_lines(child) for child in value)
+    for field in child_fields(type(element)):
+        changed[field] = tuple(without_lines(child) for child in getattr(element, field))
     return msgspec.structs.replace(element, **changed)
 
 

@@ -7,10 +7,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import repeat
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.common import Element, Named, children
+from ucm_cts.adapters.contract.metamodel.common import Element, Named, child_fields, children
 from ucm_cts.adapters.contract.metamodel.components import ComponentType
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
@@ -158,5 +159,8 @@ def each_element(model: Model, names: Names) -> Iterator[tuple[Element, Scope]]:
     while waiting:
         element, scope = waiting.pop()
         yield element, scope
-        inner = names.inside(element) if isinstance(element, MODULES) else scope
-        waiting.extend((child, inner) for child in reversed(tuple(children(element))))
+        fields = child_fields(type(element))
+        if fields:
+            inner = names.inside(element) if isinstance(element, MODULES) else scope
+            for field in reversed(fields):
+                waiting.extend(zip(reversed(getattr(element, field)), repeat(inner)))

@@ -117,7 +117,10 @@ Converter = Callable[[str], object]
 
 
 class _Entry(NamedTuple):
-    """A class at one place: ``field`` of what is around it takes it, ``inside`` is what may stand in it, by tag."""
+    """A class at one place: ``field`` of what is around it takes it, ``inside`` is what may stand in it, by tag.
+
+    An element with ``given`` attributes, counting its line, has all that are required; -1 if that does not say so.
+    """
 
     spelling: Spelling
     tag: str
@@ -125,11 +128,12 @@ class _Entry(NamedTuple):
     build: Callable[..., Element]
     fields: frozenset[str]
     required: frozenset[str]
+    given: int
     converters: tuple[tuple[str, Converter], ...]
     inside: dict[str, _Entry]
 
 
-_Frame = tuple[_Entry, dict[str, Any], dict[str, list[Element]]]
+_Frame = tuple[_Entry, dict[str, Any], dict[str, list[Element]], dict[str, _Entry]]
 
 
 def _string_of(chars: str, **values: Any) -> StringType:
@@ -160,6 +164,7 @@ def _spelled(cls: type[Element], field: str, insides: Mapping[type[Element], dic
         build=cls,
         fields=frozenset(spelling.attributes.values()) | spelling.contained.keys(),
         required=spelling.required,
+        given=len(spelling.required) + 1 if len(spelling.required) == len(spelling.attributes) else -1,
         converters=tuple(converters),
         inside=insides[cls],
     )
@@ -171,6 +176,7 @@ def _spelled(cls: type[Element], field: str, insides: Mapping[type[Element], dic
                 build=functools.partial(_string_of, chars),
                 fields=entry.fields - {"char_base"},
                 required=entry.required - {"char_base"},
+                given=-1,
             )
     return found
 
@@ -259,7 +265,7 @@ class _Reader:
         """What is called at the beginning and the end of each element; closures, because they are called so often."""
         parser, stack = self._parser, self._stack
         inside = _OUTERMOST
-        children = self._children
+        children: dict[str, list[Element]] | None = self._children
 
         def start(tag: str, values: dict[str, Any]) -> None:
             nonlocal inside, children
@@ -269,34 +275,37 @@ class _Reader:
                 if entry is None:
                     self._skip(start, end)
                     return
-            if len(stack) == DEEPEST:
-                raise _Stop("refused", f"is nested deeper than {DEEPEST} elements; make it flatter")
+            if children is None:
+                children = {}
+                if len(stack) == DEEPEST:
+                    raise _Stop("refused", f"is nested deeper than {DEEPEST} elements; make it flatter")
             values["line"] = parser.CurrentLineNumber
-            stack.append((entry, values, children))
+            stack.append((entry, values, children, inside))
             inside = entry.inside
-            children = {}
+            children = None
 
         def end(_tag: str) -> None:
             nonlocal inside, children
-            entry, values, around = stack.pop()
-            for field, held in children.items():
-                values[field] = tuple(held)
+            entry, values, around, inside = stack.pop()
+            _, _, field, build, _, required, given, converters, _ = entry
             try:
-                if not entry.required <= values.keys():
+                if len(values) != given and not required <= values.keys():
                     raise KeyError
-                for field, convert in entry.converters:
-                    if field in values:
-                        values[field] = convert(values[field])
-                element = entry.build(**values)
+                for converted, convert in converters:
+                    if converted in values:
+                        values[converted] = convert(values[converted])
+                if children is not None:
+                    for holding, held in children.items():
+                        values[holding] = tuple(held)
+                element = build(**values)
             except (TypeError, KeyError, ValueError):
-                element = self._mended(entry, values)
+                element = self._mended(entry, values, children)
             children = around
-            held_around = around.get(entry.field)
-            if held_around is None:
-                around[entry.field] = [element]
+            beside = around.get(field)
+            if beside is None:
+                around[field] = [element]
             else:
-                held_around.append(element)
-            inside = stack[-1][0].inside if stack else _OUTERMOST
+                beside.append(element)
 
         return start, end
 
@@ -357,9 +366,10 @@ class _Reader:
             self._problem("misplaced element", shown, message, spelling.clause)
         return None
 
-    def _mended(self, entry: _Entry, values: dict[str, Any]) -> Element:
+    def _mended(self, entry: _Entry, values: dict[str, Any], children: Mapping[str, list[Element]] | None) -> Element:
         """The element that ``values`` make once other spellings are replaced and what does not fit is left out and told."""
         fitting = {key: value for key, value in values.items() if key in entry.fields}
+        fitting |= {field: tuple(held) for field, held in (children or {}).items()}
         fitting["line"] = line = values.pop("line")
         for key, value in values.items():
             if key not in entry.fields and _BETWEEN not in key:
