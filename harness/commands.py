@@ -33,6 +33,7 @@ from ucm_cts.harness.options import (
     profile_option,
     seed_option,
     timeout_option,
+    toolchain_option,
 )
 from ucm_cts.harness.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.report.command import compare
@@ -50,9 +51,10 @@ from ucm_cts.harness.scenarios.systematic import MOST_EXTRA
 from ucm_cts.harness.selftest.command import selftest
 from ucm_cts.harness.stating.applicability import purposes_for
 from ucm_cts.harness.stating.files import check_subject, stated_by
-from ucm_cts.harness.stating.writing import write_statement
+from ucm_cts.harness.stating.writing import write_statement, write_toolchain_statement
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.toolchains.command import certify_toolchain
+from ucm_cts.harness.toolchains.description import read_toolchain
 from ucm_cts.reference_models.judgement import Judge
 
 
@@ -75,11 +77,7 @@ def cli() -> None:
 )
 @click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
 @ics_option
-@click.option(
-    "--toolchain",
-    type=click.Path(dir_okay=False, path_type=Path),
-    help="Certify the tool chain that this file describes, instead of an adapter.",
-)
+@toolchain_option
 @click.option("--repeat", type=click.IntRange(min=1), default=1, show_default=True, help="Runs, with a seed each.")
 @in_process_option
 @timeout_option
@@ -234,18 +232,26 @@ def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output,
 @click.option(
     "--out", type=click.Path(dir_okay=False, path_type=Path), default=Path("ucm-cts-ics.toml"), show_default=True
 )
+@toolchain_option
 @click.option("--force", is_flag=True, help="Write over a file that is there.")
-def ics(adapter: str, out: Path, force: bool) -> None:
-    """Write the statement of the product behind ADAPTER, for its vendor to edit.
+@click.pass_context
+def ics(context: click.Context, adapter: str, out: Path, toolchain: Path | None, force: bool) -> None:
+    """Write the statement of the product behind ADAPTER, or of a tool chain, for its vendor to edit.
 
     It names the parts that can be claimed, every reading that can be declared, times and tolerances. As written it changes
     nothing: give the edited one to 'ucm-cts run --ics'.
     """
-    with ends_like_interrupts(), Driver(locate(adapter), 0) as driver:
-        identity = driver.identity
-    write_statement(out, identity, adapter, force)
+    subject = adapter
+    if toolchain is not None:
+        _refuse(context, ("adapter",))
+        subject = f"--toolchain {toolchain}"
+        write_toolchain_statement(out, read_toolchain(toolchain), toolchain, force)
+    else:
+        with ends_like_interrupts(), Driver(locate(adapter), 0) as driver:
+            identity = driver.identity
+        write_statement(out, identity, adapter, force)
     console = Output()
-    console.print(f"{out} is written; edit it, then: ucm-cts run {adapter} --ics {out}", markup=False, soft_wrap=True)
+    console.print(f"{out} is written; edit it, then: ucm-cts run {subject} --ics {out}", markup=False, soft_wrap=True)
     leave(console, CONFORMANT)
 
 

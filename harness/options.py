@@ -57,6 +57,11 @@ framework_profile_option = click.option(
 in_process_option = click.option("--in-process", is_flag=True, help="No host process: for debuggers and sanitizers.")
 seed_option = click.option("--seed", type=int, help="Repeat a run: names and payloads are drawn from it.")
 ics_option = click.option("--ics", type=click.Path(dir_okay=False, path_type=Path), help="The vendor's statement.")
+toolchain_option = click.option(
+    "--toolchain",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="The tool chain that this file describes, instead of an adapter.",
+)
 timeout_option = click.option(
     "--timeout", type=Seconds(min=0.1), default=Limits.seconds, show_default=True, help="Seconds a scenario may take."
 )

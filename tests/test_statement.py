@@ -22,6 +22,7 @@ from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.models.core_models import CHECKS, CORE, compare
 from ucm_cts.harness.pytest_plugin import _undecided
 from ucm_cts.harness.report.write import save_report
+from ucm_cts.harness.profiles import FRAMEWORK_PROFILES, PROFILES
 from ucm_cts.harness.results import Report
 from ucm_cts.harness.running.campaign import Campaign
 from ucm_cts.harness.running.driver import Driver
@@ -391,7 +392,9 @@ def test_ics_writes_a_statement_that_run_takes(here: Path) -> None:
     assert (outcome.status, outcome.err) == (0, "")
     statement = read_statement(here / "ucm-cts-ics.toml")
     assert statement.product == "UCM-CTS reference framework (Python)"
-    assert msgspec.structs.replace(statement, product="", version="", source="", folder=".") == default_statement()
+    assert statement.profiles == FRAMEWORK_PROFILES
+    unnamed = msgspec.structs.replace(statement, product="", version="", source="", folder=".", profiles=PROFILES)
+    assert unnamed == default_statement()
     (command,) = re.findall(r"(ucm-cts run .*)", outcome.out)
     outcome = ucm_cts(*shlex.split(command)[1:], "-k", "R-11.2.2.1-13")
     assert (outcome.status, outcome.err) == (1, ""), "of a selection most is inconclusive"

@@ -10,24 +10,34 @@ import jinja2
 import msgspec
 
 import ucm_cts
-from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue import Interpretation, load_capabilities, load_interpretations
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.profiles import PARTS
+from ucm_cts.harness.profiles import FRAMEWORK_PROFILES, PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.harness.report.foreign import one_line
-from ucm_cts.harness.stating.files import stated_by
-from ucm_cts.harness.stating.statement import IXIT, Statement
+from ucm_cts.harness.stating.files import Identity, stated_by
+from ucm_cts.harness.stating.statement import IXIT, Statement, default_statement
 
 WIDTH = 120
 
 
-def write_statement(out: Path, identity: Welcome, adapter: str, force: bool = False) -> None:
+def write_statement(out: Path, identity: Identity, adapter: str, force: bool = False) -> None:
     """Write what holds unless another statement is given, for the vendor of ``identity`` to edit. Raises ``WrongUse``."""
-    product, version = one_line(identity.product), one_line(identity.version)
     known = stated_by(None, adapter)
     models = tuple(str(path.resolve()) for path in known.model_paths)
-    statement = msgspec.structs.replace(known, product=product, version=version, models=models)
-    text = to_toml(statement, one_line(adapter), one_line(str(out)))
+    profiles = known.profiles if known.source else FRAMEWORK_PROFILES
+    _write(out, msgspec.structs.replace(known, models=models, profiles=profiles), identity, adapter, force)
+
+
+def write_toolchain_statement(out: Path, identity: Identity, description: Path, force: bool = False) -> None:
+    """The same for the vendor of the tool chain that the file ``description`` describes. Raises ``WrongUse``."""
+    statement = msgspec.structs.replace(default_statement(), profiles=TOOLCHAIN_PROFILES)
+    _write(out, statement, identity, f"--toolchain {description}", force)
+
+
+def _write(out: Path, known: Statement, identity: Identity, subject: str, force: bool) -> None:
+    product, version = one_line(identity.product), one_line(identity.version)
+    statement = msgspec.structs.replace(known, product=product, version=version)
+    text = to_toml(statement, one_line(subject), one_line(str(out)))
     try:
         with out.open("w" if force else "x", encoding="utf-8") as file:
             file.write(text)
@@ -55,14 +65,18 @@ def to_toml(statement: Statement, adapter: str, file: str) -> str:
     )
     environment.filters["toml"] = _toml
     environment.filters["comment"] = _comment
+    families = [f for f in (FRAMEWORK_PROFILES, TOOLCHAIN_PROFILES) if set(f).intersection(statement.profiles)]
+    profiles = [profile for family in families for profile in family]
+    parts = {part for profile in profiles for part in PARTS[profile]}
     return environment.get_template("ics.toml.jinja").render(
         statement=statement,
         adapter=adapter,
         file=file,
         suite=f"UCM-CTS {ucm_cts.__version__}",
-        profiles=list(PARTS),
+        profiles=profiles,
+        of_framework=FRAMEWORK_PROFILES in families,
         capabilities=load_capabilities().capabilities,
-        entries=[entry for entry in load_interpretations() if entry.options],
+        entries=[entry for entry in load_interpretations() if entry.options and entry.profile in parts],
         ixit=IXIT,
     )
 

@@ -38,6 +38,7 @@ def certify_toolchain(
     known = known_today(known_failures)
     statement = read_statement(ics) if ics is not None else default_statement()
     check_subject(statement, toolchain, profile)
+    processor = CommandLine(toolchain)
     examination = examination_for(profile, statement, Dress(seed, toolchain.dialect), expression)
     if not examination.models:
         raise WrongUse(f"no model matches -k '{expression}'; try a requirement or a part of its id")
@@ -48,7 +49,7 @@ def certify_toolchain(
     )
     prepare_folder(out)
     campaign = ToolChainCampaign(
-        CommandLine(toolchain),
+        processor,
         examination,
         (toolchain.product, toolchain.version),
         profile,
