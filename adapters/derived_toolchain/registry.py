@@ -109,4 +109,5 @@ def _without(one: Rule) -> Mutant:
     def derive(program: Program) -> Program:
         return replacing_rule(program, one.name, None)
 
-    return Mutant(f"without_{one.name}", (one.requirement,), "check", derive)
+    declares = (one.under,) if one.under else ()
+    return Mutant(f"without_{one.name}", (one.requirement,), "check", derive, declares=declares)

@@ -19,20 +19,25 @@ Look = Callable[[Any, Scope], Iterator[Complaint]]
 
 @dataclass(frozen=True)
 class Rule:
-    """``look`` is asked about each element of ``kinds``, with the scope in which its references are looked up."""
+    """``look`` is asked about each element of ``kinds``, with the scope in which its references are looked up.
+
+    ``under`` is the reading (``option=value``) that asks for the rule where the text leaves it open, and empty elsewhere.
+    """
 
     name: str
     requirement: str
     kinds: tuple[type[Element], ...]
     look: Look
+    under: str = ""
 
 
 RULES: dict[str, Rule] = {}
 """All rules, in the order in which they were registered."""
 
 
-def rule(requirement: str, *kinds: type[Element]) -> Callable[[Look], Look]:
-    """Register a function as the rule for ``requirement`` that looks at elements of ``kinds`` (``Model`` for the whole).
+def rule(requirement: str, *kinds: type[Element], under: str = "") -> Callable[[Look], Look]:
+    """Register a function as the rule for ``requirement`` that looks at elements of ``kinds`` (``Model`` for the whole), which
+    only the reading ``under`` asks for.
 
     Several functions may stand for one requirement; their names differ.
     """
@@ -40,7 +45,7 @@ def rule(requirement: str, *kinds: type[Element]) -> Callable[[Look], Look]:
     def register(look: Look) -> Look:
         name = look.__name__
         assert name not in RULES, f"two rules are called {name}"
-        RULES[name] = Rule(name, requirement, kinds, look)
+        RULES[name] = Rule(name, requirement, kinds, look, under)
         return look
 
     return register
