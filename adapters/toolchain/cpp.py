@@ -17,6 +17,7 @@ from ucm_cts.adapters.toolchain.cpp_interfaces import (
     class_name,
     interface_definition,
     is_complete,
+    mentioned,
     needed,
     resolve,
 )
@@ -132,8 +133,8 @@ class Generation:
         element = interface.element
         assert isinstance(element, contracts.Interface)
         yield from base_interfaces(interface)
-        for typed in (*element.attributes, *(p for m in element.methods for p in m.parameters)):
-            yield resolve(typed.type, interface.scope, bindings)
+        for reference in mentioned(element):
+            yield resolve(reference, interface.scope, bindings)
 
     def _enter(self, declared: Declared) -> None:
         element, place = declared.element, namespace(declared.scope.path)

@@ -36,6 +36,12 @@ def base_interfaces(interface: Declared) -> list[Declared]:
     return [find(i.interface, interface.scope, contracts.Interface) for i in interface.element.inherited_interfaces]
 
 
+def mentioned(interface: contracts.Interface) -> list[str]:
+    """The references to types in the signatures of ``interface``."""
+    parameters = [p.type for m in interface.methods for p in m.parameters]
+    return [*(a.type for a in interface.attributes), *parameters]
+
+
 def _used(interface: Declared, seen: set[str]) -> Iterator[Declared]:
     """What ``interface`` uses, in its own signatures and in those of the interfaces that it inherits."""
     if interface.path in seen or not isinstance(interface.element, contracts.Interface):
@@ -43,9 +49,8 @@ def _used(interface: Declared, seen: set[str]) -> Iterator[Declared]:
     seen.add(interface.path)
     for base in base_interfaces(interface):
         yield from _used(base, seen)
-    methods = [p for m in interface.element.methods for p in m.parameters]
-    for typed in (*interface.element.attributes, *methods):
-        found = find(typed.type, interface.scope, *DATA, *INTERFACES)
+    for reference in mentioned(interface.element):
+        found = find(reference, interface.scope, *DATA, *INTERFACES)
         yield found
         yield from _used(found, seen)
 

@@ -1,0 +1,466 @@
+"""The values of the C++ mapping: claims about C++ names, and the abstract classes that user code implements."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Literal
+
+from ucm_cts.adapters.contract.value import Value
+
+Standard = Literal["cpp11", "cpp03"]
+
+StructForm = Literal["accessors", "plain"]
+"""How fields are read and written: functions of the field's name, or data members."""
+
+
+class Named(Value, frozen=True):
+    """A class that C++ code can name."""
+
+    name: str
+
+
+class Returned(Value, frozen=True):
+    """The class that the reference points to which the function ``getter`` of ``owner`` returns."""
+
+    owner: str
+    getter: str
+
+
+class Connected(Value, frozen=True):
+    """The class that a member ``ref`` of the connection type points to; ``connection`` is looked up in the class ``owner``."""
+
+    owner: str
+    connection: str
+
+
+Class = Named | Returned | Connected
+
+
+class Sample(Value, frozen=True):
+    """Two different values of ``type`` as C++ expressions; ``comparable`` if ``==`` tells them apart."""
+
+    type: str
+    first: str
+    second: str
+    comparable: bool
+
+
+class Parameter(Value, frozen=True):
+    """``types`` are all ways in which it may be passed; ``written`` if the callee gives it a value."""
+
+    types: tuple[str, ...]
+    sample: Sample
+    written: bool
+
+
+class Method(Value, frozen=True):
+    """A member function; ``result`` is None for void."""
+
+    name: str
+    result: Sample | None
+    parameters: tuple[Parameter, ...]
+
+    def signatures(self) -> list[tuple[str, ...]]:
+        """The types of the parameters in every way in which they may be passed."""
+        return list(itertools.product(*(p.types for p in self.parameters)))
+
+
+class Getter(Value, frozen=True):
+    """A member function that returns a reference to an interface; ``interface`` is the key of what is implemented."""
+
+    name: str
+    interface: str
+
+
+class Connection(Value, frozen=True):
+    """The type that connections of a required port element have."""
+
+    name: str
+    interface: str
+
+
+class Abstract(Value, frozen=True):
+    """What a class that user code implements consists of, with all that it inherits; ``key`` is unique in the model.
+
+    Components have ``life_cycle``; ``startup`` lists what it is connected to, ``more`` what policies may add to that.
+    """
+
+    key: str
+    methods: tuple[Method, ...] = ()
+    getters: tuple[Getter, ...] = ()
+    life_cycle: bool = False
+    startup: tuple[Connection, ...] = ()
+    more: tuple[str, ...] = ()
+
+
+# claims about names and types
+class Namespace(Value, frozen=True):
+    """There is a namespace of this name."""
+
+    name: str
+
+
+class Declares(Value, frozen=True):
+    """``name`` is a type."""
+
+    name: str
+
+
+class Is(Value, frozen=True):
+    """``name`` is the same type as one of ``types``."""
+
+    name: str
+    types: tuple[str, ...]
+
+
+class ArrayOf(Value, frozen=True):
+    """``name`` is ``template`` of ``element``, as deep as there are ``sizes``, whatever these are."""
+
+    name: str
+    template: str
+    element: str
+    depth: int
+
+
+class Sizes(Value, frozen=True):
+    """Values of ``name`` have so many elements, and their elements as many as the next size says."""
+
+    name: str
+    sizes: tuple[int, ...]
+
+
+class BoundedSequence(Value, frozen=True):
+    """``name`` is ``array`` of so many elements, or a vector that holds no more; one of ``forms``."""
+
+    name: str
+    array: str
+    element: Sample
+    size: int
+    forms: tuple[Literal["array", "bounded-vector"], ...]
+
+
+class IsClass(Value, frozen=True):
+    """``name`` is a class."""
+
+    name: str
+
+
+class Regular(Value, frozen=True):
+    """``name`` can be made without arguments, copied and assigned."""
+
+    name: str
+
+
+class Field(Value, frozen=True):
+    """A value written to ``field`` of ``owner`` is read from it."""
+
+    owner: str
+    field: str
+    sample: Sample
+    forms: tuple[StructForm, ...]
+
+
+class Discriminator(Value, frozen=True):
+    """Once ``case`` of the union ``owner`` was written one of ``functions`` returns one of ``values``."""
+
+    owner: str
+    functions: tuple[str, ...]
+    case: str
+    sample: Sample
+    values: tuple[str, ...]
+    forms: tuple[StructForm, ...]
+
+
+class EnumForm(Value, frozen=True):
+    """``name`` is an enumeration, scoped or not as ``forms`` say."""
+
+    name: str
+    forms: tuple[Literal["enum", "enum-class"], ...]
+
+
+class Underlying(Value, frozen=True):
+    """``name`` is stored as one of ``types``."""
+
+    name: str
+    types: tuple[str, ...]
+
+
+class EnumeratorOf(Value, frozen=True):
+    """``enumerator`` is found in ``owner`` and gives a value of ``type``."""
+
+    owner: str
+    enumerator: str
+    type: str
+
+
+class EnumeratorValue(Value, frozen=True):
+    """``enumerator`` in ``owner`` has the index ``value``."""
+
+    owner: str
+    enumerator: str
+    value: int
+
+
+class SafeEnum(Value, frozen=True):
+    """``name`` is an instance of ``ucm::safe_enum`` with ``definition`` as its first parameter."""
+
+    name: str
+    definition: str
+
+
+class SafeEnumInner(Value, frozen=True):
+    """``name`` is an instance of ``ucm::safe_enum`` with one of ``types`` as its second parameter."""
+
+    name: str
+    types: tuple[str, ...]
+
+
+class Works(Value, frozen=True):
+    """What ``subject`` is named for works as the standard says; ``types`` and ``values`` are what it is tried with."""
+
+    subject: Literal["safe-enum-construction", "safe-enum-underlying", "safe-enum-comparison", "array", "shared_ptr"]
+    types: tuple[str, ...]
+    values: tuple[str, ...] = ()
+    detail: str = ""
+
+
+class IsConstant(Value, frozen=True):
+    """Nothing can be assigned to ``name``."""
+
+    name: str
+
+
+class ConstantIs(Value, frozen=True):
+    """``name`` has the type ``type`` and equals ``value``."""
+
+    name: str
+    type: str
+    value: str
+
+
+class NotInHeader(Value, frozen=True):
+    """No header gives the constant ``name`` its value."""
+
+    name: str
+
+
+# claims about classes
+class Derives(Value, frozen=True):
+    """A reference to ``derived`` is one to ``base``."""
+
+    derived: Class
+    base: str
+
+
+class IsAbstract(Value, frozen=True):
+    """No object can be made of ``name``."""
+
+    name: Class
+
+
+class NoMember(Value, frozen=True):
+    """``owner`` has no member ``member``."""
+
+    owner: Class
+    member: str
+
+
+class Thrown(Value, frozen=True):
+    """What is thrown as ``name`` is caught as ``base``."""
+
+    name: str
+    base: str
+
+
+class NotCorba(Value, frozen=True):
+    """Nothing that ``owner`` derives from is declared in a namespace CORBA."""
+
+    owner: Class
+
+
+class Pure(Value, frozen=True):
+    """``method`` of ``owner``, with so many parameters, is public and pure virtual; ``key`` is what ``owner`` consists of."""
+
+    owner: Class
+    key: str
+    method: str
+    parameters: int
+
+
+class Arity(Value, frozen=True):
+    """``method`` of ``owner`` has so many parameters, and is not to be called for constant objects only."""
+
+    owner: Class
+    method: str
+    parameters: int
+
+
+class Passed(Value, frozen=True):
+    """A parameter of ``method`` of ``owner``, counted from 1, is passed as one of ``types``; 0 is the result.
+
+    ``parameters`` is how many the method has.
+    """
+
+    owner: Class
+    method: str
+    parameters: int
+    position: int
+    types: tuple[str, ...]
+
+
+class NoMutator(Value, frozen=True):
+    """``owner`` has no function ``method`` that takes one value of ``type``."""
+
+    owner: Class
+    method: str
+    type: str
+
+
+class NothingElse(Value, frozen=True):
+    """All pure virtual functions of ``owner`` are among ``members``."""
+
+    owner: Class
+    members: tuple[str, ...]
+
+
+class NoOperations(Value, frozen=True):
+    """The class ``base`` that ``owner`` derives from has no member functions of its own."""
+
+    owner: Class
+    base: str
+
+
+class Implemented(Value, frozen=True):
+    """A class that defines the functions of ``key`` and derives from ``owner`` can be made, and calls come to it."""
+
+    owner: Class
+    key: str
+
+
+class InheritsElement(Value, frozen=True):
+    """``owner`` derives from PortElementObject, wherever that is declared."""
+
+    owner: Class
+
+
+# claims about components
+class DeclaresConnection(Value, frozen=True):
+    """``connection`` is a type where the class ``owner`` is declared, or in it."""
+
+    owner: str
+    connection: str
+
+
+class ConnectionShape(Value, frozen=True):
+    """``connection`` of ``owner`` has a string ``port_name`` and a reference ``ref``, and is made of both."""
+
+    owner: str
+    connection: str
+
+
+class ConnectionTemplate(Value, frozen=True):
+    """``connection`` of ``owner`` is an instance of a class template PortConnection."""
+
+    owner: str
+    connection: str
+
+
+class ConnectionTo(Value, frozen=True):
+    """The reference of ``connection`` of ``owner`` leads to the class ``interface`` or one that derives from it."""
+
+    owner: str
+    connection: str
+    interface: str
+
+
+class Startup(Value, frozen=True):
+    """``on_startup`` of ``owner`` takes from ``least`` to ``most`` connections."""
+
+    owner: str
+    least: int
+    most: int
+
+
+class StartupTakes(Value, frozen=True):
+    """Among what ``on_startup`` of ``owner`` takes is ``times`` a constant reference of type ``connection``."""
+
+    owner: str
+    connection: str
+    times: int
+
+
+class ReturnsReference(Value, frozen=True):
+    """``getter`` of ``owner`` returns a shared pointer; to ``interface``, or what derives from it, if that has a name."""
+
+    owner: str
+    getter: str
+    interface: str
+
+
+class Runs(Value, frozen=True):
+    """A component that implements ``owner`` lives: it is started, called, calls what it is connected to, and is stopped."""
+
+    owner: str
+    key: str
+
+
+Claim = (
+    Namespace
+    | Declares
+    | Is
+    | ArrayOf
+    | Sizes
+    | BoundedSequence
+    | IsClass
+    | Regular
+    | Field
+    | Discriminator
+    | EnumForm
+    | Underlying
+    | EnumeratorOf
+    | EnumeratorValue
+    | SafeEnum
+    | SafeEnumInner
+    | Works
+    | IsConstant
+    | ConstantIs
+    | NotInHeader
+    | Derives
+    | IsAbstract
+    | NoMember
+    | Thrown
+    | NotCorba
+    | Pure
+    | Arity
+    | Passed
+    | NoMutator
+    | NothingElse
+    | NoOperations
+    | Implemented
+    | InheritsElement
+    | DeclaresConnection
+    | ConnectionShape
+    | ConnectionTemplate
+    | ConnectionTo
+    | Startup
+    | StartupTakes
+    | ReturnsReference
+    | Runs
+)
+
+
+class Expected(Value, frozen=True):
+    """``claim`` must hold for ``requirement`` to be kept, because of ``element``, which begins at ``line`` of the model."""
+
+    requirement: str
+    element: str
+    line: int
+    claim: Claim
+
+
+class ExpectedCpp(Value, frozen=True):
+    """What a model makes the tool chain declare, in the order of the model."""
+
+    standard: Standard
+    expected: tuple[Expected, ...]
+    abstract: tuple[Abstract, ...]
