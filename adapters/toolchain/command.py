@@ -30,11 +30,12 @@ def command_line(program: Program) -> click.Group:
         """
 
     @group.command()
-    @_model
-    def check(model: Path) -> None:
-        """Say what is wrong with MODEL, a line each: FILE:LINE: error: MESSAGE [REQUIREMENT, clause]."""
-        _, told = program.check(_read(model), str(model))
-        _tell(told)
+    @click.argument(
+        "models", nargs=-1, required=True, type=click.Path(dir_okay=False, path_type=Path), metavar="MODEL..."
+    )
+    def check(models: tuple[Path, ...]) -> None:
+        """Say what is wrong with each MODEL for itself, a line each: FILE:LINE: error: MESSAGE [REQUIREMENT, clause]."""
+        _tell([diagnostic for model in models for diagnostic in program.check(_read(model), str(model))[1]])
 
     for task, what in (("idl", "IDL"), ("cpp11", "C++11 headers"), ("cpp03", "C++03 headers")):
         group.add_command(_generating(program, task, what))

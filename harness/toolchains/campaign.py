@@ -89,22 +89,24 @@ class ToolChainCampaign:
     def ask(self) -> Iterator[str]:
         """Have each model processed, several at a time; yields the name of each when it is done."""
         task = TASKS[self._profile]
-        waiting = iter(self._examination.models)
-        running: dict[Future[Made], str] = {}
+        models, size = self._examination.models, self._processor.at_once(task)
+        waiting = iter([models[first : first + size] for first in range(0, len(models), size)])
+        running: dict[Future[list[Made]], list[str]] = {}
         with ThreadPoolExecutor(self._jobs) as pool:
             try:
                 while True:
-                    for name, text in waiting:
-                        running[pool.submit(self._processor.process, task, name, text)] = name
+                    for some in waiting:
+                        future = pool.submit(self._processor.process_all, task, some)
+                        running[future] = [name for name, _ in some]
                         if len(running) >= 2 * self._jobs:
                             break
                     if not running:
                         return
                     done, _ = wait(running, return_when=FIRST_COMPLETED)
                     for future in done:
-                        name = running.pop(future)
-                        self._made[name] = future.result()
-                        yield name
+                        for name, made in zip(running.pop(future), future.result(), strict=True):
+                            self._made[name] = made
+                            yield name
             finally:
                 pool.shutdown(cancel_futures=True)
 

@@ -17,19 +17,20 @@ from ucm_cts.harness.documents import DocumentError, convert, read_toml
 Task = Literal["check", "idl", "cpp11", "cpp03"]
 """What a tool chain can be asked to do with a model."""
 
-MODEL, OUT = "{model}", "{out}"
+MODEL, MODELS, OUT = "{model}", "{models}", "{out}"
 
-DIAGNOSTIC = r"^(?:.*?[:(])?(?P<line>[0-9]+)(?:[:,][0-9]+)?\)?\s*:"
-"""Finds the line in a diagnostic such as ``model.xml:12: ...``, ``model.xml:12:5: ...`` or ``model.xml(12,5): ...``."""
+DIAGNOSTIC = r"^(?:(?P<file>.*?)[:(])?(?P<line>[0-9]+)(?:[:,][0-9]+)?\)?\s*:"
+"""Finds file and line in a diagnostic such as ``model.xml:12: ...``, ``model.xml:12:5: ...`` or ``model.xml(12,5): ...``."""
 
 LARGEST = 256 * 1024
 
 
 class Command(Value, frozen=True):
-    """How one task is done: ``command`` holds ``{model}`` and, for generators, ``{out}``, an empty folder.
+    """How one task is done: ``command`` holds ``{model}`` and, for generators, ``{out}``, an empty folder. A checker that takes
+    several models at once, each for itself, has ``{models}`` instead, and names the file in each diagnostic.
 
     ``refuses`` are the exit statuses that mean that the model is refused; 0 means that it is accepted, and any other is a failure of
-    the tool. ``diagnostic`` is a regular expression with a group ``line``. ``compiler``, ``include`` (folders below
+    the tool. ``diagnostic`` is a regular expression with a group ``line`` and, for several models, ``file``. ``compiler``, ``include`` (folders below
     ``{out}``) and ``headers`` (patterns below ``{out}``) are for C++ only.
     """
 
@@ -55,6 +56,11 @@ class ToolChain(Value, frozen=True):
     memory: int = 1024
     folder: str = ""
     source: str = ""
+
+    def takes_several(self, task: Task) -> bool:
+        """Does the command for ``task`` take several models at once?"""
+        command = self.command_for(task)
+        return command is not None and MODELS in command.command
 
     def command_for(self, task: Task) -> Command | None:
         """How ``task`` is done, None if the vendor does not say."""
@@ -92,7 +98,8 @@ def _check(path: Path, task: Task, command: Command | None, lines: dict[str, int
     words = " ".join(command.command)
     if not command.command:
         raise wrong("command", f"the command for {task} is empty; write the program and its arguments, each in quotes")
-    if MODEL not in words:
+    several = task == "check" and MODELS in command.command
+    if MODEL not in words and not several:
         raise wrong("command", f"the command for {task} does not name {MODEL}, which stands for the model's file")
     if task != "check" and OUT not in words:
         raise wrong("command", f"the command for {task} does not name {OUT}, which stands for the folder to write to")
@@ -102,8 +109,9 @@ def _check(path: Path, task: Task, command: Command | None, lines: dict[str, int
         groups = re.compile(command.diagnostic, re.MULTILINE).groupindex
     except re.error as error:
         raise wrong("diagnostic", f"the diagnostic is no regular expression: {error}") from None
-    if "line" not in groups:
-        raise wrong("diagnostic", "the diagnostic has no group (?P<line>...)")
+    for group in ("line", "file") if several else ("line",):
+        if group not in groups:
+            raise wrong("diagnostic", f"the diagnostic has no group (?P<{group}>...)")
 
 
 def program(toolchain: ToolChain, command: Command) -> list[str]:

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,9 +17,12 @@ from typing import Protocol
 
 from ucm_cts.adapters.toolchain.program import Program
 from ucm_cts.harness.results import Incident, Processed
-from ucm_cts.harness.toolchains.description import MODEL, OUT, Command, Task, ToolChain, program
+from ucm_cts.harness.toolchains.description import MODEL, MODELS, OUT, Command, Task, ToolChain, program
 
 MODEL_FILE = "model.xml"
+
+SEVERAL = 40
+"""Models for one call that takes several."""
 
 _OUTPUT = 1 << 18
 _FLOOD = 1 << 24
@@ -48,6 +51,12 @@ class Processor(Protocol):
     def process(self, task: Task, name: str, text: str) -> Made:
         """Do ``task`` with the model ``text``; ``name`` is the question's. Never raises for what the tool does."""
 
+    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made]:
+        """The same for several models, each with its name."""
+
+    def at_once(self, task: Task) -> int:
+        """How many models ``process_all`` is best given."""
+
 
 class CommandLine:
     """A tool chain behind its command lines; each call gets a folder and a process group of its own."""
@@ -61,17 +70,50 @@ class CommandLine:
             if command is not None:
                 self._programs[task] = (command, program(toolchain, command))
 
+    def at_once(self, task: Task) -> int:
+        return SEVERAL if self._toolchain.takes_several(task) else 1
+
+    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made]:
+        """Where one call takes several models it must be clear which it refuses; if it is not, each gets a call of its own."""
+        made = self._together(task, models) if len(models) > 1 else None
+        return made or [self.process(task, name, text) for name, text in models]
+
+    def _together(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made] | None:
+        command, words = self._programs[task]
+        with tempfile.TemporaryDirectory(prefix="ucm-cts-") as folder:
+            files = [Path(folder) / f"model-{number}.xml" for number in range(len(models))]
+            for file, (_, text) in zip(files, models, strict=True):
+                file.write_text(text, encoding="utf-8")
+            filled = [str(f) for word in words for f in (files if word == MODELS else (word,))]
+            ended = _run(filled, folder, self._toolchain)
+        if ended.incident or _odd_status(ended.status, command) or _died(ended):
+            return None
+        told: dict[str, list[str]] = {str(file): [] for file in files}
+        for line in ended.output.splitlines():
+            found = re.match(command.diagnostic, line)
+            if found and (named := str(Path(folder, found["file"] or ""))) in told:
+                told[named].append(line.replace(named, MODEL_FILE))
+        if (ended.status == 0) == any(told.values()):
+            return None
+        shown = tuple(word.replace(MODELS, MODEL_FILE) for word in command.command)
+        made = []
+        for (name, text), lines in zip(models, told.values(), strict=True):
+            output = "".join(f"{line}\n" for line in lines)
+            processed = Processed(name, task, text, shown, ended.status if lines else 0, output)
+            made.append(Made(processed, not lines, named_lines(output, command.diagnostic)))
+        return made
+
     def process(self, task: Task, name: str, text: str) -> Made:
         command, words = self._programs[task]
         with tempfile.TemporaryDirectory(prefix="ucm-cts-") as folder:
             model, out = Path(folder) / MODEL_FILE, Path(folder) / "out"
             model.write_text(text, encoding="utf-8")
             out.mkdir()
-            filled = [w.replace(MODEL, str(model)).replace(OUT, str(out)) for w in words]
+            filled = [_filled(word, str(model), str(out)) for word in words]
             ended = _run(filled, folder, self._toolchain)
             output = ended.output.replace(f"{folder}/", "")
-            shown = tuple(w.replace(MODEL, MODEL_FILE).replace(OUT, "out") for w in command.command)
-            incident = ended.incident or _odd_status(ended.status, command)
+            shown = tuple(_filled(word, MODEL_FILE, "out") for word in command.command)
+            incident = ended.incident or _odd_status(ended.status, command) or _died(ended)
             processed = Processed(name, task, text, shown, ended.status, output, incident)
             if incident is not None:
                 return Made(processed, None)
@@ -79,11 +121,21 @@ class CommandLine:
             return Made(processed, accepted, named_lines(output, command.diagnostic), _files(out) if accepted else {})
 
 
+def _filled(word: str, model: str, out: str) -> str:
+    return word.replace(MODELS, model).replace(MODEL, model).replace(OUT, out)
+
+
 class InProcess:
     """A tool chain of ours in this very process, for the self-test: quick, and not isolated."""
 
     def __init__(self, program: Program) -> None:
         self._program = program
+
+    def at_once(self, task: Task) -> int:
+        return SEVERAL
+
+    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made]:
+        return [self.process(task, name, text) for name, text in models]
 
     def process(self, task: Task, name: str, text: str) -> Made:
         files: Mapping[str, str] = {}
@@ -114,6 +166,19 @@ def _odd_status(status: int | None, command: Command) -> Incident | None:
         return Incident("crash", f"killed by {signal.Signals(-status).name}")
     listed = ", ".join(map(str, command.refuses))
     return Incident("exit", f"exit status {status}, which neither accepts (0) nor refuses ({listed})")
+
+
+_DEATHS = re.compile(
+    r"^(Traceback \(most recent call last\):|Exception in thread |panic: |thread '.*' panicked at |.*Segmentation fault"
+    r"|terminate called |=+[0-9]+=+ERROR: \w+Sanitizer)",
+    re.MULTILINE,
+)
+"""What run-time systems print when a program dies; its exit status may be one that refuses a model."""
+
+
+def _died(ended: _Ended) -> Incident | None:
+    found = _DEATHS.search(ended.output) if ended.status else None
+    return Incident("crash", f"it died: {found[0].strip()}") if found else None
 
 
 @dataclass(frozen=True)
