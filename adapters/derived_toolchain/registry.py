@@ -110,4 +110,4 @@ def _without(one: Rule) -> Mutant:
         return replacing_rule(program, one.name, None)
 
     declares = (one.under,) if one.under else ()
-    return Mutant(f"without_{one.name}", (one.requirement,), "check", derive, declares=declares)
+    return Mutant(f"without_{one.name}", (one.requirement,), "check", derive, one.also, declares)

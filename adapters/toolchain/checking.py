@@ -21,7 +21,8 @@ Look = Callable[[Any, Scope], Iterator[Complaint]]
 class Rule:
     """``look`` is asked about each element of ``kinds``, with the scope in which its references are looked up.
 
-    ``under`` is the reading (``option=value``) that asks for the rule where the text leaves it open, and empty elsewhere.
+    ``under`` is the reading (``option=value``) that asks for the rule where the text leaves it open, and empty elsewhere; ``also``
+    are requirements that say the same in part, so that whoever lacks the rule may break them, too.
     """
 
     name: str
@@ -29,15 +30,18 @@ class Rule:
     kinds: tuple[type[Element], ...]
     look: Look
     under: str = ""
+    also: tuple[str, ...] = ()
 
 
 RULES: dict[str, Rule] = {}
 """All rules, in the order in which they were registered."""
 
 
-def rule(requirement: str, *kinds: type[Element], under: str = "") -> Callable[[Look], Look]:
+def rule(
+    requirement: str, *kinds: type[Element], under: str = "", also: tuple[str, ...] = ()
+) -> Callable[[Look], Look]:
     """Register a function as the rule for ``requirement`` that looks at elements of ``kinds`` (``Model`` for the whole), which
-    only the reading ``under`` asks for.
+    only the reading ``under`` asks for; requirements of ``also`` say the same in part.
 
     Several functions may stand for one requirement; their names differ.
     """
@@ -45,7 +49,7 @@ def rule(requirement: str, *kinds: type[Element], under: str = "") -> Callable[[
     def register(look: Look) -> Look:
         name = look.__name__
         assert name not in RULES, f"two rules are called {name}"
-        RULES[name] = Rule(name, requirement, kinds, look, under)
+        RULES[name] = Rule(name, requirement, kinds, look, under, also)
         return look
 
     return register
