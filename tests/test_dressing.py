@@ -1,0 +1,74 @@
+"""Models in other names and spellings: nobody knows them by heart, and nothing else about them changes."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from lxml import etree
+
+from ucm_cts.adapters.contract.metamodel.reading import read_model
+from ucm_cts.adapters.contract.metamodel.writing import Dialect
+from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.harness.toolchains.acceptance import dressed
+from ucm_cts.harness.toolchains.corpus import questions
+from ucm_cts.harness.toolchains.dressing import Dress, drawn_name, printed_names
+
+ASKED = [q for q in questions() if all(map(default_statement().meets, q.under))]
+PROGRAM = reference()
+PRINTED = Dialect(
+    tags={
+        "PortType": "TemplatedPort",
+        "ConnectorPort": "ConnectorPortDefinition",
+        "AbstractDataType": "DataTypeTemplateParameter",
+        "AbstractInterface": "InterfaceTypeTemplateParameter",
+        "PrimitiveInteger": "PrimitiveType",
+        "AnnotationDefinition": "PropertyDefinition",
+        "InteractionModule": "InteractionDefinitionModule",
+    },
+    attributes={"PrimitiveInteger.kind": "aliasedPrimitive", "maxSize": "size", "charBase": "baseChar"},
+    literals={"anyNumber": "anyNumer", "PROVIDED": "provided", "REQUIRED": "required", "DATA": "data"},
+)
+
+
+@pytest.mark.parametrize("dress", [Dress(7), Dress(7, PRINTED)], ids=["names", "names and spelling"])
+def test_a_dressed_model_gets_the_answer_of_the_plain_one(dress: Dress) -> None:
+    for plain, other in zip(ASKED, dressed(ASKED, dress), strict=True):
+        answers = [{d.requirement for d in PROGRAM.check(q.text.encode(), "m")[1]} for q in (plain, other)]
+        assert answers[0] == answers[1], f"{plain.name}\n{other.text}"
+
+
+def test_no_name_is_left_but_those_that_are_printed() -> None:
+    kept = printed_names() | {"core"}
+    for q in dressed(ASKED, Dress(3)):
+        try:
+            root = etree.fromstring(q.text.encode())
+        except etree.XMLSyntaxError:
+            continue
+        for element in root.iter("Structure", "Interface", "ComponentType", "PortType", "ContractModule"):
+            name = str(element.get("name", ""))
+            assert not name.strip() or name in kept or re.search(r"_[a-z]{4}$", name), (q.name, name)
+
+
+def test_names_differ_from_run_to_run_and_hold_within_one() -> None:
+    assert drawn_name("a", 1) == drawn_name("a", 1) != drawn_name("a", 2)
+    assert drawn_name("Name", 1).lower() == drawn_name("name", 1).lower()
+    assert (drawn_name("", 1), drawn_name("LONG", 1), drawn_name("core", 1)) == ("", "LONG", "core")
+
+
+def test_references_follow_their_names() -> None:
+    text = (
+        '<ContractModule name="m"><Enumeration name="e" indexType="BYTE"><Enumerator name="x" value="1"/></Enumeration>'
+        '<Constant name="c" type="::m::e" value="x"/><Constant name="d" type="::m::e" value="c"/></ContractModule>'
+    )
+    model = read_model(Dress(5).of(text).encode(), "m").model
+    (module,) = model.modules
+    enumeration, (first, second) = module.data_types[0], module.constants  # type: ignore[union-attr]
+    assert first.type == f"::{module.name}::{enumeration.name}"
+    assert first.value == enumeration.enumerators[0].name  # type: ignore[union-attr]
+    assert second.value == first.name
+
+
+def test_what_is_no_xml_is_left_alone() -> None:
+    assert Dress(5).of("<a><b></a>") == "<a><b></a>"
