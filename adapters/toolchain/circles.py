@@ -1,0 +1,42 @@
+"""Finds out whether declarations lead back to themselves, in time linear in their number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from graphlib import CycleError, TopologicalSorter
+from typing import TypeVar
+
+from ucm_cts.adapters.contract.metamodel.common import Named
+from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
+
+Kind = TypeVar("Kind", bound=Named)
+
+
+def declared_in(root: Scope, kind: type[Named]) -> Iterator[Declared]:
+    """All that modules declare of exactly this ``kind``, wherever below ``root``."""
+    waiting = [root]
+    while waiting:
+        scope = waiting.pop()
+        for same_name in scope.members.values():
+            for declared in same_name:
+                if type(declared.element) is kind:
+                    yield declared
+        for modules in scope.modules.values():
+            waiting.extend(modules)
+
+
+def circle(root: Scope, kind: type[Named], leads_to: Callable[[Declared], Iterator[Declared]]) -> list[Named]:
+    """The elements of one circle in order, each leading to the next one and the last to the first; none if there is no circle."""
+    known: dict[int, Named] = {}
+    sorter: TopologicalSorter[int] = TopologicalSorter()
+    for declared in declared_in(root, kind):
+        for next_one in leads_to(declared):
+            known[id(declared.element)] = declared.element
+            known[id(next_one.element)] = next_one.element
+            sorter.add(id(declared.element), id(next_one.element))
+    try:
+        sorter.prepare()
+    except CycleError as error:
+        backwards: list[int] = error.args[1]
+        return [known[one] for one in reversed(backwards[1:])]
+    return []

@@ -1,0 +1,54 @@
+"""Which types does a port handle? Those of its interfaces, of their methods and attributes, and what these are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ucm_cts.adapters.contract.metamodel.contracts import (
+    AbstractDataType,
+    AbstractInterface,
+    Alias,
+    Array,
+    DataType,
+    Interface,
+    Sequence,
+    Structure,
+    Union,
+)
+from ucm_cts.adapters.contract.metamodel.interactions import PortType
+from ucm_cts.adapters.contract.metamodel.names import Declared
+
+_TYPES = (DataType, AbstractDataType, Interface, AbstractInterface)
+
+
+def handles(port_type: Declared, wanted: Declared) -> bool:
+    """Whether an API written as ``port_type`` has anything to do with the type ``wanted``."""
+    seen = {id(port_type.element)}
+    waiting = [port_type]
+    while waiting:
+        current = waiting.pop()
+        if current.element is wanted.element:
+            return True
+        for reference in _references(current):
+            found = current.scope.find(reference, *_TYPES)
+            if found is not None and id(found.element) not in seen:
+                seen.add(id(found.element))
+                waiting.append(found)
+    return False
+
+
+def _references(declared: Declared) -> Iterator[str]:
+    """The names of types by which a declaration says what it consists of."""
+    element = declared.element
+    if isinstance(element, PortType):
+        yield from (port_element.interface for port_element in element.port_elements)
+    elif isinstance(element, Interface):
+        yield from (inherited.interface for inherited in element.inherited_interfaces)
+        yield from (attribute.type for attribute in element.attributes)
+        yield from (parameter.type for method in element.methods for parameter in method.parameters)
+    elif isinstance(element, Structure):
+        yield from (field.type for field in element.fields)
+    elif isinstance(element, Union):
+        yield from (case.type for case in element.cases)
+    elif isinstance(element, Alias | Array | Sequence):
+        yield element.type
