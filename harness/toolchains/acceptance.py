@@ -73,7 +73,11 @@ class Acceptance:
         """Name and text of each question."""
         return tuple(self._texts.items())
 
-    def judge(self, made: dict[str, Made]) -> Iterator[Fact]:
+    def look(self, name: str, made: Made) -> tuple[Fact, ...]:
+        """Nothing: only all answers together say something."""
+        return ()
+
+    def judge(self, made: Mapping[str, Made], looked: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
         """What the answers say."""
         answers = {name: _answer(one) for name, one in made.items()}
         for judgement in judge(self._questions, answers):

@@ -6,7 +6,7 @@ import datetime
 import os
 import time
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Protocol
 
@@ -49,8 +49,11 @@ class Examination(Protocol):
     def models(self) -> Sequence[tuple[str, str]]:
         """The models to be processed, each with its name, simple ones first."""
 
-    def judge(self, made: dict[str, Made]) -> Iterable[Fact]:
-        """What ``made``, by the names of the models, says."""
+    def look(self, name: str, made: Made) -> tuple[Fact, ...]:
+        """What was made of one model says by itself; this may take time, and is done for several models at once."""
+
+    def judge(self, made: Mapping[str, Made], looked: Mapping[str, tuple[Fact, ...]]) -> Iterable[Fact]:
+        """What ``made``, by the names of the models, and what looking at each has shown, says."""
 
 
 class ToolChainCampaign:
@@ -79,6 +82,7 @@ class ToolChainCampaign:
         self._source = source
         self._seed = seed
         self._made: dict[str, Made] = {}
+        self._looked: dict[str, tuple[Fact, ...]] = {}
         self._facts: list[Fact] = []
         self._tally = Tally()
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
@@ -91,12 +95,12 @@ class ToolChainCampaign:
         task = TASKS[self._profile]
         models, size = self._examination.models, self._processor.at_once(task)
         waiting = iter([models[first : first + size] for first in range(0, len(models), size)])
-        running: dict[Future[list[Made]], list[str]] = {}
+        running: dict[Future[list[tuple[Made, tuple[Fact, ...]]]], list[str]] = {}
         with ThreadPoolExecutor(self._jobs) as pool:
             try:
                 while True:
                     for some in waiting:
-                        future = pool.submit(self._processor.process_all, task, some)
+                        future = pool.submit(self._processed, task, some)
                         running[future] = [name for name, _ in some]
                         if len(running) >= 2 * self._jobs:
                             break
@@ -104,15 +108,20 @@ class ToolChainCampaign:
                         return
                     done, _ = wait(running, return_when=FIRST_COMPLETED)
                     for future in done:
-                        for name, made in zip(running.pop(future), future.result(), strict=True):
-                            self._made[name] = made
+                        for name, (made, looked) in zip(running.pop(future), future.result(), strict=True):
+                            self._made[name], self._looked[name] = made, looked
                             yield name
             finally:
                 pool.shutdown(cancel_futures=True)
 
+    def _processed(self, task: Task, some: Sequence[tuple[str, str]]) -> list[tuple[Made, tuple[Fact, ...]]]:
+        names = (name for name, _ in some)
+        made = self._processor.process_all(task, some)
+        return [(one, self._examination.look(name, one)) for name, one in zip(names, made, strict=True)]
+
     def judge(self) -> None:
         """Judge what was made so far."""
-        self._facts = list(self._examination.judge(self._made))
+        self._facts = list(self._examination.judge(self._made, self._looked))
         for fact in self._facts:
             self._measures[fact.measure or "facts"] += 1
             if fact.unclear:
@@ -131,7 +140,8 @@ class ToolChainCampaign:
         broken = {fact.requirement: fact for fact in reversed(self._facts) if fact.finding is not None}
         for requirement, fact in broken.items():
             again = {name: self._processor.process(TASKS[self._profile], name, texts[name]) for name in fact.asked}
-            facts = self._examination.judge(self._made | again)
+            looked = {name: self._examination.look(name, made) for name, made in again.items()}
+            facts = self._examination.judge(self._made | again, self._looked | looked)
             shown = any(f.requirement == requirement and f.finding and f.asked == fact.asked for f in facts)
             if not shown and fact.finding is not None:
                 self._tally.doubt_processed(

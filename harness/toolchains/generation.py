@@ -1,0 +1,155 @@
+"""The examination of the profiles that generate: legal models, and whether the files made of them hold what the mapping says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Protocol
+
+import msgspec
+from lxml import etree
+
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.reading import read_model
+from ucm_cts.harness.catalogue import SUITE
+from ucm_cts.harness.documents import read_text
+from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Processed
+from ucm_cts.harness.toolchains.campaign import Fact
+from ucm_cts.harness.toolchains.dressing import Dress
+from ucm_cts.harness.toolchains.processing import Made
+from ucm_cts.reference_models.findings import Finding
+
+FOLDERS = (SUITE / "models" / "mapping", SUITE / "models" / "legal")
+
+AROUND = 3
+"""Lines of a generated file shown before and after the one that is wrong."""
+
+
+class Difference(Protocol):
+    """Something that is missing, wrong or unexpected in a generated file."""
+
+    @property
+    def requirement(self) -> str: ...
+
+    @property
+    def rule(self) -> str: ...
+
+    @property
+    def element(self) -> str: ...
+
+    @property
+    def line_in_model(self) -> int: ...
+
+    @property
+    def expected(self) -> str: ...
+
+    @property
+    def observed(self) -> str: ...
+
+    @property
+    def file(self) -> str: ...
+
+    @property
+    def line(self) -> int: ...
+
+
+class Comparison(Protocol):
+    """What generated files come to: how often each requirement was looked at, what broke one, which readings were met."""
+
+    @property
+    def exercised(self) -> Mapping[str, int]: ...
+
+    @property
+    def differences(self) -> Sequence[Difference]: ...
+
+
+Compare = Callable[[Model, Mapping[str, str]], Comparison]
+"""Holds the files, by name, that were made of a model against what must be in them."""
+
+
+class Generation:
+    """Asks for the files of each model and compares them as soon as they are there."""
+
+    def __init__(self, compare: Compare, generates: tuple[str, str], dress: Dress, expression: str = "") -> None:
+        """``generates`` are the requirement, and its rule, that files can be had of a legal model at all. Of the models
+        only those whose name holds a word of ``expression``, or all if one of its words is no part of any name.
+        """
+        self._compare = compare
+        self._generates = generates
+        models = {name: dress.of(text) for name, text in mapping_models().items()}
+        words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
+        named = {name: text for name, text in models.items() if any(word in name.lower() for word in words)}
+        self._texts = named or models
+        self._words = [] if named else words
+
+    @property
+    def models(self) -> Sequence[tuple[str, str]]:
+        """Name and text of each model."""
+        return tuple(self._texts.items())
+
+    def look(self, name: str, made: Made) -> tuple[Fact, ...]:
+        """What the files of one model say."""
+        return tuple(fact for fact in self._facts(name, made) if self._is_wanted(fact.requirement))
+
+    def judge(self, made: Mapping[str, Made], looked: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
+        """All that was seen."""
+        for name in made:
+            yield from looked[name]
+
+    def _is_wanted(self, requirement: str) -> bool:
+        return not self._words or any(word in requirement.lower() for word in self._words)
+
+    def _facts(self, name: str, made: Made) -> Iterator[Fact]:
+        requirement, rule = self._generates
+        incident = made.processed.incident
+        if incident is not None and incident.kind not in FRAMEWORK_INCIDENTS - {"exit"}:
+            yield Fact(requirement, (name,), unclear=f"no answer: {incident.kind}: {incident.detail}")
+            return
+        if not made.accepted or not made.files:
+            first = next((line for line in made.processed.output.splitlines() if line.strip()), "without a word")
+            observed = f"{incident.kind}: {incident.detail}" if incident else f"refused: {first.strip()[:300]}"
+            observed = "no file was written" if made.accepted else observed
+            finding = Finding(requirement, rule, name, "files are made of this legal model", observed)
+            yield Fact(requirement, (name,), finding, processed=made.processed)
+            return
+        yield Fact(requirement, (name,), measure="models generated from")
+        yield from self._compared(name, made)
+
+    def _compared(self, name: str, made: Made) -> Iterator[Fact]:
+        model = read_model(self._texts[name].encode(), name).model
+        comparison = self._compare(model, made.files)
+        broken: dict[str, list[Difference]] = {}
+        for difference in comparison.differences:
+            broken.setdefault(difference.requirement, []).append(difference)
+        for requirement, times in comparison.exercised.items():
+            for _ in range(times - len(broken.get(requirement, ()))):
+                yield Fact(requirement, (name,), measure="declarations as they should be")
+        for requirement, differences in broken.items():
+            for difference in differences:
+                yield Fact(requirement, (name,), self._finding(difference), processed=_evidence(made, difference))
+
+    def _finding(self, difference: Difference) -> Finding:
+        of = f" for {difference.element}" if difference.element else ""
+        line = f" (line {difference.line_in_model} of the model)" if difference.line_in_model else ""
+        expected = f"{difference.expected}{of}{line}"
+        cause = difference.element.rpartition("::")[2] or difference.expected
+        return Finding(difference.requirement, difference.rule, cause, expected, difference.observed)
+
+
+def mapping_models() -> dict[str, str]:
+    """The models that code is generated from, by name, small ones first."""
+    paths = [path for folder in FOLDERS for path in sorted(folder.glob("*.xml"))]
+    texts = {path.stem: read_text(path) for path in paths}
+    plain = {name: etree.tostring(etree.fromstring(text.encode()), encoding="unicode") for name, text in texts.items()}
+    return dict(sorted(plain.items(), key=lambda item: len(item[1])))
+
+
+def _evidence(made: Made, difference: Difference) -> Processed:
+    """The processing with the place in the vendor's file."""
+    if not difference.file:
+        return made.processed
+    lines = made.files.get(difference.file, "").splitlines()
+    first = max(0, difference.line - 1 - AROUND)
+    shown = enumerate(lines[first : difference.line + AROUND], first + 1)
+    excerpt = "\n".join(f"{'>' if number == difference.line else ' '} {number:>4}  {line}" for number, line in shown)
+    place = f"{difference.file}:{difference.line}" if difference.line else difference.file
+    return msgspec.structs.replace(made.processed, place=place, excerpt=excerpt)
