@@ -1,0 +1,91 @@
+"""Compares a vendor's IDL with what clause 12 makes of a model: by meaning, so text, order and spelling are free where IDL's are.
+
+Facts about what is not there are left alone, because one fact says that it is missing; so one defect is told once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ucm_cts.harness.toolchains.idl.annotations import applied
+from ucm_cts.harness.toolchains.idl.facts import FACTS
+from ucm_cts.harness.toolchains.idl.reading import Files, read_files
+from ucm_cts.harness.toolchains.idl.results import Difference, IdlComparison, NotExercised, Wrong
+from ucm_cts.harness.toolchains.idl.scopes import build
+from ucm_cts.harness.toolchains.idl.standard import standard_differences
+from ucm_cts.harness.toolchains.idl.validity import building_blocks, invalid
+from ucm_cts.harness.toolchains.idl.vendor import Vendor
+from ucm_cts.reference_models.idl.declarations import Place
+from ucm_cts.reference_models.idl.expectations import RULE_OF, Expected, ExpectedIdl
+
+CHECKS = {
+    "idl_syntax": "The generated files are IDL: they can be parsed, nothing is declared twice, and every name means something.",
+    "idl_building_blocks": "They use core data types, annotations, basic interfaces and template modules, nothing else of IDL.",
+    "idl_types": "Each data type is declared under its name, as the table and the examples of clause 12 have it.",
+    "idl_annotations": "The annotations of clause 14 stand where they are needed, with the members and the values they should have.",
+    "idl_constants": "Each constant has its name, its type and its value.",
+    "idl_interfaces": "Interfaces and exceptions have the operations, parameters, results, fields and ancestors of the model.",
+    "idl_modules": "Each module is a module that holds what the model's module holds, a template where abstract types are used.",
+    "idl_components": "Component types and implementations are interfaces with their ancestors, attributes and getters.",
+    "idl_interactions": "Nothing is made of connectors and port types.",
+    "idl_standard": "Declarations that clause 12 prints are as printed, wherever they stand.",
+}
+"""The checks that the catalogue names among its rules, and what each looks at."""
+
+
+def compare(expected: ExpectedIdl, files: Mapping[str, str], readings: Mapping[str, str] = {}) -> IdlComparison:
+    """Compare the vendor's ``files`` (name to text) with what is ``expected`` of them under the ``readings`` declared.
+
+    ``readings`` maps options of ``interpretations_12.yaml`` to values; what is not named counts as its first value. Never raises for
+    whatever the files hold.
+    """
+    read = read_files(files)
+    vendor = Vendor(build(read.declarations), expected, readings, bool(read.problems), bool(read.missing))
+    exercised: dict[str, int] = {}
+    differences = list(_of_files(vendor, read, exercised))
+    for fact in expected.facts:
+        try:
+            wrong = FACTS[type(fact)](vendor, fact)
+        except NotExercised:
+            continue
+        told = [_difference(fact, one) for one in wrong]
+        for requirement in {fact.requirement, *(one.requirement for one in told)}:
+            exercised[requirement] = exercised.get(requirement, 0) + 1
+        differences += told
+    seen = {option: frozenset(values) for option, values in vendor.met.items()}
+    return IdlComparison(exercised, tuple(dict.fromkeys(differences)), seen)
+
+
+def _difference(fact: Expected, wrong: Wrong) -> Difference:
+    requirement = wrong.requirement or fact.requirement
+    return Difference(
+        requirement,
+        RULE_OF[requirement],
+        fact.element,
+        fact.line,
+        wrong.expected,
+        wrong.observed,
+        wrong.place.file,
+        wrong.place.line,
+    )
+
+
+def _of_files(vendor: Vendor, read: Files, exercised: dict[str, int]) -> Iterator[Difference]:
+    """What can be said of the files by themselves, whatever the model."""
+    if not read.declarations and not read.problems:
+        return
+    exercised["R-12.1-03"] = exercised["R-12.1-02"] = 1
+    for problem in read.problems:
+        yield _about_files("R-12.1-03", Wrong("IDL", problem.text, Place(problem.file, problem.line)))
+    for requirement, found in (("R-12.1-03", invalid(vendor, read)), ("R-12.1-02", building_blocks(vendor, read))):
+        for wrong in found:
+            yield _about_files(requirement, wrong)
+    for requirement, looked_at in (*applied(vendor, read), *standard_differences(vendor)):
+        exercised[requirement] = exercised.get(requirement, 0) + 1
+        for wrong in looked_at:
+            yield _about_files(requirement, wrong)
+
+
+def _about_files(requirement: str, wrong: Wrong) -> Difference:
+    place = wrong.place
+    return Difference(requirement, RULE_OF[requirement], "", 0, wrong.expected, wrong.observed, place.file, place.line)

@@ -1,0 +1,302 @@
+"""How each kind of expectation is looked at: what is wrong with the vendor's IDL, if anything."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ucm_cts.harness.toolchains.idl.annotations import defaulted, indexed, numbered, tagged
+from ucm_cts.harness.toolchains.idl.facts_of_interfaces import access, getter, inherits, no_getter, only, raises, takes
+from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
+from ucm_cts.harness.toolchains.idl.scopes import Entry, Hit, every, resolve
+from ucm_cts.harness.toolchains.idl.showing import show, show_kind, show_worth, type_of
+from ucm_cts.harness.toolchains.idl.subject import here, nearest
+from ucm_cts.harness.toolchains.idl.values import Chosen, equal, model_worth, worth
+from ucm_cts.harness.toolchains.idl.vendor import Vendor, spelled
+from ucm_cts.reference_models.idl.declarations import (
+    Case,
+    Constant,
+    Declaration,
+    Enum,
+    Exception_,
+    Expression,
+    Module,
+    Native,
+    Struct,
+    Typedef,
+    Union,
+    kind_of,
+)
+from ucm_cts.reference_models.idl.expectations import (
+    Access,
+    Declares,
+    Defaulted,
+    Expected,
+    Getter,
+    Indexed,
+    Inherits,
+    Labelled,
+    Lists,
+    Means,
+    NoGetter,
+    Numbered,
+    Only,
+    Parametrized,
+    Raises,
+    Selects,
+    Tagged,
+    Takes,
+    Templated,
+    Undeclared,
+    Valued,
+)
+
+MISPLACED = "R-12.7-07"
+
+TYPES = (Typedef, Struct, Union, Enum, Native)
+
+
+def declares(vendor: Vendor, fact: Declares) -> list[Wrong]:
+    """Whether it is there at all, and is what it should be."""
+    hit = vendor.at(fact.path)
+    if hit is None:
+        return _missing(vendor, fact)
+    declaration = hit.entry.declaration
+    kind = kind_of(declaration)
+    if kind == fact.kind or (not fact.kind and isinstance(declaration, TYPES)):
+        return []
+    return [Wrong(f"{show_kind(fact.kind)} {fact.path[-1]}", f"{show_kind(kind)} of that name", declaration.place)]
+
+
+def _missing(vendor: Vendor, fact: Declares) -> list[Wrong]:
+    around = here(vendor, fact.path[:-1]) if len(fact.path) > 1 else None
+    if not fact.needed or vendor.unreadable:
+        return []
+    expected = f"{show_kind(fact.kind)} {'::'.join(fact.path)}"
+    if fact.kind in ("operation", "attribute"):
+        return [Wrong(expected, "no such thing", nearest(around))]
+    elsewhere = [
+        entry
+        for entry in every(vendor.root)
+        if entry.declaration.name.lower() == spelled(fact.path[-1]).lower() and _is_like(entry.declaration, fact.kind)
+    ]
+    if elsewhere:
+        found = elsewhere[0]
+        return [Wrong(expected, f"only {'::'.join(found.path)}", found.declaration.place, MISPLACED)]
+    return [Wrong(expected, "no such declaration", nearest(around))]
+
+
+def _is_like(declaration: Declaration, kind: str) -> bool:
+    return isinstance(declaration, TYPES) if not kind else kind_of(declaration) == kind
+
+
+def means(vendor: Vendor, fact: Means) -> list[Wrong]:
+    """Whether a type is the one it should be."""
+    hit = here(vendor, fact.path)
+    declaration = hit.entry.declaration
+    found = type_of(declaration)
+    if found is None:
+        return [
+            Wrong(
+                f"{fact.path[-1]} to be another name of {show(fact.type)}",
+                f"a {kind_of(declaration)}",
+                declaration.place,
+            )
+        ]
+    if not vendor.known(found, hit.entry.scope) or vendor.same(found, hit.entry.scope, fact.type):
+        return []
+    if _printed_long(vendor, found, hit, fact):
+        return []
+    return [Wrong(f"{show(fact.type)} {fact.path[-1]}", show(found), declaration.place)]
+
+
+def _printed_long(vendor: Vendor, found: Any, hit: Hit, fact: Means) -> bool:
+    """The table prints unsigned long for ULONGLONG, too (interpretation idl-ulonglong)."""
+    if fact.requirement != "R-12.3.1-08" or vendor.meaning(found, hit.entry.scope)[:2] != ("basic", "unsigned long"):
+        return False
+    return vendor.reading("idl-ulonglong") == "unsigned-long"
+
+
+def selects(vendor: Vendor, fact: Selects) -> list[Wrong]:
+    """Whether a union is told apart by the right type."""
+    hit = here(vendor, fact.path, Union)
+    union = hit.entry.declaration
+    assert isinstance(union, Union)
+    if not vendor.known(union.selector, hit.entry.scope) or vendor.same(union.selector, hit.entry.scope, fact.type):
+        return []
+    return [Wrong(f"switch ({show(fact.type)})", f"switch ({show(union.selector)})", union.place)]
+
+
+def _listed(declaration: Declaration) -> tuple[Declaration, ...]:
+    match declaration:
+        case Struct() | Exception_():
+            return declaration.members
+        case Union():
+            return declaration.cases
+        case Enum():
+            return declaration.enumerators
+    return ()
+
+
+def lists(vendor: Vendor, fact: Lists) -> list[Wrong]:
+    """Whether members, cases or enumerators are just those of the model."""
+    hit = here(vendor, fact.path, (Struct, Exception_, Union, Enum))
+    declaration = hit.entry.declaration
+    found = [one.name for one in _listed(declaration)]
+    wanted = [_written(vendor, hit, name) for name in fact.names]
+    same = [n.lower() for n in found] == [n.lower() for n in wanted]
+    if not fact.ordered:
+        same = sorted(n.lower() for n in found) == sorted(n.lower() for n in wanted)
+    if same:
+        return []
+    return [Wrong(f"{fact.path[-1]} to have {_names(wanted)}", _names(found), declaration.place)]
+
+
+def _written(vendor: Vendor, hit: Hit, name: str) -> str:
+    found = vendor.inside(hit, name)
+    return found.entry.declaration.name if found is not None else spelled(name)
+
+
+def _names(names: list[str]) -> str:
+    return ", ".join(names) or "nothing"
+
+
+def labelled(vendor: Vendor, fact: Labelled) -> list[Wrong]:
+    """Whether a case holds for the enumerators it should."""
+    hit = here(vendor, fact.path, Case)
+    case = hit.entry.declaration
+    union = here(vendor, fact.path[:-1], Union).entry
+    assert isinstance(case, Case)
+    assert isinstance(union.declaration, Union)
+    wanted = {spelled(path[-1]).lower() for path in fact.labels}
+    found = _chosen(case, union)
+    if found is None:
+        return []
+    default = None in case.labels
+    right = found == wanted and not default
+    if fact.default:
+        right = found <= wanted if default else found == wanted | _others(case, union)
+    if right:
+        return []
+    expected = ", ".join([*sorted(wanted), *(["default"] if fact.default else [])])
+    observed = ", ".join([*sorted(found), *(["default"] if default else [])])
+    return [Wrong(f"case {case.name} for {expected}", observed, case.place)]
+
+
+def _chosen(case: Case, union: Entry) -> set[str] | None:
+    """The enumerators that a case names; None if one of them means nothing."""
+    assert isinstance(union.declaration, Union)
+    selector = resolve(getattr(union.declaration.selector, "name", ""), union.scope)
+    around = selector.entry.scope if selector is not None else union.scope
+    values = [worth(label, around) or worth(label, union.scope) for label in _expressions(case)]
+    return {value.name for value in values if isinstance(value, Chosen)} if all(values) else None
+
+
+def _expressions(case: Case) -> list[Expression]:
+    return [label for label in case.labels if label is not None]
+
+
+def _others(case: Case, union: Entry) -> set[str]:
+    """The enumerators that no other case names."""
+    assert isinstance(union.declaration, Union)
+    selector = resolve(getattr(union.declaration.selector, "name", ""), union.scope)
+    if selector is None or not isinstance(selector.entry.declaration, Enum):
+        return set()
+    rest = (_chosen(one, union) or set() for one in union.declaration.cases if one is not case)
+    return {one.name.lower() for one in selector.entry.declaration.enumerators} - set(
+        itertools.chain.from_iterable(rest)
+    )
+
+
+def valued(vendor: Vendor, fact: Valued) -> list[Wrong]:
+    """Whether a constant has its value."""
+    hit = here(vendor, fact.path, Constant)
+    constant = hit.entry.declaration
+    assert isinstance(constant, Constant)
+    wanted = model_worth(fact.value, vendor.value_kind(fact.type), hit.entry.scope)
+    found = worth(constant.value, hit.entry.scope)
+    if wanted is None or equal(found, wanted):
+        return []
+    return [Wrong(f"{constant.name} = {show_worth(wanted)}", show_worth(found), constant.place)]
+
+
+def templated(vendor: Vendor, fact: Templated) -> list[Wrong]:
+    """Whether a module has the parameters it must have and none that it may not."""
+    hit = here(vendor, fact.path, Module)
+    module = hit.entry.declaration
+    assert isinstance(module, Module)
+    found = {parameter.name.lower() for parameter in module.parameters}
+    names = {path: spelled(vendor.expected.abstract[path].name).lower() for path in fact.allowed}
+    required = {names[path] for path in fact.required}
+    allowed = set(names.values())
+    if fact.requirement == "R-12.7-12":
+        propagation = vendor.reading("idl-template-propagation")
+        if propagation == "containment":
+            required |= allowed
+        if propagation == "direct":
+            allowed = required | {names[path] for path in fact.allowed if path[:-1] == fact.path}
+        wrong = not required <= found <= allowed
+    else:
+        wrong = not required <= found
+    if not wrong:
+        return []
+    expected = ", ".join(sorted(required)).upper() or "no parameters"
+    return [Wrong(f"template parameters {expected}", ", ".join(sorted(found)) or "none", module.place)]
+
+
+def parametrized(vendor: Vendor, fact: Parametrized) -> list[Wrong]:
+    """Whether a template parameter has the right name and keyword."""
+    hit = here(vendor, fact.path, Module)
+    module = hit.entry.declaration
+    assert isinstance(module, Module)
+    plain = spelled(vendor.expected.abstract[fact.parameter].name)
+    found = next((p for p in module.parameters if p.name.lower() == plain.lower()), None)
+    if found is None:
+        raise NotExercised
+    if fact.keyword:
+        right = found.kind == fact.keyword
+        return [] if right else [Wrong(f"{fact.keyword} {plain.upper()}", f"{found.kind} {found.name}", found.place)]
+    spellings = {"upper": plain.upper(), "first": plain[:1].upper() + plain[1:]}
+    wanted = spellings.get(vendor.reading("idl-template-names"))
+    right = found.name == wanted if wanted else found.name in spellings.values()
+    vendor.met.setdefault("idl-template-names", set()).update(k for k, v in spellings.items() if v == found.name)
+    return [] if right else [Wrong(f"parameter {wanted or plain.upper()}", found.name, found.place)]
+
+
+def undeclared(vendor: Vendor, fact: Undeclared) -> list[Wrong]:
+    """Whether nothing has been made of what has no mapping."""
+    around = here(vendor, fact.path[:1])
+    hit = vendor.at(fact.path)
+    if hit is None or around is None:
+        return []
+    declaration = hit.entry.declaration
+    kind = kind_of(declaration)
+    if kind in ("connector", "porttype") and vendor.reading("idl-output") == "both":
+        return []
+    return [Wrong(f"nothing called {fact.path[-1]}", show_kind(kind), declaration.place)]
+
+
+FACTS: Mapping[type[Expected], Callable[[Vendor, Any], list[Wrong]]] = {
+    Declares: declares,
+    Means: means,
+    Selects: selects,
+    Lists: lists,
+    Labelled: labelled,
+    Valued: valued,
+    Templated: templated,
+    Parametrized: parametrized,
+    Undeclared: undeclared,
+    Takes: takes,
+    Raises: raises,
+    Only: only,
+    Inherits: inherits,
+    Access: access,
+    Getter: getter,
+    NoGetter: no_getter,
+    Numbered: numbered,
+    Tagged: tagged,
+    Indexed: indexed,
+    Defaulted: defaulted,
+}
+"""Looks at one expectation; raises ``NotExercised`` if what it is about is not there."""

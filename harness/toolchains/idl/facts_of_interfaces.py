@@ -1,0 +1,210 @@
+"""How expectations of interfaces are looked at: operations, attributes, ancestors and getters."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
+from ucm_cts.harness.toolchains.idl.scopes import Hit, base_names, bases, resolve
+from ucm_cts.harness.toolchains.idl.showing import show
+from ucm_cts.harness.toolchains.idl.subject import here
+from ucm_cts.harness.toolchains.idl.vendor import Vendor, spelled
+from ucm_cts.reference_models.idl.declarations import Attribute, Interface, Operation, kind_of
+from ucm_cts.reference_models.idl.expectations import (
+    Access,
+    Getter,
+    Inherits,
+    NoGetter,
+    Only,
+    Path,
+    Raises,
+    Signature,
+    Takes,
+)
+
+
+def takes(vendor: Vendor, fact: Takes) -> list[Wrong]:
+    """Whether an operation has the parameters it should: names, directions, order."""
+    hit = here(vendor, fact.path, Operation)
+    operation = hit.entry.declaration
+    assert isinstance(operation, Operation)
+    found = [(p.direction, p.name) for p in operation.parameters]
+    wanted = [(direction, _written(vendor, hit, name)) for direction, name in fact.parameters]
+    if [(d, n.lower()) for d, n in found] == [(d, n.lower()) for d, n in wanted]:
+        return []
+    return [Wrong(f"{fact.path[-1]}({_shown(wanted)})", f"({_shown(found)})", operation.place)]
+
+
+def _written(vendor: Vendor, hit: Hit, name: str) -> str:
+    found = vendor.inside(hit, name)
+    return found.entry.declaration.name if found is not None else spelled(name)
+
+
+def _shown(parameters: list[tuple[str, str]]) -> str:
+    return ", ".join(" ".join(one) for one in parameters)
+
+
+def raises(vendor: Vendor, fact: Raises) -> list[Wrong]:
+    """Whether an operation raises just the exceptions it should."""
+    hit = here(vendor, fact.path, Operation)
+    operation = hit.entry.declaration
+    assert isinstance(operation, Operation)
+    found = [(name, resolve(name, hit.entry.scope)) for name in operation.raises]
+    if any(one is None for _, one in found):
+        return []
+    entries = {id(one.entry) for _, one in found if one is not None}
+    wanted = [vendor.at(path) for path in fact.exceptions]
+    if any(one is None for one in wanted) or entries == {id(one.entry) for one in wanted if one is not None}:
+        return []
+    expected = ", ".join("::".join(path) for path in fact.exceptions) or "nothing"
+    observed = ", ".join(operation.raises) or "nothing"
+    return [Wrong(f"{fact.path[-1]} to raise {expected}", observed, operation.place)]
+
+
+def only(vendor: Vendor, fact: Only) -> list[Wrong]:
+    """Whether an interface has nothing of a kind that the model does not have."""
+    hit = here(vendor, fact.path, Interface)
+    interface = hit.entry.declaration
+    assert isinstance(interface, Interface)
+    wanted = {id(found.entry) for name in fact.names if (found := vendor.inside(hit, name)) is not None}
+    assert hit.entry.inner is not None or not interface.body
+    entries = hit.entry.inner.entries if hit.entry.inner is not None else ()
+    return [
+        Wrong(f"no {fact.kind} of the name in {fact.path[-1]}", entry.declaration.name, entry.declaration.place)
+        for entry in entries
+        if kind_of(entry.declaration) == fact.kind and id(entry) not in wanted
+    ]
+
+
+def inherits(vendor: Vendor, fact: Inherits) -> list[Wrong]:
+    """Whether an interface has an ancestor."""
+    hit = here(vendor, fact.path, Interface)
+    base = vendor.at(fact.base)
+    standard = len(fact.base) == 1
+    named = spelled(fact.base[-1]).lower() in base_names(hit)
+    if base is None and not standard and not vendor.missing:
+        raise NotExercised
+    if any(one.entry is base.entry for one in bases(hit)) if base is not None else named:
+        return []
+    if standard and named:
+        return []
+    interface = hit.entry.declaration
+    assert isinstance(interface, Interface)
+    observed = ", ".join(interface.bases) or "nothing"
+    return [Wrong(f"{interface.name} to inherit from {'::'.join(fact.base)}", observed, interface.place)]
+
+
+def access(vendor: Vendor, fact: Access) -> list[Wrong]:
+    """Whether an attribute can be written just if it should."""
+    attribute = here(vendor, fact.path, Attribute).entry.declaration
+    assert isinstance(attribute, Attribute)
+    if attribute.readonly == fact.readonly:
+        return []
+    words = ("attribute", "readonly attribute")
+    return [Wrong(f"{words[fact.readonly]} {attribute.name}", words[attribute.readonly], attribute.place)]
+
+
+def operations(hit: Hit) -> Iterator[Hit]:
+    """The operations of an interface, inherited ones too."""
+    for one in (hit, *bases(hit)):
+        for entry in one.entry.inner.entries if one.entry.inner is not None else ():
+            if isinstance(entry.declaration, Operation):
+                yield Hit(entry, one.bound)
+
+
+def _holder(vendor: Vendor, path: Path, otherwise: Path) -> Hit:
+    hit = vendor.at(path)
+    return (
+        hit if hit is not None and isinstance(hit.entry.declaration, Interface) else here(vendor, otherwise, Interface)
+    )
+
+
+def _pattern(name: str) -> re.Pattern[str]:
+    """A getter's name, hyphens as ``_``; ``*`` is any part of a name."""
+    return re.compile(re.escape(spelled(name)).replace(r"\*", r"\w*"), re.IGNORECASE)
+
+
+def _allowed(vendor: Vendor, names: tuple[str, ...]) -> list[re.Pattern[str]]:
+    if len(names) == 3:  # of a policy: the readings of idl-policy-getters, in this order
+        chosen = {"instance": names[:1], "definition": names[1:2], "component-and-instance": names[2:]}
+        names = chosen.get(vendor.reading("idl-policy-getters"), names)
+    return [_pattern(name) for name in names]
+
+
+def _getters(vendor: Vendor, holder: Hit, names: tuple[str, ...]) -> list[Hit]:
+    patterns = _allowed(vendor, names)
+    return [one for p in patterns for one in operations(holder) if p.fullmatch(one.entry.declaration.name)]
+
+
+def getter(vendor: Vendor, fact: Getter) -> list[Wrong]:
+    """Whether the operation that hands out a port element is there, takes nothing, and returns the right interface."""
+    holder = _holder(vendor, fact.path, fact.otherwise)
+    found = _getters(vendor, holder, fact.names)
+    place = holder.entry.declaration.place
+    if fact.aspect == "presence":
+        if found or not fact.needed:
+            return []
+        missing = vendor.missing and any(resolve(n, holder.entry.scope) is None for n in _base_list(holder))
+        if vendor.unreadable or missing:
+            raise NotExercised
+        return [
+            Wrong(f"operation {spelled(fact.names[0])} of {holder.entry.declaration.name}", "no such operation", place)
+        ]
+    if not found:
+        raise NotExercised
+    hit = found[0]
+    operation = hit.entry.declaration
+    assert isinstance(operation, Operation)
+    if fact.aspect == "arguments":
+        parameters = [(p.direction, p.name) for p in operation.parameters]
+        return [Wrong(f"{operation.name}()", f"({_shown(parameters)})", operation.place)] if parameters else []
+    if not vendor.known(operation.returns, hit.entry.scope, hit.bound) or _returns(vendor, hit, operation, fact):
+        return []
+    return [Wrong(f"{operation.name} to return {show(fact.returns)}", show(operation.returns), operation.place)]
+
+
+def _base_list(hit: Hit) -> tuple[str, ...]:
+    interface = hit.entry.declaration
+    return interface.bases if isinstance(interface, Interface) else ()
+
+
+def _returns(vendor: Vendor, hit: Hit, operation: Operation, fact: Getter) -> bool:
+    if not fact.signatures:
+        return vendor.same(operation.returns, hit.entry.scope, fact.returns, hit.bound)
+    name = getattr(operation.returns, "name", "")
+    returned = resolve(name, hit.entry.scope, hit.bound) if name else None
+    if returned is None or not isinstance(returned.entry.declaration, Interface):
+        return False
+    by_name = {one.entry.declaration.name.lower(): one for one in operations(returned)}
+    return all(_has(vendor, by_name.get(spelled(s.name).lower()), s) for s in fact.signatures)
+
+
+def _has(vendor: Vendor, hit: Hit | None, signature: Signature) -> bool:
+    """Whether the operation of a bound interface has the types that are bound."""
+    if hit is None:
+        return False
+    operation = hit.entry.declaration
+    assert isinstance(operation, Operation)
+    pairs = [(operation.returns, signature.returns)]
+    pairs += [(p.type, type_) for p, (_, _, type_) in zip(operation.parameters, signature.parameters, strict=False)]
+    return len(operation.parameters) == len(signature.parameters) and all(
+        vendor.same(found, hit.entry.scope, wanted, hit.bound) for found, wanted in pairs
+    )
+
+
+def no_getter(vendor: Vendor, fact: NoGetter) -> list[Wrong]:
+    """Whether there is no operation that hands out what is required, or has no API."""
+    holder = _holder(vendor, fact.path, ())
+    return [
+        Wrong(f"no operation {one.entry.declaration.name}", "it is there", one.entry.declaration.place)
+        for one in {id(hit.entry): hit for hit in _getters(vendor, holder, fact.names)}.values()
+        if not _explained(vendor, fact, one)
+    ]
+
+
+def _explained(vendor: Vendor, fact: NoGetter, hit: Hit) -> bool:
+    """Whether another port's getter has the name by chance: a port's own name may hold an underscore."""
+    name = hit.entry.declaration.name
+    due = (n for one in vendor.expected.facts if isinstance(one, Getter) for n in one.names)
+    return any(_pattern(n).fullmatch(name) for n in due)

@@ -1,0 +1,199 @@
+"""Reads IDL: the text of files to declarations, each with its place, or to a problem that names file, line and column.
+
+The text may be hostile: its size, its nesting and the length of its expressions are bounded, and parsing takes time in proportion.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from lark import Lark, Token
+from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
+from lark.lexer import PatternRE, PatternStr, TerminalDef
+
+from ucm_cts.harness.toolchains.idl.building import Builder
+from ucm_cts.reference_models.idl.declarations import Declaration, Expression
+
+LARGEST = 4 * 1024 * 1024
+"""Characters that a file of IDL may have."""
+
+DEEPEST = 100
+"""Levels to which brackets may nest."""
+
+LONGEST_CHAIN = 1000
+"""Operators that may stand in one file between two semicolons or braces."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Why a text is not IDL, and where; lines and columns are counted from 1."""
+
+    file: str
+    line: int
+    column: int
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}: {self.text}"
+
+
+class NotIdl(Exception):
+    """A text that is not IDL; ``problem`` tells why."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(str(problem))
+        self.problem = problem
+
+
+@dataclass(frozen=True)
+class Files:
+    """What several files declare, file by file; what is wrong with those that do not; files that are included and not there."""
+
+    declarations: Mapping[str, tuple[Declaration, ...]]
+    problems: tuple[Problem, ...]
+    missing: tuple[str, ...]
+
+
+def read_files(files: Mapping[str, str]) -> Files:
+    """What ``files`` (name to text) declare. Never raises."""
+    declarations: dict[str, tuple[Declaration, ...]] = {}
+    problems = []
+    known = {PurePosixPath(name).name for name in files}
+    missing = {name for text in files.values() for name in included(text) if PurePosixPath(name).name not in known}
+    for name, text in files.items():
+        try:
+            declarations[name] = read_idl(text, name)
+        except NotIdl as error:
+            problems.append(error.problem)
+    return Files(declarations, tuple(problems), tuple(sorted(missing)))
+
+
+def read_idl(text: str, file: str = "") -> tuple[Declaration, ...]:
+    """The declarations in ``text``. Raises ``NotIdl``."""
+    parsed = _parsed(text, file, "start")
+    assert isinstance(parsed, tuple)
+    return parsed
+
+
+def read_expression(text: str) -> Expression:
+    """The value of a constant as it may stand in a model. Raises ``NotIdl``."""
+    expression = _parsed(text, "", "expression_alone")
+    assert not isinstance(expression, tuple)
+    return expression
+
+
+_INCLUDE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*[\"<]([^\">\n]+)[\">]", re.MULTILINE)
+
+
+def included(text: str) -> list[str]:
+    """The names in the include directives of ``text``."""
+    return _INCLUDE.findall(text)
+
+
+_BLANKED = re.compile(
+    r'(?P<kept>"(?:\\.|[^"\\\n])*"|\'(?:\\[^\n]|[^\'\\\n])+\')'
+    r"|(?P<blanked>//[^\n]*|/\*.*?\*/|^[ \t]*\#(?:[^\n\\]|\\\n|\\)*)|(?P<open>/\*)",
+    re.DOTALL | re.MULTILINE,
+)
+
+
+def blanked(text: str, file: str = "") -> str:
+    """``text`` with blanks instead of comments and directives, so that all places stay. Raises ``NotIdl``."""
+    text = text.removeprefix("\ufeff").replace("\r\n", "\n")
+    pieces = []
+    at = 0
+    for match in _BLANKED.finditer(text):
+        if match["open"]:
+            raise NotIdl(_problem(text, match.start(), file, "this comment does not end; close it"))
+        if match["blanked"]:
+            pieces += [text[at : match.start()], re.sub(r"[^\n]", " ", match[0])]
+            at = match.end()
+    return "".join([*pieces, text[at:]])
+
+
+def _problem(text: str, at: int, file: str, told: str) -> Problem:
+    return Problem(file, text.count("\n", 0, at) + 1, at - (text.rfind("\n", 0, at) + 1) + 1, told)
+
+
+def _bounded(text: str, file: str) -> None:
+    """Refuse what would cost more than a file of IDL is worth; ``text`` has no comments any more."""
+    depth = chain = 0
+    for match in re.finditer(
+        r'"(?:\\.|[^"\\\n])*"|\'(?:\\[^\n]|[^\'\\\n])+\'|::|[(\[{]|[)\]}]|[;]|[-+*/%|&^~]|<<|>>', text
+    ):
+        token = match[0]
+        if token in "([{":
+            depth += 1
+        elif token in ")]}":
+            depth -= 1
+        if token in "{};":
+            chain = 0
+        elif token not in "()[]::" and token[0] not in "\"'":
+            chain += 1
+        if depth > DEEPEST or chain > LONGEST_CHAIN:
+            what = "nests deeper" if depth > DEEPEST else "is a longer expression"
+            raise NotIdl(_problem(text, match.start(), file, f"{what} than this suite reads; make it simpler"))
+    nested = re.search(rf"(?:sequence\s*<\s*){{{DEEPEST}}}", text)
+    if nested:
+        raise NotIdl(_problem(text, nested.start(), file, "nests deeper than this suite reads; make it simpler"))
+
+
+def _parsed(text: str, file: str, start: str) -> tuple[Declaration, ...] | Expression:
+    if len(text) > LARGEST:
+        raise NotIdl(Problem(file, 1, 1, f"has more than {LARGEST} characters; split it"))
+    if "\0" in text:
+        raise NotIdl(_problem(text, text.index("\0"), file, "a NUL is not IDL; remove it"))
+    text = blanked(text, file)
+    _bounded(text, file)
+    parser, builder = _parser()
+    builder.begin(file)
+    try:
+        parsed: tuple[Declaration, ...] | Expression = parser.parse(text, start=start)  # type: ignore[assignment]
+    except UnexpectedInput as error:
+        raise NotIdl(_told(error, text, file)) from None
+    if builder.reserved is not None:
+        word = builder.reserved
+        raise NotIdl(
+            Problem(file, word.line or 0, word.column or 0, f"'{word}' is a keyword of IDL; write '_{word}' for a name")
+        )
+    return parsed
+
+
+def _told(error: UnexpectedInput, text: str, file: str) -> Problem:
+    if isinstance(error, UnexpectedToken) and error.token.type != "$END":
+        met = f"'{error.token[:40]}'"
+    elif isinstance(error, UnexpectedCharacters):
+        met = repr(text[error.pos_in_stream] if error.pos_in_stream is not None else "")
+    else:
+        last = text.rstrip()
+        return _problem(text, len(last), file, "the text ends before its declarations do")
+    assert not isinstance(error, UnexpectedEOF)
+    return Problem(file, error.line, error.column, f"{met} is not expected here")
+
+
+@functools.cache
+def _parser() -> tuple[Lark, Builder]:
+    builder = Builder()
+    lark = Lark(
+        (Path(__file__).parent / "grammar.lark").read_text(),
+        parser="lalr",
+        lexer="contextual",
+        start=["start", "expression_alone"],
+        transformer=builder,
+        edit_terminals=_whole_words,
+    )
+    return lark, builder
+
+
+def _whole_words(terminal: TerminalDef) -> None:
+    """Keywords end where words end: ``longlong`` is a name."""
+    if isinstance(terminal.pattern, PatternStr) and terminal.pattern.value.isalnum():
+        terminal.pattern = PatternRE(rf"{terminal.pattern.value}\b")
+        terminal.priority = 2
+
+
+__all__ = ["Files", "NotIdl", "Problem", "Token", "included", "read_expression", "read_files", "read_idl"]

@@ -1,0 +1,170 @@
+"""Compares declarations that clause 12 prints (``standard.idl``) with those of a vendor, if the vendor has them.
+
+Those of 12.10 may stand in any module. Those of 12.11 are compared only in the modules that 12.11 prints, because the
+same things may follow from the models of clause 10 (interpretation standard-idl).
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from ucm_cts.harness.toolchains.idl.reading import read_idl
+from ucm_cts.harness.toolchains.idl.results import Wrong
+from ucm_cts.harness.toolchains.idl.scopes import Entry, Hit, build, every, resolve
+from ucm_cts.harness.toolchains.idl.showing import show, type_of
+from ucm_cts.harness.toolchains.idl.vendor import Vendor
+from ucm_cts.reference_models.idl.declarations import (
+    ArrayOf,
+    Attribute,
+    Declaration,
+    Enum,
+    Exception_,
+    Forward,
+    Interface,
+    Module,
+    Named,
+    Operation,
+    SequenceOf,
+    Struct,
+    Text,
+    Type,
+    kind_of,
+)
+from ucm_cts.reference_models.idl.expectations import ExpectedIdl
+
+PRINTED = Path(__file__).parent / "standard.idl"
+
+
+@functools.cache
+def printed() -> tuple[tuple[str, Entry], ...]:
+    """The printed declarations, each with its requirement."""
+    text = PRINTED.read_text()
+    marks = [(text.count("\n", 0, m.start()) + 1, m[1]) for m in re.finditer(r"//@ (\S+)", text)]
+    found = []
+    for entry in every(build({"": read_idl(text)})):
+        inside = entry.scope.owner is None or isinstance(entry.scope.owner.declaration, Module)
+        if inside and not isinstance(entry.declaration, Module) and type(entry.declaration).__name__ != "Enumerator":
+            requirement = [mark for line, mark in marks if line <= entry.declaration.place.line][-1]
+            found.append((requirement, entry))
+    return tuple(found)
+
+
+def standard_differences(vendor: Vendor) -> Iterator[tuple[str, list[Wrong]]]:
+    """Of each printed declaration that the vendor has: its requirement, and what is different."""
+    ours = Vendor(printed()[0][1].scope, _NOTHING, {}, False, False)
+    for requirement, entry in printed():
+        for theirs in _counterparts(vendor, entry):
+            yield requirement, list(_different(ours, entry, vendor, theirs))
+
+
+_NOTHING = ExpectedIdl((), {}, {})
+
+
+def _counterparts(vendor: Vendor, ours: Entry) -> list[Entry]:
+    """What a vendor declares of a name of 12.10 that is not in the model, or in the printed modules of 12.11."""
+    path = ours.path
+    if len(path) > 1:
+        hit = resolve("::" + "::".join(path), vendor.root)
+        return (
+            [hit.entry] if hit is not None and hit.entry.path[:-1] == path[:-1] and not _modelled(vendor, path) else []
+        )
+    return [
+        entry
+        for entry in every(vendor.root)
+        if entry.declaration.name == path[0]
+        and _kinds(entry) == _kinds(ours)
+        and _outside(entry)
+        and not _modelled(vendor, entry.path)
+    ]
+
+
+def _outside(entry: Entry) -> bool:
+    owner = entry.scope.owner
+    return owner is None or isinstance(owner.declaration, Module)
+
+
+def _kinds(entry: Entry) -> str:
+    return "" if isinstance(entry.declaration, Forward) else kind_of(entry.declaration)
+
+
+def _modelled(vendor: Vendor, path: tuple[str, ...]) -> bool:
+    """Whether the model itself has such an element, which is compared with the model."""
+    return any(fact.path == path for fact in vendor.expected.facts)
+
+
+def _different(ours: Vendor, mine: Entry, theirs: Vendor, entry: Entry) -> Iterator[Wrong]:
+    expected, found = mine.declaration, entry.declaration
+    if kind_of(expected) != kind_of(found):
+        yield Wrong(f"{kind_of(expected)} {expected.name}", kind_of(found), found.place)
+        return
+    missing = _bases(mine) - _bases(entry)
+    if missing:
+        yield Wrong(f"{expected.name} to inherit from {_shown(missing)}", _shown(_bases(entry)), found.place)
+    for aspect in (_own_type, _contents):
+        wanted, got = aspect(ours, mine), aspect(theirs, entry)
+        if wanted != got and got is not None:
+            yield Wrong(f"{expected.name} as clause 12 prints it: {_shown(wanted)}", _shown(got), found.place)
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, (tuple, list, frozenset)):
+        parts = sorted(map(str, value)) if isinstance(value, frozenset) else map(_shown, value)
+        return "(" + ", ".join(parts) + ")"
+    return str(value)
+
+
+def _own_type(vendor: Vendor, entry: Entry) -> object:
+    type_ = type_of(entry.declaration)
+    return _simple(vendor, type_, entry) if type_ is not None else None
+
+
+def _simple(vendor: Vendor, type_: Type, entry: Entry) -> str:
+    """A type by the last part of the name of what is declared, typedefs followed: where things stand does not matter."""
+    if isinstance(type_, (SequenceOf, ArrayOf)):
+        return f"{type(type_).__name__} of {_simple(vendor, type_.element, entry)}"
+    meaning = vendor.meaning(type_, entry.scope)
+    if meaning[0] == "basic":
+        return str(meaning[1])
+    if meaning[0] == "text":
+        return show(Text(meaning[1])) + (f"<{meaning[2]}>" if meaning[2] is not None else "")
+    if meaning[0] == "declared":
+        return str(meaning[1][-1])
+    if isinstance(type_, Named) and meaning[0] in ("sequence", "array"):
+        return type_.name.rsplit("::", 1)[-1].lower()
+    return type_.name.rsplit("::", 1)[-1].lower() if isinstance(type_, Named) else str(meaning)
+
+
+def _bases(entry: Entry) -> frozenset[str]:
+    declaration = entry.declaration
+    names = declaration.bases if isinstance(declaration, Interface) else ()
+    return frozenset(name.rsplit("::", 1)[-1].lower() for name in names)
+
+
+def _contents(vendor: Vendor, entry: Entry) -> object:
+    declaration = entry.declaration
+    inner = Hit(entry).entry.inner
+    match declaration:
+        case Struct() | Exception_():
+            members = inner.entries if inner is not None else ()
+            return tuple((one.declaration.name, _own_type(vendor, one)) for one in members)
+        case Enum():
+            return tuple(one.name for one in declaration.enumerators)
+        case Interface():
+            exported = inner.entries if inner is not None else ()
+            return frozenset(
+                _operation(vendor, one) for one in exported if isinstance(one.declaration, (Operation, Attribute))
+            )
+    return None
+
+
+def _operation(vendor: Vendor, entry: Entry) -> str:
+    declaration: Declaration = entry.declaration
+    if not isinstance(declaration, Operation):
+        return f"attribute {declaration.name}"
+    parameters = ", ".join(f"{p.direction} {_simple(vendor, p.type, entry)} {p.name}" for p in declaration.parameters)
+    raised = ", ".join(sorted(name.rsplit("::", 1)[-1] for name in declaration.raises))
+    return f"{_own_type(vendor, entry)} {declaration.name}({parameters})" + (f" raises ({raised})" if raised else "")

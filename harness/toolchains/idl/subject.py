@@ -1,0 +1,22 @@
+"""What a fact is about: found, or not there to be looked at."""
+
+from __future__ import annotations
+
+from ucm_cts.harness.toolchains.idl.results import NotExercised
+from ucm_cts.harness.toolchains.idl.scopes import Hit
+from ucm_cts.harness.toolchains.idl.vendor import Vendor
+from ucm_cts.reference_models.idl.declarations import Declaration, Place
+from ucm_cts.reference_models.idl.expectations import Path
+
+
+def here(vendor: Vendor, path: Path, kinds: type[Declaration] | tuple[type[Declaration], ...] = Declaration) -> Hit:
+    """What stands at ``path``. Raises ``NotExercised`` if there is nothing, or something else: another fact tells."""
+    hit = vendor.at(path)
+    if hit is None or not isinstance(hit.entry.declaration, kinds):
+        raise NotExercised
+    return hit
+
+
+def nearest(hit: Hit | None) -> Place:
+    """Where people look for what is missing: at the declaration around it."""
+    return hit.entry.declaration.place if hit is not None else Place()

@@ -1,0 +1,159 @@
+"""Whether files that can be parsed are IDL: nothing is declared twice, every name means something, no other building blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ucm_cts.harness.toolchains.idl.reading import Files
+from ucm_cts.harness.toolchains.idl.results import Wrong
+from ucm_cts.harness.toolchains.idl.scopes import Entry, Scope, every, resolve
+from ucm_cts.harness.toolchains.idl.showing import type_of
+from ucm_cts.harness.toolchains.idl.vendor import Vendor
+from ucm_cts.reference_models.idl.declarations import (
+    Annotated,
+    AnnotationDefinition,
+    ArrayOf,
+    Basic,
+    Binary,
+    Case,
+    Constant,
+    Declaration,
+    Expression,
+    Extended,
+    Forward,
+    Interface,
+    Module,
+    ModuleInstance,
+    Named,
+    Operation,
+    SequenceOf,
+    Struct,
+    Type,
+    Unary,
+    Union,
+    kind_of,
+)
+
+COMPONENTS = ("component", "connector", "porttype")
+"""What the equivalent syntax of clause 9 declares (interpretation idl-equivalent-syntax)."""
+
+OTHER_TYPES = ("any", "Object")
+
+
+def invalid(vendor: Vendor, read: Files) -> Iterator[Wrong]:
+    """What is declared twice, and names that mean nothing; those in or of files that are not there are let alone."""
+    yield from _twice(vendor.root)
+    if read.missing or read.problems:
+        return
+    for entry in every(vendor.root):
+        if isinstance(entry.declaration, AnnotationDefinition) or _in_annotation(entry):
+            continue
+        for name in _names(vendor, entry):
+            place = entry.declaration.place
+            yield Wrong("every name to mean something", f"'{name}' in {entry.declaration.name}", place)
+
+
+def _in_annotation(entry: Entry) -> bool:
+    owner = entry.scope.owner
+    return owner is not None and isinstance(owner.declaration, AnnotationDefinition)
+
+
+def _twice(scope: Scope) -> Iterator[Wrong]:
+    for entries in scope.members.values():
+        met: dict[str, Declaration] = {}
+        for entry in entries:
+            declaration = entry.declaration
+            if isinstance(declaration, (Forward, AnnotationDefinition)):
+                continue
+            first = met.setdefault(declaration.place.file, declaration)
+            if first is not declaration:
+                observed = f"{declaration.name} again, after line {first.place.line}"
+                yield Wrong("each name to be declared once", observed, declaration.place)
+            if entry.inner is not None and isinstance(declaration, (Module, Interface, Struct, Union, Operation)):
+                yield from _twice(entry.inner)
+
+
+def _names(vendor: Vendor, entry: Entry) -> Iterator[str]:
+    """The names in a declaration that mean nothing."""
+    declaration, scope = entry.declaration, entry.scope
+    types = [type_of(declaration), getattr(declaration, "selector", None)]
+    types += declaration.arguments if isinstance(declaration, ModuleInstance) else ()
+    for type_ in types:
+        if type_ is not None and not vendor.known(type_, scope):
+            yield from _of_type(type_)
+    scoped = list(_scoped(declaration))
+    expressions = [declaration.value] if isinstance(declaration, Constant) else []
+    around = scope
+    if isinstance(declaration, Case):
+        expressions = [label for label in declaration.labels if label is not None]
+        selector = _selector(scope)
+        around = selector.scope if selector is not None else scope
+    scoped += [name for expression in expressions for name in _of_expression(expression)]
+    yield from (name for name in scoped if resolve(name, scope) is None and resolve(name, around) is None)
+
+
+def _selector(scope: Scope) -> Entry | None:
+    """The enumeration that tells the cases of a union apart: its enumerators may stand in the cases without their scope."""
+    union = scope.owner
+    if union is None or not isinstance(union.declaration, Union):
+        return None
+    hit = resolve(getattr(union.declaration.selector, "name", ""), union.scope)
+    return hit.entry if hit is not None else None
+
+
+def _scoped(declaration: Declaration) -> tuple[str, ...]:
+    match declaration:
+        case Interface():
+            return declaration.bases
+        case Operation():
+            return declaration.raises
+        case ModuleInstance():
+            return (declaration.template,)
+        case Struct():
+            return (declaration.base,) if declaration.base else ()
+    return ()
+
+
+def _of_type(type_: Type) -> Iterator[str]:
+    match type_:
+        case Named():
+            yield type_.name
+        case SequenceOf() | ArrayOf():
+            yield from _of_type(type_.element)
+        case Annotated():
+            yield from _of_type(type_.type)
+
+
+def _of_expression(expression: Expression) -> Iterator[str]:
+    waiting = [expression]
+    while waiting:
+        match waiting.pop():
+            case Named(name):
+                yield name
+            case Unary(_, operand):
+                waiting.append(operand)
+            case Binary(_, left, right):
+                waiting += [left, right]
+
+
+def building_blocks(vendor: Vendor, read: Files) -> Iterator[Wrong]:
+    """What belongs to other building blocks than those that 12.1 retains, and template modules (12.7)."""
+    for entry in every(vendor.root):
+        declaration = entry.declaration
+        if isinstance(declaration, Extended):
+            if declaration.kind not in COMPONENTS or vendor.reading("idl-output") != "both":
+                yield _other(declaration, kind_of(declaration))
+        elif isinstance(declaration, Operation) and declaration.oneway:
+            yield _other(declaration, "a oneway operation")
+        else:
+            type_ = type_of(declaration)
+            if isinstance(type_, Basic) and type_.name in OTHER_TYPES:
+                yield _other(declaration, type_.name)
+
+
+def _other(declaration: Declaration, what: str) -> Wrong:
+    return Wrong(
+        "core data types, annotations, basic interfaces and template modules only",
+        f"{what} {declaration.name}",
+        declaration.place,
+    )

@@ -1,0 +1,224 @@
+"""A vendor's IDL beside what is expected of it: which declaration is meant, and whether types mean the same."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from ucm_cts.harness.toolchains.idl.scopes import MOST_STEPS, NOTHING, Bound, Entry, Hit, Scope, member, resolve
+from ucm_cts.harness.toolchains.idl.values import worth
+from ucm_cts.reference_models.idl.declarations import (
+    Annotated,
+    Annotation,
+    ArrayOf,
+    Basic,
+    Enum,
+    Expression,
+    Named,
+    SequenceOf,
+    TemplateParameter,
+    Text,
+    Type,
+    Typedef,
+)
+from ucm_cts.reference_models.idl.expectations import ExpectedIdl, Path
+
+Meaning = tuple[Any, ...]
+"""A type with all names followed: basic, text, sequence, array, declared (by its path), parameter, or unknown (by its name)."""
+
+EIGHT_BITS = ("int8", "uint8")
+
+
+def spelled(name: str) -> str:
+    """A model's name as IDL can write it."""
+    return name.replace("-", "_")
+
+
+class Vendor:
+    """The declarations of a vendor, ``incomplete`` if some of them could not be read or are elsewhere."""
+
+    def __init__(
+        self, root: Scope, expected: ExpectedIdl, readings: Mapping[str, str], unreadable: bool, missing: bool
+    ) -> None:
+        self.root = root
+        self.expected = expected
+        self.readings = readings
+        self.unreadable = unreadable
+        self.missing = missing
+        self.met: dict[str, set[str]] = {}
+        """Values of options that the IDL shows, whatever is declared."""
+
+    def reading(self, option: str) -> str:
+        """What the vendor declares for ``option``, empty for nothing."""
+        return self.readings.get(option, "")
+
+    # Places
+    def at(self, path: Path) -> Hit | None:
+        """What stands where the model's ``path`` leads."""
+        hit: Hit | None = None
+        for name in path:
+            hit = self.inside(hit, name)
+            if hit is None:
+                return None
+        return hit
+
+    def inside(self, hit: Hit | None, name: str) -> Hit | None:
+        """What the model's ``name`` has become in the scope that ``hit`` opens, or at the root."""
+        for candidate in (spelled(name), spelled(name).removeprefix("_")):
+            entry = self.root.own(candidate) if hit is None else None
+            found = Hit(entry) if entry is not None else None
+            if hit is not None:
+                found = member(hit, candidate) or _enumerator(hit, candidate)
+            if found is not None:
+                return found
+        return self._renamed(hit, name) if "-" in name and self.reading("hyphens") != "underscore" else None
+
+    def _renamed(self, hit: Hit | None, name: str) -> Hit | None:
+        """What has the name but for its hyphens (interpretation hyphens), if just one thing has."""
+        scope = self.root if hit is None else hit.entry.inner
+        pattern = re.compile(r"\w*".join(map(re.escape, name.split("-"))), re.IGNORECASE)
+        like = [key for key in (scope.members if scope is not None else ()) if pattern.fullmatch(key)]
+        entry = scope.own(like[0]) if scope is not None and len(like) == 1 else None
+        return Hit(entry, hit.bound if hit is not None else NOTHING) if entry is not None else None
+
+    def entry(self, type_: Type) -> Entry | None:
+        """Where the declaration that an expected type names is, if it names one that is there."""
+        if not isinstance(type_, Named):
+            return None
+        hit = self.at(tuple(type_.name.split("::")[1:]))
+        return hit.entry if hit is not None else None
+
+    # Types
+    def known(self, type_: Type, scope: Scope, bound: Bound = NOTHING) -> bool:
+        """Whether all names in a vendor's type mean something."""
+        match type_:
+            case Annotated():
+                return self.known(type_.type, scope, bound)
+            case SequenceOf() | ArrayOf():
+                return self.known(type_.element, scope, bound)
+            case Named():
+                return resolve(type_.name, scope, bound) is not None or self._printed_boolean(type_.name)
+        return True
+
+    def _printed_boolean(self, name: str) -> bool:
+        return name == "bool" and self.reading("idl-boolean") == "bool"
+
+    def same(self, found: Type, scope: Scope, expected: Type, bound: Bound = NOTHING) -> bool:
+        """Whether a vendor's type means the expected one. Nobody is held to what the model leaves open."""
+        if expected == Basic("") or self._open(expected):
+            return True
+        if isinstance(found, Annotated) and not isinstance(expected, Annotated):
+            found = found.type
+        if isinstance(found, Named) and isinstance(expected, Named) and not bound:
+            hit = resolve(found.name, scope)
+            if hit is None:
+                return self.missing and found.name.rsplit("::", 1)[-1] == spelled(expected.name.rsplit("::", 1)[-1])
+            if hit.entry is self.entry(expected):
+                return True
+        if isinstance(found, SequenceOf) and isinstance(expected, SequenceOf):
+            return self.same(found.element, scope, expected.element, bound) and self._size(
+                found.bound, scope
+            ) == self._size(expected.bound, scope)
+        if (
+            isinstance(found, ArrayOf)
+            and isinstance(expected, ArrayOf)
+            and self._sizes(found, scope) == self._sizes(expected, scope)
+        ):
+            return self.same(found.element, scope, expected.element, bound)
+        return self.meaning(found, scope, bound) == self.expected_meaning(expected)
+
+    def _open(self, expected: Type) -> bool:
+        return isinstance(expected, Named) and tuple(expected.name.split("::")[1:]) in self.expected.unmapped
+
+    def _size(self, expression: Expression | None, scope: Scope) -> object:
+        return None if expression is None else worth(expression, scope)
+
+    def _sizes(self, array: ArrayOf, scope: Scope) -> tuple[object, ...]:
+        return tuple(self._size(dimension, scope) for dimension in array.dimensions)
+
+    def meaning(self, type_: Type, scope: Scope, bound: Bound = NOTHING, steps: int = MOST_STEPS) -> Meaning:
+        """What a vendor's type means."""
+        match type_:
+            case Basic():
+                name = {"int16": "short", "int32": "long", "int64": "long long"}.get(type_.name, type_.name)
+                name = {"uint16": "unsigned short", "uint32": "unsigned long", "uint64": "unsigned long long"}.get(
+                    name, name
+                )
+                return ("basic", name, name if name in EIGHT_BITS else "")
+            case Annotated():
+                return _tagged(self.meaning(type_.type, scope, bound, steps), type_.annotations)
+            case Text():
+                return ("text", type_.wide, self._size(type_.bound, scope))
+            case SequenceOf():
+                return (
+                    "sequence",
+                    self.meaning(type_.element, scope, bound, steps),
+                    self._size(type_.bound, scope),
+                )
+            case ArrayOf():
+                return _array(self.meaning(type_.element, scope, bound, steps), self._sizes(type_, scope))
+        return self._named(type_.name, scope, bound, steps)
+
+    def _named(self, name: str, scope: Scope, bound: Bound, steps: int) -> Meaning:
+        hit = resolve(name, scope, bound)
+        if self._printed_boolean(name) and hit is None:
+            return ("basic", "boolean", "")
+        if hit is None or not steps:
+            return ("unknown", name)
+        declaration = hit.entry.declaration
+        if isinstance(declaration, Typedef):
+            inner = self.meaning(declaration.type, hit.entry.scope, hit.bound, steps - 1)
+            return _tagged(inner, declaration.annotations)
+        if isinstance(declaration, TemplateParameter):
+            actual = hit.bound.get(declaration.name.lower())
+            if actual is not None:
+                return self.meaning(actual.type, actual.scope, actual.bound, steps - 1)
+            return ("parameter", declaration.name.lower())
+        return ("declared", tuple(part.lower() for part in hit.entry.path))
+
+    def expected_meaning(self, type_: Type, steps: int = MOST_STEPS) -> Meaning:
+        """What an expected type means, in the same terms."""
+        match type_:
+            case Annotated():
+                return _tagged(self.expected_meaning(type_.type, steps), type_.annotations)
+            case SequenceOf():
+                return ("sequence", self.expected_meaning(type_.element, steps), self._size(type_.bound, self.root))
+            case ArrayOf():
+                return _array(self.expected_meaning(type_.element, steps), self._sizes(type_, self.root))
+            case Named():
+                path = tuple(type_.name.split("::")[1:])
+                if path in self.expected.abstract:
+                    return ("parameter", spelled(self.expected.abstract[path].name).lower())
+                if path in self.expected.types and steps:
+                    return self.expected_meaning(self.expected.types[path], steps - 1)
+                hit = self.at(path)
+                found = hit.entry.path if hit is not None else tuple(map(spelled, path))
+                return ("declared", tuple(part.lower() for part in found))
+        return self.meaning(type_, self.root)
+
+    def value_kind(self, type_: Type) -> str:
+        """How values of an expected type are written: text, character, truth, enumerator or number."""
+        meaning = self.expected_meaning(type_)
+        if meaning[0] in ("text", "declared"):
+            return "text" if meaning[0] == "text" else "enumerator"
+        return {"char": "character", "wchar": "character", "boolean": "truth"}.get(str(meaning[1]), "number")
+
+
+def _enumerator(hit: Hit, name: str) -> Hit | None:
+    declaration = hit.entry.declaration
+    if isinstance(declaration, Enum) and any(one.name.lower() == name.lower() for one in declaration.enumerators):
+        entry = hit.entry.scope.own(name)
+        return Hit(entry, hit.bound) if entry is not None else None
+    return None
+
+
+def _tagged(meaning: Meaning, annotations: tuple[Annotation, ...]) -> Meaning:
+    tags = [one.name.lower() for one in annotations if one.name.lower() in EIGHT_BITS]
+    return ("basic", "octet", tags[0]) if tags and meaning[:2] == ("basic", "octet") else meaning
+
+
+def _array(element: Meaning, sizes: tuple[object, ...]) -> Meaning:
+    if element[0] == "array":
+        return ("array", element[1], (*sizes, *element[2]))
+    return ("array", element, sizes)
