@@ -1,0 +1,21 @@
+"""Which type does a reference mean in the end, when aliases are followed?"""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract.metamodel.contracts import AbstractDataType, Alias, DataType
+from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
+
+DATA_TYPES = (DataType, AbstractDataType)
+"""What may stand where a data type is asked for (9.2.2.2)."""
+
+
+def actual_type(reference: str, scope: Scope) -> Declared | None:
+    """The data type that ``reference`` means in ``scope`` and that is no alias; None if there is none, or only a circle of aliases."""
+    found = scope.find(reference, *DATA_TYPES)
+    seen: set[int] = set()
+    while found is not None and isinstance(found.element, Alias):
+        if id(found.element) in seen:
+            return None
+        seen.add(id(found.element))
+        found = found.scope.find(found.element.type, *DATA_TYPES)
+    return found
