@@ -13,6 +13,8 @@ from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.profiles import FRAMEWORK_PROFILES
 from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.toolchains.corpus import questions
+from ucm_cts.harness.toolchains.examinations import TOOLCHAIN_CHECKS
 from ucm_cts.reference_models.ledger import RULES
 
 
@@ -39,14 +41,19 @@ def explanation(identifier: str) -> RenderableType:
         lines += [Text(f"  {option}: {', '.join(readings)}") for option, readings in entry.options.items()]
     for need in load_capabilities().of(requirement.id):
         lines += [Text(), Text("Applies where the vendor states: ", style="bold") + Text(_needed(need))]
+    checks = CHECKS | TOOLCHAIN_CHECKS
     for rule in requirement.rules:
-        doc = CHECKS[rule] if rule in CHECKS else (RULES[rule].check.__doc__ or "").strip().splitlines()[0]
+        doc = checks[rule] if rule in checks else (RULES[rule].check.__doc__ or "").strip().splitlines()[0]
         lines += [Text(), Text(f"Rule {rule}: ", style="bold") + Text(doc)]
     offered = load_purposes(requirement.profile) if requirement.profile in FRAMEWORK_PROFILES else ()
     purposes = [p for p in offered if requirement.id in p.requirements]
     if purposes:
         lines += [Text(), Text("Scenarios that exercise it:", style="bold")]
         lines += [Text(f"  {p.id}: {p.text} ({_count(len(p.scenarios))})") for p in purposes]
+    asked = [q for q in questions() if q.requirement == requirement.id] if requirement.profile == "pim" else []
+    if asked:
+        lines += [Text(), Text("Models that ask about it:", style="bold")]
+        lines += [Text(f"  {q.due} {q.name}{f': {q.because}' if q.because else ''}") for q in asked]
     return Group(*lines)
 
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 from ucm_cts.harness.catalogue import in_the_making
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.stating.statement import Statement
-from ucm_cts.harness.toolchains.acceptance import Acceptance
+from ucm_cts.harness.toolchains.acceptance import RULES, Acceptance
 from ucm_cts.harness.toolchains.campaign import Examination
 from ucm_cts.harness.toolchains.dressing import Dress
+
+TOOLCHAIN_CHECKS = RULES
+"""The rules that the catalogue names for tool chains, and what each says."""
 
 
 def examination_for(profile: str, statement: Statement, dress: Dress, expression: str = "") -> Examination:
