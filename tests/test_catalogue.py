@@ -18,13 +18,15 @@ from ucm_cts.harness.catalogue import (
     load_requirements,
 )
 from ucm_cts.harness.models.core_models import CHECKS, checked
-from ucm_cts.harness.profiles import PROFILES
+from ucm_cts.harness.profiles import PARTS, PROFILES
 from ucm_cts.harness.scenarios.life_cycle import generated_purposes
 from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.toolchains.corpus import questions
+from ucm_cts.harness.toolchains.examinations import TOOLCHAIN_CHECKS, stand_for
 from ucm_cts.reference_models.ledger import RULES
 
 REQUIREMENTS = {r.id: r for r in load_requirements()}
-STANDS_FOR = {rule.name: rule.stands_for for rule in RULES.values()} | checked()
+STANDS_FOR = {rule.name: rule.stands_for for rule in RULES.values()} | checked() | stand_for()
 INTERPRETATIONS = {i.id: i for i in load_interpretations()}
 
 ONLY_UNDER_OTHER_READINGS = {
@@ -68,9 +70,14 @@ def test_every_option_is_consulted() -> None:
 
 def _options_read() -> Iterator[str]:
     """Options named as text of their own (``"option"``, ``"option=value"``) by what judges or provokes."""
-    for room in ("reference_models", "harness/models", "harness/scenarios", "harness/stating", "harness/running"):
-        for path in sorted((SUITE.parent / room).glob("*.py")):
+    rooms = (
+        "reference_models",
+        *(f"harness/{room}" for room in ("models", "scenarios", "stating", "running", "toolchains")),
+    )
+    for room in rooms:
+        for path in sorted((SUITE.parent / room).rglob("*.py")):
             yield from re.findall(r'"([a-z0-9-]+)(?:=[^"]*)?"', path.read_text())
+    yield from (reading.partition("=")[0] for question in questions() for reading in question.under)
     for name in ("life_cycle.yaml", "models/core/declarations.yaml"):
         text = (SUITE / name).read_text()
         yield from re.findall(r"option: ([a-z0-9-]+)", text)
@@ -79,7 +86,7 @@ def _options_read() -> Iterator[str]:
 
 @pytest.mark.parametrize("profile", PROFILES)
 def test_what_is_offered_has_nothing_pending(profile: str) -> None:
-    assert any(r.profile == profile for r in REQUIREMENTS.values())
+    assert any(r.profile in PARTS[profile] for r in REQUIREMENTS.values())
     assert in_the_making(profile) == ""
 
 
@@ -89,6 +96,7 @@ def test_container_is_complete() -> None:
 
 def test_rules_stand_for_known_requirements_that_name_them() -> None:
     assert not RULES.keys() & CHECKS.keys()
+    assert STANDS_FOR.keys() == RULES.keys() | CHECKS.keys() | TOOLCHAIN_CHECKS.keys()
     for rule, requirements in STANDS_FOR.items():
         for requirement in requirements:
             assert rule in REQUIREMENTS[requirement].rules, f"{requirement} does not name {rule}"

@@ -17,7 +17,7 @@ from lxml import etree
 from ucm_cts.harness.results import FRAMEWORK_INCIDENTS
 from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.harness.toolchains.campaign import Fact
-from ucm_cts.harness.toolchains.corpus import Question, differing_lines, questions
+from ucm_cts.harness.toolchains.corpus import Due, Question, differing_lines, questions
 from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.processing import Made
 from ucm_cts.reference_models.findings import Finding
@@ -27,6 +27,8 @@ RULES = {
     "broken_models_refused": "A model that breaks it, and is legal otherwise, is refused.",
 }
 """The rules that the catalogue names, and what each says."""
+
+RULE_FOR: Mapping[Due, str] = {"accept": "legal_models_accepted", "refuse": "broken_models_refused"}
 
 Outcome = Literal["kept", "broken", "unclear"]
 
@@ -127,7 +129,7 @@ def judge(asked: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judg
 
 def _judged(q: Question, answers: Mapping[str, Answer], refused: Mapping[str, frozenset[str]]) -> Judgement:
     answer = answers[q.name]
-    rule = "legal_models_accepted" if q.due == "accept" else "broken_models_refused"
+    rule = RULE_FOR[q.due]
     if answer.died:
         return Judgement(
             q, rule, "broken", f"the model is {'accepted' if q.due == 'accept' else 'refused'}", answer.told
