@@ -29,7 +29,7 @@ def load_probe_types(path: Path = PROBE_MODEL) -> dict[str, ProbeType]:
     elements: dict[str, list[tuple[str, str]]] = {}
     for module in root.iter("InteractionModule"):
         for port_type in module.iter("PortType"):
-            name = f"{module.get('name')}::{port_type.get('name')}"
+            name = f"::{module.get('name')}::{port_type.get('name')}"
             elements[name] = [(e.get("name", ""), e.get("kind", "")) for e in port_type.iter("PortElement")]
     types = {}
     for component in root.iter("ComponentType"):
