@@ -13,44 +13,47 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.common import Element
-from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS, Spelling, contained
 
-_TEXTS = st.text(
-    st.characters(
-        codec="utf-8", exclude_categories=("Cs", "Cc"), include_characters="\t\n\r", exclude_characters="\ufffe\uffff"
-    ),
-    max_size=8,
-)
+_TEXTS = st.text(st.sampled_from("aZ_9 -:.\t\n\r&<>\"'é\u0661\u2028\U0001f600"), max_size=6)
 _NUMBERS = st.integers(-(2**63), 2**64 - 1)
 
-_HOLDERS = {cls: tuple(outer for outer in SPELLINGS if cls in contained(outer)) for cls in SPELLINGS}
+_HOLDERS = {
+    cls: st.sampled_from([outer for outer in SPELLINGS if cls in contained(outer)])
+    for cls in SPELLINGS
+    if cls is not Model
+}
 """In what an element of each class may stand."""
+
+_CHILDREN = {cls: st.lists(st.sampled_from(tuple(contained(cls))), max_size=2) for cls in SPELLINGS if contained(cls)}
+"""What stands in an element of each class, if anything can."""
 
 
 @st.composite
 def models(draw: st.DrawFn, *classes: type[Element]) -> Model:
     """Models that the schema allows, around an element of one of ``classes``, or of any; what names refer to is chance."""
-    element = _element(draw, draw(st.sampled_from(classes or tuple(SPELLINGS))), 3)
+    element = _element(draw, draw(st.sampled_from(classes or tuple(SPELLINGS))), 2)
     while not isinstance(element, Model):
-        outer = draw(st.sampled_from(_HOLDERS[type(element)]))
+        outermost = isinstance(element, MODULES) and draw(st.booleans())
+        outer = Model if outermost else draw(_HOLDERS[type(element)])
         field = contained(outer)[type(element)]
-        element = msgspec.structs.replace(_element(draw, outer, 2), **{field: (element,)})
+        element = msgspec.structs.replace(_element(draw, outer, 1), **{field: (element,)})
     return element
 
 
-def _element(draw: st.DrawFn, cls: type[Element], most: int) -> Element:
-    """An element with at most so many children in each of its fields, and one less in each of theirs."""
+def _element(draw: st.DrawFn, cls: type[Element], deep: int) -> Element:
+    """An element with children, their children, and so on, ``deep`` times."""
     spelling = SPELLINGS[cls]
     fields: dict[str, Any] = {}
     for field in spelling.attributes.values():
         if field not in spelling.required and draw(st.booleans()):
             continue
         fields[field] = draw(_VALUES_OF[cls, field])
-    if most > 1 and spelling.contained:
-        for inner in draw(st.lists(st.sampled_from(tuple(contained(cls))), max_size=most - 1)):
+    if deep and cls in _CHILDREN:
+        for inner in draw(_CHILDREN[cls]):
             field = contained(cls)[inner]
-            fields[field] = (*fields.get(field, ()), _element(draw, inner, most - 1))
+            fields[field] = (*fields.get(field, ()), _element(draw, inner, deep - 1))
     return cls(**fields)
 
 

@@ -257,6 +257,7 @@ class _Reader:
         if len(self.problems) == MOST_PROBLEMS:
             raise _Stop("refused", f"has more than {MOST_PROBLEMS} problems; mend those first")
         told = line or self._parser.CurrentLineNumber
+        message = "".join(character if character.isprintable() else "\ufffd" for character in message)
         self.problems.append(Problem(kind=kind, line=told, element=element, message=message, clause=clause))
 
     # what the parser calls
