@@ -138,16 +138,21 @@ class ToolChainCampaign:
         """
         texts = dict(self._examination.models)
         broken = {fact.requirement: fact for fact in reversed(self._facts) if fact.finding is not None}
-        for requirement, fact in broken.items():
+
+        def is_shown_again(fact: Fact) -> bool:
             again = {name: self._processor.process(TASKS[self._profile], name, texts[name]) for name in fact.asked}
             looked = {name: self._examination.look(name, made) for name, made in again.items()}
             facts = self._examination.judge(self._made | again, self._looked | looked)
-            shown = any(f.requirement == requirement and f.finding and f.asked == fact.asked for f in facts)
-            if not shown and fact.finding is not None:
-                self._tally.doubt_processed(
-                    fact.finding, fact.processed, "a second try of the same model did not show it"
-                )
-            yield requirement
+            return any(f.requirement == fact.requirement and f.finding and f.asked == fact.asked for f in facts)
+
+        with ThreadPoolExecutor(self._jobs) as pool:
+            try:
+                for fact, shown in zip(broken.values(), pool.map(is_shown_again, broken.values()), strict=True):
+                    if not shown and fact.finding is not None:
+                        self._tally.doubt_processed(fact.finding, fact.processed, "a second try did not show it")
+                    yield fact.requirement
+            finally:
+                pool.shutdown(cancel_futures=True)
 
     def report(self) -> Report:
         """All verdicts of the run so far."""
