@@ -7,6 +7,7 @@ if its twin was accepted.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -161,6 +162,7 @@ def _of_legal(q: Question, answer: Answer, rule: str, refused: Mapping[str, froz
     return Judgement(q, rule, "broken", expected, f"it was refused: {answer.told or 'without a word'}")
 
 
+@functools.lru_cache(8192)
 def _about(q: Question) -> frozenset[int]:
     """The lines of what was changed, of what that is part of or consists of, and of all that shares a name with it."""
     try:
@@ -198,6 +200,7 @@ _LITERALS = frozenset(
 )
 
 
+@functools.lru_cache(8192)
 def constructs(text: str) -> frozenset[str]:
     """The kinds of things that a model uses: elements inside others, attributes, and the words that attributes choose from."""
     found: set[str] = set()
