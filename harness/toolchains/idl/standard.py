@@ -1,7 +1,8 @@
 """Compares declarations that clause 12 prints (``standard.idl``) with those of a vendor, if the vendor has them.
 
 Those of 12.10 may stand in any module. Those of 12.11 are compared only in the modules that 12.11 prints, because the
-same things may follow from the models of clause 10 (interpretation standard-idl).
+same things may follow from the models of clause 10 (interpretation standard-idl). Names of parameters are free, since one of
+those printed is not IDL: it differs only in case from its type's.
 """
 
 from __future__ import annotations
@@ -165,6 +166,6 @@ def _operation(vendor: Vendor, entry: Entry) -> str:
     declaration: Declaration = entry.declaration
     if not isinstance(declaration, Operation):
         return f"attribute {declaration.name}"
-    parameters = ", ".join(f"{p.direction} {_simple(vendor, p.type, entry)} {p.name}" for p in declaration.parameters)
+    parameters = ", ".join(f"{p.direction} {_simple(vendor, p.type, entry)}" for p in declaration.parameters)
     raised = ", ".join(sorted(name.rsplit("::", 1)[-1] for name in declaration.raises))
     return f"{_own_type(vendor, entry)} {declaration.name}({parameters})" + (f" raises ({raised})" if raised else "")

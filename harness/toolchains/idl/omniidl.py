@@ -1,0 +1,143 @@
+"""A second opinion on generated IDL: omniidl, where it is installed and knows all that the files use.
+
+omniidl knows neither annotations, which are blanked in place, nor template modules, nor IDL 4's names of integers.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Literal
+
+from ucm_cts.harness.toolchains.idl.reading import NotIdl, Problem, blanked, included, read_idl
+from ucm_cts.harness.toolchains.idl.scopes import build, every
+from ucm_cts.harness.toolchains.idl.showing import type_of
+from ucm_cts.reference_models.idl.declarations import (
+    Annotated,
+    ArrayOf,
+    Basic,
+    Declaration,
+    Extended,
+    Module,
+    ModuleInstance,
+    SequenceOf,
+)
+
+PATIENCE = 60.0
+"""Seconds until omniidl is given up."""
+
+NEW_TYPES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64")
+
+MISTAKEN = ("Value too large for long long",)
+"""What omniidl says of IDL that is right: it reads the least value of long long without its sign."""
+
+
+@dataclass(frozen=True)
+class Opinion:
+    """``agreed``, ``refused`` with problems, or ``none`` with the reason why there is no opinion."""
+
+    verdict: Literal["agreed", "refused", "none"]
+    problems: tuple[Problem, ...] = ()
+    reason: str = ""
+
+
+def opinion(files: Mapping[str, str]) -> Opinion:
+    """What omniidl thinks of ``files`` (name to text), taken together in the order of their includes."""
+    program = shutil.which("omniidl")
+    if program is None:
+        return Opinion("none", reason="omniidl is not installed; Debian's package is omniidl")
+    try:
+        declarations = {name: read_idl(text, name) for name, text in files.items()}
+    except NotIdl as error:
+        return Opinion("none", reason=f"not read by the suite: {error}")
+    beyond = next(_beyond(declarations), "")
+    known = {PurePosixPath(name).name for name in files}
+    missing = [n for text in files.values() for n in included(text) if PurePosixPath(n).name not in known]
+    if beyond or missing:
+        return Opinion("none", reason=beyond or f"{missing[0]} is not among the files")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "all.idl"
+        path.write_text("\n".join(joined(files)) + "\n")
+        try:
+            ran = subprocess.run(
+                [program, "-N", "-nf", "all.idl"],
+                check=False,
+                cwd=folder,
+                capture_output=True,
+                text=True,
+                timeout=PATIENCE,
+            )
+        except subprocess.TimeoutExpired:
+            return Opinion("none", reason=f"omniidl did not end within {PATIENCE:g} s")
+    problems = tuple(_problems(ran.stderr + ran.stdout))
+    if ran.returncode == 0:
+        return Opinion("agreed")
+    if problems and all(p.text.startswith(MISTAKEN) for p in problems):
+        return Opinion("none", reason=f"omniidl is mistaken: {problems[0]}")
+    return Opinion("refused", problems)
+
+
+def _beyond(files: Mapping[str, tuple[Declaration, ...]]) -> Iterator[str]:
+    """Why omniidl cannot say anything."""
+    for entry in every(build(files)):
+        declaration = entry.declaration
+        if isinstance(declaration, ModuleInstance) or (isinstance(declaration, Module) and declaration.parameters):
+            yield f"{declaration.name} is a template module or an instance of one"
+        if isinstance(declaration, Extended):
+            yield f"{declaration.name} is a {declaration.kind}"
+        type_ = type_of(declaration)
+        while isinstance(type_, (SequenceOf, ArrayOf, Annotated)):
+            type_ = type_.type if isinstance(type_, Annotated) else type_.element
+        if isinstance(type_, Basic) and type_.name in NEW_TYPES:
+            yield f"{declaration.name} is of type {type_.name}"
+
+
+_INCLUDE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*[\"<]([^\">\n]+)[\">]")
+
+
+def joined(files: Mapping[str, str]) -> Iterator[str]:
+    """The lines of all files as a preprocessor would hand them on: each file once, where it is first included."""
+    done: set[str] = set()
+    by_name = {PurePosixPath(name).name: name for name in files}
+
+    def lines(name: str) -> Iterator[str]:
+        if name in done:
+            return
+        done.add(name)
+        yield f'# 1 "{name}"'
+        plain = without_annotations(blanked(files[name], name)).split("\n")
+        source = files[name].removeprefix("\ufeff").replace("\r\n", "\n").split("\n")
+        for number, (line, original) in enumerate(zip(plain, source, strict=True), 1):
+            found = _INCLUDE.match(original)
+            if found and not line.strip():
+                yield from lines(by_name[PurePosixPath(found[1]).name])
+                yield f'# {number} "{name}"'
+            yield line
+
+    for name in files:
+        yield from lines(name)
+
+
+_ANNOTATION = re.compile(
+    r"@\s*annotation\s+\w+\s*\{[^{}]*\}\s*;?"
+    r"|@\s*(?:::)?\w+(?:::\w+)*(?:\s*\((?:\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])+'|[^()\"']|\([^()]*\))*\))?"
+    r"|(?P<kept>\"(?:\\.|[^\"\\\n])*\")",
+    re.IGNORECASE,
+)
+
+
+def without_annotations(text: str) -> str:
+    """``text``, which has no comments, with blanks instead of annotations."""
+    return _ANNOTATION.sub(lambda m: m[0] if m["kept"] else re.sub(r"[^\n]", " ", m[0]), text)
+
+
+def _problems(told: str) -> Iterator[Problem]:
+    for line in told.splitlines():
+        found = re.match(r"(.*?):(\d+): (?!\s)(.*)", line)
+        if found and not found[3].startswith(("Warning", "(")):
+            yield Problem(found[1], int(found[2]), 1, found[3])
