@@ -127,7 +127,8 @@ def test_design_shows_every_module() -> None:
     """Its maps name a folder at the left margin, and files beside and below it."""
     shown: set[Path] = set()
     folder = ROOT
-    for head, rest in re.findall(r"(?m)^    (?:(\w+/(?:\S*/)?) )?(.+)$", text_of("docs/design.md")):
+    maps = text_of("docs/design.md") + text_of("docs/toolchain-design.md")
+    for head, rest in re.findall(r"(?m)^    (?:(\w+/(?:\S*/)?) )?(.+)$", maps):
         folder = ROOT / head if head else folder
         for name in re.findall(r"(?:[\w*]+/)*[\w*.]+\.(?:py|hpp|cpp|json)\b|\b\w+/(?=\s|$)", rest):
             assert any(folder.glob(name.rstrip("/"))), f"{folder.name}/ has no {name}"
