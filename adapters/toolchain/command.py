@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from pathlib import Path
 
@@ -85,6 +86,7 @@ def main() -> None:
 
 def run(program: Program) -> None:
     """Do what the command line asks of ``program``."""
+    gc.disable()  # a model lives as long as the process: looking for garbage in it would only take time
     try:
         command_line(program)(standalone_mode=False)
     except click.exceptions.Exit as end:

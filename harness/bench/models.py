@@ -1,0 +1,120 @@
+"""What reading and checking a large model costs, beside what lxml needs for the same file: ``python -m
+ucm_cts.harness.bench.models``. Each way is gone in a process of its own, so that memory is its own, too.
+"""
+
+from __future__ import annotations
+
+import gc
+import json
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import click
+from lxml import etree
+from rich.console import Console
+from rich.table import Table
+
+from ucm_cts.adapters.contract.metamodel.common import walk
+from ucm_cts.adapters.contract.metamodel.reading import read_model
+from ucm_cts.adapters.contract.metamodel.writing import write_model
+from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.harness.bench.large_model import large_model
+from ucm_cts.harness.bench.measuring import limit
+from ucm_cts.harness.toolchains.schema import parser, schema
+
+ELEMENTS = 1_000_000
+
+TIMES = 6
+"""Reading and checking take at most so many times as long as parsing with lxml."""
+
+MEGABYTES = 1000
+"""Reading and checking take at most so much memory."""
+
+_ROUNDS = 3
+
+
+def _parse(path: Path) -> None:
+    etree.parse(path, parser())
+
+
+def _validate(path: Path) -> None:
+    assert schema().validate(etree.parse(path, parser()))
+
+
+def _read(path: Path) -> None:
+    assert not read_model(path.read_bytes(), path.name).problems
+
+
+def _check(path: Path) -> None:
+    _, told = reference().check(path.read_bytes(), path.name)
+    assert not told, told[:3]
+
+
+WAYS: dict[str, Callable[[Path], None]] = {
+    "lxml": _parse,
+    "lxml + schema": _validate,
+    "reading": _read,
+    "reading + checking": _check,
+}
+
+
+def costs(path: Path) -> dict[str, tuple[float, float]]:
+    """Median seconds of processor time and most megabytes of each way with the model at ``path``, all taken in turn."""
+    taken: dict[str, list[tuple[float, float]]] = {way: [] for way in WAYS}
+    for _ in range(_ROUNDS):
+        for way in WAYS:
+            command = [sys.executable, "-m", __spec__.name, "--way", way, str(path)]
+            seconds, megabytes = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+            taken[way].append((seconds, megabytes))
+    return {
+        way: (statistics.median(s for s, _ in measured), max(m for _, m in measured)) for way, measured in taken.items()
+    }
+
+
+def table(elements: int, size: int, measured: dict[str, tuple[float, float]]) -> Table:
+    """The costs side by side."""
+    parsing = measured["lxml"][0]
+    shown = Table(title=f"a model of {elements:,} elements, {size / 1e6:.0f} MB; medians of {_ROUNDS} rounds")
+    for column in ("", "seconds", "times lxml", "at most", "MB", "at most"):
+        shown.add_column(column, justify="right" if column else "left")
+    for way, (seconds, megabytes) in measured.items():
+        times = seconds / parsing
+        bounds = (limit(TIMES, times), limit(MEGABYTES, megabytes)) if way == "reading + checking" else ("", "")
+        shown.add_row(way, f"{seconds:.2f}", f"{times:.1f}", bounds[0], f"{megabytes:.0f}", bounds[1])
+    return shown
+
+
+@click.command()
+@click.option("--way", type=click.Choice(list(WAYS)), help="Measure this alone, with the model at PATH.")
+@click.option("--elements", default=ELEMENTS, show_default=True)
+@click.argument("path", type=click.Path(path_type=Path), required=False)
+def main(way: str | None, elements: int, path: Path | None) -> None:
+    """Make a large model and print what each way costs."""
+    if way is not None and path is not None:
+        click.echo(json.dumps(_measured(WAYS[way], path)))
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "large.xml"
+        made = large_model(elements)
+        count = sum(1 for _ in walk(made)) - 1
+        path.write_bytes(write_model(made))
+        del made
+        Console(width=100).print(table(count, path.stat().st_size, costs(path)))
+
+
+def _measured(way: Callable[[Path], None], path: Path) -> tuple[float, float]:
+    """Seconds of processor time, and megabytes at most, as the program itself runs: without looking for garbage."""
+    gc.disable()
+    began = time.process_time()
+    way(path)
+    return time.process_time() - began, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+if __name__ == "__main__":
+    main()
