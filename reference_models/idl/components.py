@@ -159,7 +159,7 @@ def _returned(used: Used | None) -> Type:
 def _bound_signatures(used: Used | None, templates: Templates) -> tuple[Signature, ...]:
     if used is None or not templates.used_by(used.interface):
         return ()
-    return signatures(used.interface, used.bound)
+    return signatures(used.interface, used.bound, lambda one: bool(templates.used_by(one)))
 
 
 def implementation_facts(subject: Subject, names: Names, templates: Templates) -> Iterator[Expected]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from ucm_cts.adapters.contract.metamodel.contracts import (
     Attribute,
@@ -127,22 +127,21 @@ def all_methods(interface: Declared) -> Iterator[tuple[Method, Scope]]:
         waiting.extend(one for one in found if one is not None)
 
 
-def signatures(interface: Declared, bound: Bound) -> tuple[Signature, ...]:
-    """The operations of ``interface``, inherited ones too, with ``bound`` types in place of abstract ones."""
-    return tuple(_signature(method, scope, bound) for method, scope in all_methods(interface))
+def signatures(interface: Declared, bound: Bound, is_open: Callable[[Declared], bool]) -> tuple[Signature, ...]:
+    """The operations of ``interface``, inherited ones too, with ``bound`` types in place of abstract ones.
 
+    A type that ``is_open`` has abstract types inside, which leaves open what it is once they are bound.
+    """
 
-def _signature(method: Method, scope: Scope, bound: Bound) -> Signature:
-    result = result_of(method)
-    return Signature(
-        method.name,
-        _bound_type(result.type, scope, bound) if result is not None else VOID,
-        tuple((DIRECTIONS[p.direction], p.name, _bound_type(p.type, scope, bound)) for p in arguments_of(method)),
-    )
+    def type_of(parameter: Parameter, scope: Scope) -> Type:
+        found = scope.find(parameter.type, *TYPES)
+        if found is None or (is_open(found) and path_of(found) not in bound):
+            return UNKNOWN
+        return bound.get(path_of(found), named(path_of(found)))
 
+    def signature(method: Method, scope: Scope) -> Signature:
+        result = result_of(method)
+        arguments = ((DIRECTIONS[p.direction], p.name, type_of(p, scope)) for p in arguments_of(method))
+        return Signature(method.name, type_of(result, scope) if result is not None else VOID, tuple(arguments))
 
-def _bound_type(reference: str, scope: Scope, bound: Bound) -> Type:
-    found = scope.find(reference, *TYPES)
-    if found is None:
-        return UNKNOWN
-    return bound.get(path_of(found), named(path_of(found)))
+    return tuple(signature(method, scope) for method, scope in all_methods(interface))
