@@ -48,4 +48,17 @@ def all_rules() -> Mapping[str, Rule]:
 
 def reference() -> Program:
     """The reference tool chain."""
-    return Program(read_model, all_rules())
+    return Program(read_model, all_rules(), {task: _loaded_when_used(*place) for task, place in _GENERATORS.items()})
+
+
+_GENERATORS = {"idl": ("idl", "generate"), "cpp11": ("cpp", "generate_cpp11"), "cpp03": ("cpp", "generate_cpp03")}
+
+
+def _loaded_when_used(module: str, function: str) -> Generator:
+    """A generator that costs nothing until it is wanted: a check is to begin at once."""
+
+    def generate(model: Model) -> Mapping[str, str]:
+        found: Generator = getattr(import_module(f"ucm_cts.adapters.toolchain.{module}"), function)
+        return found(model)
+
+    return generate

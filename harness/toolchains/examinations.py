@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 
+from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.harness.catalogue import in_the_making
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.harness.toolchains.acceptance import RULE_FOR, RULES, Acceptance
-from ucm_cts.harness.toolchains.campaign import Examination
+from ucm_cts.harness.toolchains.campaign import TASKS, Examination
 from ucm_cts.harness.toolchains.corpus import questions
+from ucm_cts.harness.toolchains.description import Task
 from ucm_cts.harness.toolchains.dressing import Dress
+from ucm_cts.harness.toolchains.generation import Comparison, Generation
+from ucm_cts.harness.toolchains.idl.comparing import compare
+from ucm_cts.reference_models.idl.mapping import expected_idl
 
 TOOLCHAIN_CHECKS = RULES
 """The rules that the catalogue names for tool chains, and what each says."""
@@ -26,4 +32,18 @@ def examination_for(profile: str, statement: Statement, dress: Dress, expression
     unfinished = in_the_making(profile)
     if unfinished:
         raise WrongUse(unfinished)
-    return Acceptance(statement, dress, expression)
+    match TASKS[profile]:
+        case "check":
+            return Acceptance(statement, dress, expression)
+        case "idl":
+            return Generation(functools.partial(_compare_idl, statement), GENERATES["idl"], dress, expression)
+        case _:
+            raise WrongUse(f"profile '{profile}' is in the making")
+
+
+GENERATES: Mapping[Task, tuple[str, str]] = {"idl": ("R-12-01", "idl_generated")}
+"""The requirement, and its rule, that a tool chain makes files of legal models at all."""
+
+
+def _compare_idl(statement: Statement, model: Model, files: Mapping[str, str]) -> Comparison:
+    return compare(expected_idl(model), files, statement.readings)
