@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.contracts import (
     AbstractDataType,
     AbstractInterface,
@@ -23,24 +24,27 @@ _TYPES = (DataType, AbstractDataType, Interface, AbstractInterface)
 
 def handles(port_type: Declared, wanted: Declared) -> bool:
     """Whether an API written as ``port_type`` has anything to do with the type ``wanted``."""
-    seen = {id(port_type.element)}
-    waiting = [port_type]
+    return any(one.element is wanted.element for one in (port_type, *handled(port_type)))
+
+
+def handled(*starts: Declared) -> Iterator[Declared]:
+    """All types that port types and policy definitions have to do with, each once."""
+    seen = {id(start.element) for start in starts}
+    waiting = list(starts)
     while waiting:
         current = waiting.pop()
-        if current.element is wanted.element:
-            return True
         for reference in _references(current):
             found = current.scope.find(reference, *_TYPES)
             if found is not None and id(found.element) not in seen:
                 seen.add(id(found.element))
                 waiting.append(found)
-    return False
+                yield found
 
 
 def _references(declared: Declared) -> Iterator[str]:
     """The names of types by which a declaration says what it consists of."""
     element = declared.element
-    if isinstance(element, PortType):
+    if isinstance(element, PortType | TechnicalPolicyDefinition):
         yield from (port_element.interface for port_element in element.port_elements)
     elif isinstance(element, Interface):
         yield from (inherited.interface for inherited in element.inherited_interfaces)

@@ -1,0 +1,109 @@
+"""The ports of a composite's parts, and what specifications say: which API or role, and which types stand for what is abstract."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.components import (
+    AssemblyPart,
+    AtomicComponentImplementation,
+    ComponentType,
+    CompositeComponentImplementation,
+    Port,
+    PortRoleSpec,
+    PortTypeSpec,
+)
+from ucm_cts.adapters.contract.metamodel.contracts import (
+    AbstractDataType,
+    AbstractInterface,
+    DataType,
+    Interface,
+)
+from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern, PortType
+from ucm_cts.adapters.contract.metamodel.names import MEMBER, Declared, Scope, member_of
+
+COMPONENTS = (ComponentType, AtomicComponentImplementation, CompositeComponentImplementation)
+"""What a part may be an instance of (9.5.2.2)."""
+
+
+class Specified(NamedTuple):
+    """What a port's specification means: ``target`` is its port type or its role, ``bound`` has the actual types by the
+    identity of the item or abstract type that they stand for.
+    """
+
+    kind: type[PortTypeSpec | PortRoleSpec]
+    target: Element
+    bound: dict[int, Declared]
+
+    def same_target(self, other: Specified) -> bool:
+        """Whether both have the same port type, or both the same role."""
+        return self.kind is other.kind and self.target is other.target
+
+    def same_bindings(self, other: Specified) -> bool:
+        """Whether the same stands for the same in both."""
+        mine = {identity: id(actual.element) for identity, actual in self.bound.items()}
+        return mine == {identity: id(actual.element) for identity, actual in other.bound.items()}
+
+
+def part_called(composite: CompositeComponentImplementation, name: str) -> AssemblyPart | None:
+    """The part of this name; None if there is none."""
+    return next((part for part in composite.parts if part.name == name), None)
+
+
+def component_type(reference: str, scope: Scope) -> Declared | None:
+    """The component type of the component that ``reference`` means; None if one of both is not there."""
+    component = scope.find(reference, *COMPONENTS)
+    if component is None or isinstance(component.element, ComponentType):
+        return component
+    return component.scope.find(getattr(component.element, "type", ""), ComponentType)
+
+
+def port_of(owner: Declared, name: str) -> Declared | None:
+    """The port of a component type, its own or inherited, by its name."""
+    return member_of(owner, "ports", name)
+
+
+def specified(port: Declared) -> Specified | None:
+    """What the specification of ``port`` means; None if it has not just one or names nothing that is there."""
+    assert isinstance(port.element, Port)
+    specs, scope = port.element.specs, port.scope
+    if len(specs) != 1:
+        return None
+    if isinstance(specs[0], PortTypeSpec):
+        return _by_type(specs[0], scope)
+    return _by_role(specs[0], scope)
+
+
+_TYPES = (DataType, Interface, AbstractDataType, AbstractInterface)
+
+
+def _by_type(spec: PortTypeSpec, scope: Scope) -> Specified | None:
+    port_type = scope.find(spec.type, PortType)
+    if port_type is None:
+        return None
+    bound: dict[int, Declared] = {}
+    for binding in spec.bindings:
+        abstract = scope.find(binding.abstract_type, AbstractDataType, AbstractInterface)
+        actual = scope.find(binding.actual_type, *_TYPES)
+        if abstract is not None and actual is not None:
+            bound[id(abstract.element)] = actual
+    return Specified(PortTypeSpec, port_type.element, bound)
+
+
+def _by_role(spec: PortRoleSpec, scope: Scope) -> Specified | None:
+    role = scope.member(spec.role, InteractionPattern, "roles")
+    pattern = scope.find(spec.role.rpartition(MEMBER)[0], InteractionPattern)
+    if role is None or pattern is None:
+        return None
+    bound: dict[int, Declared] = {}
+    for binding in spec.bindings:
+        item = (
+            scope.member(binding.item, InteractionPattern, "items")
+            if MEMBER in binding.item
+            else member_of(pattern, "items", binding.item)
+        )
+        actual = scope.find(binding.actual_type, *_TYPES)
+        if item is not None and actual is not None:
+            bound[id(item.element)] = actual
+    return Specified(PortRoleSpec, role.element, bound)
