@@ -4,9 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ucm_cts.adapters.contract.metamodel.contracts import Annotation, AnnotationDefinition, ConfigurationParameterValue
+from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
+from ucm_cts.adapters.contract.metamodel.contracts import (
+    Annotation,
+    AnnotationDefinition,
+    ConfigurationParameter,
+    ConfigurationParameterValue,
+)
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.toolchain.checking import Complaint, rule
+from ucm_cts.adapters.toolchain.constant_values import NotAConstant, NoValueOfType, fit
 
 
 @rule("R-9.2.9.4-01", Annotation)
@@ -54,6 +61,21 @@ def sets_parameters_once(annotation: Annotation, scope: Scope) -> Iterator[Compl
             yield value, f"{value.configuration_parameter} gets a second value; take one of them out"
         if parameter is not None:
             seen.add(id(parameter.element))
+
+
+@rule("R-9.2.9.2-03", ConfigurationParameterValue)
+def values_fit_their_parameters(value: ConfigurationParameterValue, scope: Scope) -> Iterator[Complaint]:
+    """The value is one that the parameter's type has, of an annotation's parameter and of a policy's."""
+    parameter = _parameter(value, scope) or scope.member(
+        value.configuration_parameter, TechnicalPolicyDefinition, "configuration_parameters"
+    )
+    if parameter is None or not value.value:
+        return
+    assert isinstance(parameter.element, ConfigurationParameter)
+    try:
+        fit(value.value, parameter.element.type, parameter.scope)
+    except (NotAConstant, NoValueOfType) as error:
+        yield value, f"the value of {value.configuration_parameter} is {value.value[:80]}: {error}"
 
 
 def _parameter(value: ConfigurationParameterValue, scope: Scope) -> Declared | None:

@@ -189,7 +189,8 @@ def no_api(port: etree._Element) -> bool:
 def binds_nothing_known(binding: etree._Element) -> None:
     """The pattern has no such item."""
     pattern = str(binding.get("interactionItem")).rpartition(".")[0]
-    binding.set("interactionItem", f"{pattern}.{NOWHERE}")
+    connector_item = str(binding.get("connectorItem"))
+    beside(binding, "ItemBinding", interactionItem=f"{pattern}.{NOWHERE}", connectorItem=connector_item)
 
 
 @breaks("R-9.3.4.6-03", at="ItemBinding")

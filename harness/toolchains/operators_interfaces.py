@@ -167,12 +167,6 @@ def value_of_no_parameter(value: etree._Element) -> bool:
     return True
 
 
-@breaks("R-9.2.9.2-02", at="ConfigurationParameterValue")
-def no_value(value: etree._Element) -> None:
-    """It does not say which value."""
-    del value.attrib["value"]
-
-
 @breaks("R-9.2.9.4-02", at="Annotation")
 def value_of_a_strange_parameter(annotation: etree._Element) -> bool:
     """The parameter is one of another definition."""

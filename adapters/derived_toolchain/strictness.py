@@ -1,0 +1,43 @@
+"""What mutants are made of: refusing more than the reference tool chain does, or overhearing what its reader says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import msgspec
+
+from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.names import Scope
+from ucm_cts.adapters.contract.metamodel.reading import Reading
+from ucm_cts.adapters.toolchain.checking import Complaint, Rule
+from ucm_cts.adapters.toolchain.program import Program
+
+
+def refusing(program: Program, kind: type[Element], when: Callable[[Any, Scope], object]) -> Program:
+    """``program``, but elements of ``kind`` for which ``when`` holds are wrong to it."""
+
+    def look(element: Element, scope: Scope) -> Iterator[Complaint]:
+        if when(element, scope):
+            yield element, "this is not how it is done"
+
+    return replace(program, rules={**program.rules, "overzealous": Rule("overzealous", "", (kind,), look)})
+
+
+def overhearing(program: Program, kind: str, tag: str, attribute: str) -> Program:
+    """``program``, but problems of ``kind`` with ``attribute`` of elements of ``tag`` do not count when models are read."""
+
+    def read(text: bytes, file: str) -> Reading:
+        reading = program.read(text, file)
+        told = (
+            p for p in reading.problems if (p.kind, p.element) != (kind, tag) or not _tells_of(attribute, p.message)
+        )
+        return msgspec.structs.replace(reading, problems=tuple(told))
+
+    return replace(program, read=read)
+
+
+def _tells_of(attribute: str, message: str) -> bool:
+    return attribute in re.findall(r"\w+", message)

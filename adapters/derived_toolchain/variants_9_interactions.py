@@ -1,0 +1,54 @@
+"""Tool chains that read the open places of 9.2.7 to 9.3 otherwise than the reference one, and say so."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.derived_toolchain.registry import replacing_rule, variant
+from ucm_cts.adapters.toolchain.program import Program
+
+
+@variant(task="check", declares=("inherited-names=allowed",))
+def inherited_names_may_recur(program: Program) -> Program:
+    """Lets an interface declare what it inherits once more."""
+    return replacing_rule(program, "inherited_names_differ", None)
+
+
+@variant(task="check", declares=("method-overloading=allowed",))
+def methods_may_be_overloaded(program: Program) -> Program:
+    """Tells methods apart by their parameters."""
+    return replacing_rule(program, "methods_differ_in_name", None)
+
+
+@variant(task="check", declares=("attribute-mode-absent=readwrite",))
+def mode_may_be_absent(program: Program) -> Program:
+    """Takes an attribute without mode for one that can be read and written, as the reference tool chain does."""
+    return program
+
+
+@variant(task="check", declares=("abstract-types-elsewhere=allowed",))
+def abstract_types_may_be_anywhere(program: Program) -> Program:
+    """Lets fields have abstract types."""
+    return replacing_rule(program, "abstract_types_serve_interfaces_only", None)
+
+
+@variant(task="check", declares=("module-extension=allowed",))
+def modules_may_extend_modules(program: Program) -> Program:
+    """Takes notice of modules that extend others, and has nothing against them."""
+    return program
+
+
+@variant(task="check", declares=("item-redefinition=allowed",))
+def items_may_be_redefined(program: Program) -> Program:
+    """Lets a pattern declare an item of its parent again."""
+    return replacing_rule(program, "items_are_not_redefined", None)
+
+
+@variant(task="check", declares=("connector-port-api=optional",))
+def ports_may_do_without_api(program: Program) -> Program:
+    """Lets a connector port do without a port type, as 10.1.5.2 prints them."""
+    return replacing_rule(program, "ports_have_apis", None)
+
+
+@variant(task="check", declares=("unbound-items=optional",))
+def items_may_be_unbound(program: Program) -> Program:
+    """Lets a connector leave items of its roles unbound."""
+    return replacing_rule(program, "items_of_roles_are_bound", None)

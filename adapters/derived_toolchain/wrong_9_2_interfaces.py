@@ -1,0 +1,230 @@
+"""Tool chains that are wrong about interfaces, exceptions, abstract types or annotations (9.2.7 to 9.2.9)."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract.metamodel.components import AbstractTypeBinding
+from ucm_cts.adapters.contract.metamodel.contracts import (
+    AbstractDataType,
+    AbstractInterface,
+    Annotation,
+    AnnotationDefinition,
+    Attribute,
+    ConfigurationParameter,
+    ContractModule,
+    Enumeration,
+    Exception_,
+    ExceptionField,
+    Interface,
+    Method,
+    Parameter,
+    PrimitiveBoolean,
+    Structure,
+)
+from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, PortType
+from ucm_cts.adapters.contract.metamodel.names import Scope
+from ucm_cts.adapters.derived_toolchain.registry import breaks
+from ucm_cts.adapters.derived_toolchain.strictness import overhearing, refusing
+from ucm_cts.adapters.toolchain.program import Program
+
+
+@breaks("R-9.2.7-01", task="check")
+def one_interface_a_module(program: Program) -> Program:
+    """Takes the second interface of a module for an error."""
+    return refusing(
+        program, ContractModule, lambda module, _: len(module.interfaces) == 2 and len(module.exceptions) == 0
+    )
+
+
+@breaks("R-9.2.7-03", task="check")
+def one_attribute_an_interface(program: Program) -> Program:
+    """Takes the second attribute of an interface for an error."""
+    return refusing(program, Interface, lambda interface, _: len(interface.attributes) > 1)
+
+
+@breaks("R-9.2.7-08", task="check")
+def one_method_an_interface(program: Program) -> Program:
+    """Takes the second method of an interface for an error."""
+    return refusing(program, Interface, lambda interface, _: len(interface.methods) > 1)
+
+
+@breaks("R-9.2.7-09", task="check")
+def methods_have_parameters(program: Program) -> Program:
+    """Takes a method of several IN parameters for an error."""
+
+    def many(method: Method, _: object) -> bool:
+        return len([p for p in method.parameters if p.direction == "IN"]) > 2
+
+    return refusing(program, Method, many)
+
+
+@breaks("R-9.2.7-10", task="check")
+def any_direction(program: Program) -> Program:
+    """Takes any word for a direction."""
+    return overhearing(program, "bad literal", "Parameter", "direction")
+
+
+@breaks("R-9.2.7.3-02", task="check")
+def direction_left_out(program: Program) -> Program:
+    """Does without the direction of a parameter."""
+    return overhearing(program, "missing attribute", "Parameter", "direction")
+
+
+@breaks("R-9.2.7-14", task="check")
+def single_inheritance(program: Program) -> Program:
+    """Takes a second ancestor of an interface for an error, diamond or not."""
+    return refusing(program, Interface, lambda interface, _: len(interface.inherited_interfaces) > 1)
+
+
+@breaks("R-9.2.7-17", task="check")
+def exceptions_say_something(program: Program) -> Program:
+    """Takes an exception of several fields for an error."""
+    return refusing(program, Exception_, lambda exception, _: len(exception.fields) > 1)
+
+
+@breaks("R-9.2.7.1-01", task="check")
+def no_mutual_interfaces(program: Program) -> Program:
+    """Takes it for a circle that two interfaces know each other, or one itself, by way of a parameter."""
+
+    def mutual(interface: Interface, scope: Scope) -> bool:
+        return any(interface.name in _taken(_named(t, scope)) for t in _taken(interface))
+
+    return refusing(program, Interface, mutual)
+
+
+def _taken(interface: Interface | None) -> set[str]:
+    methods = interface.methods if interface is not None else ()
+    return {parameter.type for method in methods for parameter in method.parameters}
+
+
+def _named(name: str, scope: Scope) -> Interface | None:
+    found = scope.find(name, Interface)
+    return found.element if found is not None and isinstance(found.element, Interface) else None
+
+
+@breaks("R-9.2.7.2-01", task="check")
+def one_annotation_a_method(program: Program) -> Program:
+    """Takes the second annotation of a method for an error."""
+    return refusing(program, Method, lambda method, _: len(method.annotations) > 1)
+
+
+@breaks("R-9.2.7.3-01", task="check")
+def parameters_are_data(program: Program) -> Program:
+    """Takes a parameter that is an interface for an error, abstract or not."""
+
+    def of_interface(parameter: Parameter, scope: Scope) -> bool:
+        return scope.find(parameter.type, Interface, AbstractInterface) is not None
+
+    return refusing(program, Parameter, of_interface)
+
+
+@breaks("R-9.2.7.4-01", task="check")
+def attributes_are_simple(program: Program) -> Program:
+    """Takes an attribute of a structure or enumeration for an error."""
+
+    def complex_(attribute: Attribute, scope: Scope) -> bool:
+        return scope.find(attribute.type, Structure, Enumeration) is not None and not attribute.default_value
+
+    return refusing(program, Attribute, complex_)
+
+
+@breaks("R-9.2.7.4-02", task="check", declares=("attribute-mode-absent=required",))
+def mode_left_out(program: Program) -> Program:
+    """Says that an attribute must have a mode, and does without."""
+    return program
+
+
+@breaks("R-9.2.7.4-03", task="check")
+def any_mode(program: Program) -> Program:
+    """Takes any word for a mode."""
+    return overhearing(program, "bad literal", "Attribute", "mode")
+
+
+@breaks("R-9.2.7.5-01", task="check")
+def exceptions_without_hyphens(program: Program) -> Program:
+    """Takes a hyphen in the name of an exception for an error."""
+    return refusing(program, Exception_, lambda exception, _: "-" in exception.name)
+
+
+@breaks("R-9.2.7.6-01", task="check")
+def exceptions_are_flat(program: Program) -> Program:
+    """Takes a field of an exception that is a structure for an error."""
+    return refusing(program, ExceptionField, lambda field, scope: scope.find(field.type, Structure) is not None)
+
+
+@breaks("R-9.2.8-01", task="check")
+def one_abstract_type_a_module(program: Program) -> Program:
+    """Takes several abstract types in a module for an error if nothing is there to use them."""
+
+    def several(module: ContractModule, _: object) -> bool:
+        abstract = [
+            t for t in (*module.data_types, *module.interfaces) if isinstance(t, AbstractDataType | AbstractInterface)
+        ]
+        return len(abstract) > 1 and len(module.interfaces) < 2
+
+    return refusing(program, ContractModule, several)
+
+
+@breaks("R-9.2.8-02", task="check")
+def abstract_types_are_not_returned(program: Program) -> Program:
+    """Takes a RETURN parameter of an abstract data type for an error."""
+    return refusing(
+        program, Parameter, lambda p, scope: p.direction == "RETURN" and scope.find(p.type, AbstractDataType)
+    )
+
+
+@breaks("R-9.2.8.1-01", task="check")
+def abstract_types_go_one_way(program: Program) -> Program:
+    """Takes an INOUT parameter of an abstract data type for an error."""
+    return refusing(
+        program, Parameter, lambda p, scope: p.direction == "INOUT" and scope.find(p.type, AbstractDataType)
+    )
+
+
+@breaks("R-9.2.8.2-01", task="check")
+def abstract_interfaces_are_required(program: Program) -> Program:
+    """Takes a port type that does nothing but provide an abstract interface for an error."""
+
+    def provided(port_type: PortType, scope: Scope) -> bool:
+        return any(e.kind == "PROVIDED" and scope.find(e.interface, AbstractInterface) for e in port_type.port_elements)
+
+    return refusing(program, PortType, provided)
+
+
+@breaks("R-9.2.8-04", task="check")
+def ports_bind_nothing(program: Program) -> Program:
+    """Takes a binding of an abstract type for an error."""
+    return refusing(program, AbstractTypeBinding, lambda _binding, _scope: True)
+
+
+@breaks("R-9.2.9-01", task="check")
+def one_parameter_a_connector(program: Program) -> Program:
+    """Takes the second configuration parameter of a connector for an error."""
+    return refusing(program, ConnectorDefinition, lambda connector, _: len(connector.configuration_parameters) > 1)
+
+
+@breaks("R-9.2.9-02", task="check")
+def attributes_without_annotations(program: Program) -> Program:
+    """Takes an annotation of an attribute for an error."""
+    return refusing(program, Attribute, lambda attribute, _: attribute.annotations)
+
+
+@breaks("R-9.2.9.1-01", task="check")
+def parameters_are_numbers(program: Program) -> Program:
+    """Takes a boolean configuration parameter with a default value for an error."""
+    return refusing(
+        program,
+        ConfigurationParameter,
+        lambda parameter, scope: parameter.default_value and scope.find(parameter.type, PrimitiveBoolean),
+    )
+
+
+@breaks("R-9.2.9.3-01", task="check")
+def annotations_say_something(program: Program) -> Program:
+    """Takes an annotation definition of several parameters for an error."""
+    return refusing(program, AnnotationDefinition, lambda one, _: len(one.configuration_parameters) > 1)
+
+
+@breaks("R-9.2.9.4-01", task="check")
+def annotations_of_the_same_module(program: Program) -> Program:
+    """Takes a definition of another module for an error."""
+    return refusing(program, Annotation, lambda annotation, _: "::" in annotation.annotation_definition)
