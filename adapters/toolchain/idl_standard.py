@@ -1,4 +1,6 @@
-"""The declarations of the container programming model (12.10), which all generated IDL includes."""
+"""The declarations that clause 12 prints, which all generated IDL includes: annotations (14), the container programming model
+(12.10) and the interfaces of standard policies (12.11).
+"""
 
 STANDARD = """\
 #ifndef UCM_IDL
@@ -80,6 +82,64 @@ interface ContainerManager : Container {
     Container create_container(in Properties configValues) raises (UCM_ERROR);
     void remove_container(in Container subContainer) raises (NOT_FOUND, UCM_ERROR);
     void destroy() raises (UCM_ERROR);
+};
+
+module standard_execution_policies {
+    module execution_policies_api {
+        interface component_execution_intf : ::PortElementObject {
+            void run();
+        };
+    };
+};
+
+module standard_services {
+    module standard_services_api {
+        typedef unsigned long ucm_time_t;
+        typedef long ucm_suseconds_t;
+        typedef string<255> log_message_t;
+        struct ucm_timeval_t {
+            ucm_time_t utv_sec;
+            ucm_suseconds_t utv_usec;
+        };
+        enum log_severity_t {
+            debug,
+            info,
+            warning,
+            error,
+            fatal
+        };
+        interface clock_service_intf : ::PortElementObject {
+            void get_local_time(out ucm_timeval_t local_time);
+            void get_synchronized_time(out ucm_timeval_t local_time);
+        };
+        interface trace_service_intf : ::PortElementObject {
+            void log(in log_severity_t severity, in log_message_t message);
+        };
+    };
+};
+
+module timer_service {
+    module timer_contracts {
+        enum timeout_enum_t {
+            ABSOLUTE_TIME,
+            RELATIVE_TIME
+        };
+        struct timeout_t {
+            ::standard_services::standard_services_api::ucm_time_t time_val;
+            timeout_enum_t flag;
+        };
+        typedef unsigned long timer_number_t;
+        typedef boolean timer_bool_t;
+        interface timer_callback_intf : ::PortElementObject {
+            void on_timeout(in timeout_t time, in timer_number_t timer_number);
+        };
+        interface timer_service_intf : ::PortElementObject {
+            void start_periodic_scheduler(in timer_number_t timer_number, in timeout_t delay_time, in timeout_t rate);
+            void start_sporadic_scheduler(in timer_number_t timer_number, in timeout_t time);
+            void cancel_timer(in timer_number_t timer_number);
+            timer_bool_t is_canceled(in timer_number_t timer_number);
+        };
+    };
 };
 
 #endif

@@ -145,10 +145,7 @@ def lists(vendor: Vendor, fact: Lists) -> list[Wrong]:
     declaration = hit.entry.declaration
     found = [one.name for one in _listed(declaration)]
     wanted = [_written(vendor, hit, name) for name in fact.names]
-    same = [n.lower() for n in found] == [n.lower() for n in wanted]
-    if not fact.ordered:
-        same = sorted(n.lower() for n in found) == sorted(n.lower() for n in wanted)
-    if same:
+    if found == wanted or (not fact.ordered and sorted(found) == sorted(wanted)):
         return []
     return [Wrong(f"{fact.path[-1]} to have {_names(wanted)}", _names(found), declaration.place)]
 

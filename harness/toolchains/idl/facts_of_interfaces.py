@@ -31,7 +31,7 @@ def takes(vendor: Vendor, fact: Takes) -> list[Wrong]:
     assert isinstance(operation, Operation)
     found = [(p.direction, p.name) for p in operation.parameters]
     wanted = [(direction, _written(vendor, hit, name)) for direction, name in fact.parameters]
-    if [(d, n.lower()) for d, n in found] == [(d, n.lower()) for d, n in wanted]:
+    if found == wanted:
         return []
     return [Wrong(f"{fact.path[-1]}({_shown(wanted)})", f"({_shown(found)})", operation.place)]
 

@@ -70,7 +70,7 @@ class Vendor:
             found = Hit(entry) if entry is not None else None
             if hit is not None:
                 found = member(hit, candidate) or _enumerator(hit, candidate)
-            if found is not None:
+            if found is not None and found.entry.declaration.name == candidate:
                 return found
         return self._renamed(hit, name) if "-" in name and self.reading("hyphens") != "underscore" else None
 
