@@ -307,7 +307,10 @@ def constant_definition(declared: Declared, standard: Standard) -> ConstantText:
     return ConstantText(f"{standard.constant} {named} = {value};\n")
 
 
-_TOKEN = re.compile(r"""L?"(?:\\.|[^"\\])*"|L?'(?:\\.|[^'\\])+'|0[xX][0-9a-fA-F]+|\.?\d[\w.]*(?:[+-]\d+)?|[\w:-]+|\S""")
+_TOKEN = re.compile(
+    r"""L?"(?:\\.|[^"\\])*"|L?'(?:\\.|[^'\\])+'|0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"""
+    r"""|(?:::)?[A-Za-z_]\w*(?:(?:::|-)[A-Za-z_]\w*)*|<<|>>|\S"""
+)
 _NAME = re.compile(r"(?:::)?[A-Za-z_]")
 
 

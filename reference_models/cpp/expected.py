@@ -82,6 +82,7 @@ class Connection(Value, frozen=True):
 class Abstract(Value, frozen=True):
     """What a class that user code implements consists of, with all that it inherits; ``key`` is unique in the model.
 
+    The first so many ``methods`` are ``inherited``.
     Components have ``life_cycle``; ``startup`` lists what it is connected to, ``more`` what policies may add to that.
     """
 
@@ -91,6 +92,7 @@ class Abstract(Value, frozen=True):
     life_cycle: bool = False
     startup: tuple[Connection, ...] = ()
     more: tuple[str, ...] = ()
+    inherited: int = 0
 
 
 # claims about names and types

@@ -208,7 +208,11 @@ class Interfaces:
         at = (interface.path, *bound_to)
         if at not in self.abstract:
             methods = self.members.of_interface(interface, bindings)
-            self.abstract[at] = Abstract(f"interface_{len(self.abstract)}", methods)
+            element = interface.element
+            assert isinstance(element, contracts.Interface)
+            own = len(list(self.members.of_attributes(element.attributes, interface, bindings))) + len(element.methods)
+            key = f"interface_{len(self.abstract)}"
+            self.abstract[at] = Abstract(key, methods, inherited=max(0, len(methods) - own))
         return self.abstract[at].key
 
     def expected(self) -> Iterator[Expected]:

@@ -1,0 +1,226 @@
+"""Runs a compiler, or what it made, within limits of time, memory and output, and reads what it says about which line."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import subprocess
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ucm_cts.adapters.contract.value import Value
+
+STANDARDS = {"cpp11": "-std=c++11", "cpp03": "-std=c++03"}
+
+_OUTPUT = 16 << 20
+_LIMITED = 'ulimit -v "$0"; ulimit -f "$1"; ulimit -c 0; shift; exec "$@"'
+
+
+class Compiler(Value, frozen=True):
+    """The compiler that decides: ``command`` is its name and whatever it needs, such as folders of headers.
+
+    ``seconds`` is how long one run may take, ``memory`` how many MiB.
+    """
+
+    command: tuple[str, ...] = ("g++",)
+    seconds: float = 120.0
+    memory: int = 4096
+
+
+@dataclass(frozen=True)
+class Error:
+    """What the compiler has against a line; ``notes`` are other places that it names, as file and line."""
+
+    file: str
+    line: int
+    message: str
+    fatal: bool = False
+    notes: tuple[tuple[str, int], ...] = ()
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a run ended: ``status`` is None if it went beyond a limit, which ``problem`` names."""
+
+    status: int | None
+    output: str
+    errors: str
+    problem: str = ""
+
+
+@dataclass(frozen=True)
+class Headers:
+    """Generated files: ``names`` of headers below ``folder``, and the folders below it where includes are looked for."""
+
+    folder: Path
+    names: tuple[str, ...]
+    include: tuple[str, ...] = (".",)
+
+    @property
+    def options(self) -> list[str]:
+        """What tells the compiler about the folders."""
+        return [word for below in self.include for word in ("-I", str(self.folder / below))]
+
+    @property
+    def sources(self) -> list[str]:
+        """The source files beside the headers."""
+        return sorted(str(p) for p in self.folder.rglob("*") if p.suffix in (".cpp", ".cc", ".cxx"))
+
+
+class NoCompiler(Exception):
+    """The compiler cannot be run; the message says why and what to do."""
+
+
+def run(words: Sequence[str], folder: Path, compiler: Compiler) -> Ended:
+    """Run ``words`` in ``folder`` within the limits of ``compiler``. Raises ``NoCompiler`` if there is no such program."""
+    limits = [str(compiler.memory * 1024), str(_OUTPUT * 16 // 512)]
+    shell = ["/bin/sh", "-c", _LIMITED, *limits, *words]
+    environment = {**os.environ, "LC_ALL": "C.UTF-8"}
+    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
+        try:
+            process = subprocess.Popen(
+                shell,
+                cwd=folder,
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=errors,
+                start_new_session=True,
+            )
+        except OSError as error:
+            raise NoCompiler(f"{words[0]} cannot be run: {error.strerror}") from None
+        status, problem = _wait(process, compiler.seconds)
+        said, told = _text(output), _text(errors)
+    if status == 127:
+        raise NoCompiler(f"no program '{words[0]}' can be run; install it or name another compiler")
+    return Ended(status, said, told, problem)
+
+
+def _wait(process: subprocess.Popen[bytes], seconds: float) -> tuple[int | None, str]:
+    try:
+        return process.wait(seconds), ""
+    except subprocess.TimeoutExpired:
+        return None, f"no end after {seconds:g} s"
+    finally:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+
+def _text(stream: Any) -> str:
+    stream.seek(0)
+    return str(stream.read(_OUTPUT).decode(errors="replace"))
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """What the compiler said of a translation unit; ``problem`` is why it said nothing that counts."""
+
+    errors: tuple[Error, ...]
+    problem: str = ""
+
+    @property
+    def ended_early(self) -> bool:
+        """Whether it gave up before the end."""
+        return bool(self.problem) or any(error.fatal for error in self.errors)
+
+
+def compile_text(
+    text: str, folder: Path, headers: Headers, standard: str, compiler: Compiler, made: Path | None = None
+) -> Compiled:
+    """Compile ``text``, a translation unit that includes ``headers``; with ``made`` link it with the source files beside them,
+    too. ``folder`` is where it is written to. Raises ``NoCompiler``.
+    """
+    source = folder / "probes.cpp"
+    source.write_text(text, encoding="utf-8")
+    words = [*compiler.command, STANDARDS[standard], "-pedantic-errors", "-w", *headers.options]
+    words += ["-O0", str(source), *headers.sources, "-o", str(made)] if made else ["-fsyntax-only", str(source)]
+    structured = [*words, "-fmax-errors=0", "-fdiagnostics-format=json"]
+    ended = run(structured, folder, compiler)
+    found = _read_json(ended.errors)
+    if ended.status not in (0, None) and (found is None or not found or any(not is_tag(e.file) for e in found)):
+        ended = run(words, folder, compiler)
+        found = _read_text(ended.errors)
+    if ended.problem:
+        return Compiled(tuple(found or ()), ended.problem)
+    if ended.status != 0 and not found:
+        line = next((s for s in ended.errors.splitlines() if s.strip()), f"status {ended.status}")
+        return Compiled((), f"the compiler failed: {line.strip()[:300]}")
+    return Compiled(tuple(found or ()))
+
+
+_TAG = re.compile(r"(?:R-[0-9.]+-[0-9]+|body|support|running|prelude)#\w+$")
+
+
+def is_tag(file: str) -> bool:
+    """Whether ``file`` is a name that a probe gave itself."""
+    return _TAG.match(file) is not None
+
+
+def _read_json(errors: str) -> list[Error] | None:
+    """The errors of every array of diagnostics, one a source file; None if there is none."""
+    found: list[Error] | None = None
+    for line in errors.splitlines():
+        if line.startswith("["):
+            try:
+                diagnostics = json.loads(line)
+            except ValueError:
+                continue
+            found = (found or []) + list(_of_json(diagnostics))
+    return found
+
+
+def _of_json(diagnostics: list[dict[str, Any]]) -> Iterator[Error]:
+    for diagnostic in diagnostics:
+        kind = diagnostic.get("kind", "")
+        if kind in ("error", "fatal error", "sorry, unimplemented"):
+            file, line = _place(diagnostic)
+            notes = tuple(_place(child) for child in diagnostic.get("children", ()))
+            yield Error(file, line, diagnostic.get("message", ""), kind == "fatal error", notes)
+
+
+def _place(diagnostic: dict[str, Any]) -> tuple[str, int]:
+    for location in diagnostic.get("locations", ()):
+        caret = location.get("caret", {})
+        return caret.get("file", ""), int(caret.get("line", 0))
+    return "", 0
+
+
+_LINE = re.compile(
+    r"(?P<file>[^\s:(][^:(]*)[:(](?P<line>\d+)(?:[:,]\d+)?\)?:\s*"
+    r"(?P<kind>error|fatal error|note|required from|recursively required)?(?: [A-Z]+\d+)?:?\s*(?P<message>.*)$"
+)
+
+
+def _read_text(errors: str) -> list[Error]:
+    """Errors as compilers print them; one inside a template counts for the probe that it was instantiated for, which is named
+    before the error or in notes after it.
+    """
+    found: list[Error] = []
+    around = ""
+    for line in errors.splitlines():
+        match = _LINE.match(line)
+        if match is None:
+            undefined = re.match(r".*(undefined reference to .*|multiple definition of .*)", line)
+            if undefined:
+                found.append(Error("", 0, undefined[1]))
+            continue
+        file, kind = match["file"], match["kind"] or ""
+        if kind in ("error", "fatal error"):
+            tag = file if is_tag(file) else around
+            place = (file, int(match["line"]))
+            notes = () if is_tag(file) else (place,)
+            found.append(Error(tag or file, place[1], match["message"], kind == "fatal error", notes))
+            around = ""
+        elif is_tag(file) and kind == "note" and found and not is_tag(found[-1].file):
+            last = found.pop()
+            found.append(Error(file, last.line, last.message, last.fatal, ((last.file, last.line),)))
+        elif is_tag(file) and "required from" in line:
+            around = file
+    return found

@@ -1,0 +1,218 @@
+"""C++ that all probes use, valid in both standards. Nothing of it looks at the headers under test."""
+
+from __future__ import annotations
+
+MOST_PARAMETERS = 8
+"""How many a function may have that probes look at."""
+
+
+def prelude(modern: bool) -> str:
+    """The text that comes after the headers and before the checks."""
+    typed = "decltype(__VA_ARGS__)" if modern else "__typeof__(__VA_ARGS__)"
+    standard = "#include <cstdint>\n#include <array>\n#include <memory>\n" if modern else "#include <stdint.h>\n"
+    return f"{_INCLUDES}{standard}#define UCTS_TYPE(...) {typed}\n{_TOOLS}{_signatures()}{_RUNNING}"
+
+
+_INCLUDES = """\
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+"""
+
+_TOOLS = """\
+namespace ucts {
+typedef char yes_type;
+struct no_type { char two[2]; };
+template <bool Condition> struct holds {};
+template <> struct holds<true> { typedef int yes; };
+template <class A, class B> struct same { enum { value = 0 }; };
+template <class A> struct same<A, A> { enum { value = 1 }; };
+template <int N> struct none {};
+template <class A, class B, class C = none<0>, class D = none<0>, class E = none<0> > struct one_of
+    : holds<same<A, B>::value || same<A, C>::value || same<A, D>::value || same<A, E>::value> {};
+template <class A> struct bare { typedef A type; };
+template <class A> struct bare<const A> { typedef A type; };
+template <class A> struct bare<A&> { typedef typename bare<A>::type type; };
+template <class A> struct constant { enum { value = 0 }; };
+template <class A> struct constant<const A> { enum { value = 1 }; };
+template <class A> A& make();
+template <class A> const typename bare<A>::type& slot_of();
+template <class A> int accepts(A*);
+template <class A> char (&constness(A&))[1 + constant<A>::value];
+template <bool First, class A, class B> struct choose { typedef A type; };
+template <class A, class B> struct choose<false, A, B> { typedef B type; };
+template <class T> yes_type has_element(typename T::PortElementObject*);
+template <class T> no_type has_element(...);
+template <class T> yes_type has_abstract_element(typename T::Abstract_PortElementObject*);
+template <class T> no_type has_abstract_element(...);
+template <class T, bool Plain> struct element_base { typedef typename T::PortElementObject type; };
+template <class T> struct element_base<T, false> { typedef typename T::Abstract_PortElementObject type; };
+template <class T> struct port_element : element_base<T, sizeof(has_element<T>(0)) == sizeof(yes_type)> {};
+template <class T> yes_type has_connection(typename T::PortConnection*);
+template <class T> no_type has_connection(...);
+yes_type becomes_int(int);
+template <class T> yes_type is_unscoped(char (*)[sizeof(becomes_int(make<T>()))]);
+template <class T> no_type is_unscoped(...);
+"""
+
+_RUNNING = """\
+template <class P> struct pointee;
+template <class S> struct target { typedef typename pointee<typename bare<typename S::result>::type>::type type; };
+template <class S> struct inner { typedef typename pointee<typename bare<typename S::member>::type>::type type; };
+template <class M> struct member_type { typedef M member; };
+template <class C, class M> member_type<M> member_of(M C::*);
+
+struct failed : ::std::runtime_error {
+    explicit failed(const ::std::string& what) : ::std::runtime_error(what) {}
+};
+inline void require(bool condition, const char* what) {
+    if (!condition) {
+        throw failed(what);
+    }
+}
+template <class C> struct slot { static C* value; };
+template <class C> C* slot<C>::value = 0;
+template <class C> struct kept { static C* value; };
+template <class C> C* kept<C>::value = 0;
+template <class C> void keep(const C& connection) {
+    delete kept<C>::value;
+    kept<C>::value = new C(connection);
+}
+template <class C> void keep_if_connection(const C& connection) { keep(connection); }
+template <int N> void keep_if_connection(const none<N>&) {}
+template <class C, class M> C* unconnected(M C::*) { return new C(::std::string(), M()); }
+template <class A> const typename bare<A>::type& slot_of() {
+    typedef typename bare<A>::type C;
+    if (slot<C>::value == 0) {
+        slot<C>::value = unconnected<C>(&C::ref);
+    }
+    return *slot<C>::value;
+}
+template <class S, class E> void bounded(const E& element, ::std::size_t most) {
+    S sequence;
+    require(sequence.size() == 0, "it has elements when it is new");
+    for (::std::size_t i = 0; i < most; ++i) {
+        sequence.push_back(element);
+    }
+    require(sequence.size() == most, "it does not hold as many elements as the model says");
+    try {
+        sequence.push_back(element);
+    } catch (...) {
+    }
+    require(sequence.size() == most, "it holds more elements than the model says");
+}
+inline void run(int number, void (*check)()) {
+    ::std::printf("ucts begin %d\\n", number);
+    ::std::fflush(stdout);
+    try {
+        check();
+        ::std::printf("ucts kept %d\\n", number);
+    } catch (const failed& failure) {
+        ::std::printf("ucts broken %d %s\\n", number, failure.what());
+    } catch (const ::std::exception& exception) {
+        ::std::printf("ucts broken %d an exception came out: %.200s\\n", number, exception.what());
+    } catch (...) {
+        ::std::printf("ucts broken %d an exception came out\\n", number);
+    }
+    ::std::fflush(stdout);
+}
+}  // namespace ucts
+"""
+
+
+def _signatures() -> str:
+    """What member functions of up to ``MOST_PARAMETERS`` parameters look like, and how a component is started with them."""
+    text = ["template <class F> struct signature;"]
+    for count in range(MOST_PARAMETERS + 1):
+        classes = "".join(f", class A{i}" for i in range(1, count + 1))
+        taken = ", ".join(f"A{i}" for i in range(1, count + 1))
+        named = "".join(
+            f" typedef {f'A{i}' if i <= count else f'none<{i}>'} a{i};" for i in range(1, MOST_PARAMETERS + 1)
+        )
+        given = ", ".join(f"slot_of<A{i}>()" for i in range(1, count + 1))
+        alike = " + ".join(["0", *(f"same<A{i}, const C&>::value" for i in range(1, count + 1))])
+        text.append(
+            f"template <class R, class C{classes}> struct signature<R (C::*)({taken})> "
+            f"{{ typedef R result;{named} enum {{ arity = {count} }}; }};\n"
+            f"template <class R, class C{classes}> signature<R (C::*)({taken})> of_{count}(R (C::*)({taken}));\n"
+            f"template <class C, class R, class O{classes}> char (&times(R (O::*)({taken})))[1 + {alike}];\n"
+            f"template <class B, class C{classes}> void start(B& body, void (C::*startup)({taken})) "
+            f"{{ (body.*startup)({given}); }}"
+        )
+    return "\n".join(text) + "\n"
+
+
+SHARED = "namespace ucts { template <class T> struct pointee<%s<T> > { typedef T type; }; }\n"
+
+ARRAY = """\
+namespace ucts { template <class A> struct array_of;
+template <class T, ::std::size_t N> struct array_of<%s<T, N> > { typedef T element; enum { size = N }; }; }
+"""
+
+SAFE_ENUM = """\
+namespace ucts { template <class E> struct safe;
+template <class D, class I> struct safe< ::ucm::safe_enum<D, I> > { typedef D definition; typedef I inner; }; }
+"""
+
+ARRAY_WORKS = """\
+    typedef ::ucm::array<int, 3> A;
+    A a = A(), b = A();
+    const A& c = a;
+    for (::std::size_t i = 0; i < 3; ++i) { a[i] = static_cast<int>(i); }
+    ::ucts::require(c.size() == 3 && c.max_size() == 3 && !c.empty(), "its size is not that of its type");
+    ::ucts::require(c.front() == 0 && c.back() == 2 && c.at(1) == 1 && c[1] == 1, "elements are not found by index");
+    ::ucts::require(c.data() == &c[0] && *c.begin() == 0 && c.end() - c.begin() == 3, "iterators do not cover its elements");
+    ::ucts::require(*c.rbegin() == 2, "reverse iterators do not begin at the end");
+    bool refused = false;
+    try { a.at(3) = 1; } catch (const ::std::out_of_range&) { refused = true; }
+    ::ucts::require(refused, "at() takes an index that is too great");
+    b.fill(0);
+    ::ucts::require(b[0] == 0 && b[2] == 0, "fill() does not fill it");
+    ::ucts::require(b < a && a > b && b <= a && a >= b && a != b && !(a == b), "it is not compared element by element");
+    b = a;
+    ::ucts::require(a == b, "a copy is not equal");
+    b[0] = 9;
+    ::ucts::require(a[0] == 0, "a copy shares its elements");
+    a.swap(b);
+    ::ucts::require(a[0] == 9 && b[0] == 0, "swap() does not exchange the elements");
+"""
+
+SHARED_WORKS_TYPES = """\
+struct base { static int alive; int value; base() : value(7) { ++alive; } ~base() { --alive; } };
+int base::alive = 0;
+struct derived : base { static int gone; ~derived() { ++gone; } };
+int derived::gone = 0;
+"""
+
+SHARED_WORKS = """\
+    typedef ::ucm::shared_ptr<base> P;
+    {
+        P none;
+        ::ucts::require(!none && none.get() == 0 && none.use_count() == 0, "a new one is not null");
+        P first(new base);
+        ::ucts::require(first && first->value == 7 && (*first).value == 7, "it does not lead to its object");
+        ::ucts::require(first.use_count() == 1, "one reference is not counted as one");
+        P second(first);
+        none = second;
+        ::ucts::require(none.get() == first.get() && none == first, "copies do not lead to the same object");
+        ::ucts::require(first.use_count() == 3, "copies are not counted");
+        none.reset();
+        second = P();
+        ::ucts::require(first.use_count() == 1 && base::alive == 1, "references that are gone are counted");
+        first.swap(second);
+        ::ucts::require(!first && second, "swap() does not exchange the references");
+        second.reset(new base);
+        ::ucts::require(base::alive == 1, "reset() does not let go of the object");
+    }
+    ::ucts::require(base::alive == 0, "the object is not deleted with its last reference");
+    {
+        ::ucm::shared_ptr<derived> made(new derived);
+        P shared(made);
+        made.reset();
+        ::ucts::require(derived::gone == 0 && shared.use_count() == 1, "a reference to a base is not counted");
+    }
+    ::ucts::require(derived::gone == 1 && base::alive == 0, "an object is not deleted as what it was made");
+"""

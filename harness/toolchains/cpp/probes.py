@@ -1,0 +1,359 @@
+"""Holds generated headers against what clause 13 makes of a model: one translation unit of probes, compiled and run."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ucm_cts.harness.toolchains.cpp.bodies import implementation, implemented, runs
+from ucm_cts.harness.toolchains.cpp.checks import Text, connection_declared, render
+from ucm_cts.harness.toolchains.cpp.compiling import (
+    Compiled,
+    Compiler,
+    Ended,
+    Error,
+    Headers,
+    compile_text,
+    is_tag,
+    run,
+)
+from ucm_cts.harness.toolchains.cpp.listing import Listed, listed
+from ucm_cts.harness.toolchains.cpp.prelude import ARRAY, SAFE_ENUM, SHARED, prelude
+from ucm_cts.harness.toolchains.cpp.results import CppComparison, Difference
+from ucm_cts.reference_models.cpp import expected as claims
+from ucm_cts.reference_models.cpp.expected import Expected, ExpectedCpp
+
+CHECKS = {
+    "cpp_probes": "A probe, compiled and run against the headers, finds each declaration to be what the mapping says.",
+    "cpp_headers": "Each header compiles alone and twice, and all of them together, as the standard of the profile.",
+    "cpp_body": "Classes that implement the abstract classes, with all that they inherit, compile, link and are called.",
+    "cpp_unexpected": "libclang finds nothing in the headers that the mapping excludes and no probe could see.",
+}
+"""What the rules do."""
+
+HEADERS = {"cpp11": "R-13-04", "cpp03": "R-13.10-01"}
+"""The requirement that headers compile."""
+
+_ROUNDS = 4
+_THREADS = 2
+_BEGUN = re.compile(r"^ucts (begin|kept|broken) (\d+) ?(.*)$", re.MULTILINE)
+_NOT = re.compile(r"holds<false>|holds<\(?false")
+
+
+@dataclass(frozen=True)
+class Check:
+    """A claim with its probe; ``number`` tells it from others of its translation unit."""
+
+    number: int
+    expected: Expected
+    text: Text
+    rule: str
+
+    @property
+    def tag(self) -> str:
+        """What diagnostics call it instead of a file."""
+        return f"{self.expected.requirement}#{self.number}"
+
+
+@dataclass
+class Seen:
+    """What is known so far: what each check observed that it should not have, and where."""
+
+    failed: dict[int, tuple[str, tuple[tuple[str, int], ...]]] = field(default_factory=dict)
+    bodies: dict[str, str] = field(default_factory=dict)
+    support: dict[str, str] = field(default_factory=dict)
+    kept: set[int] = field(default_factory=set)
+    loose: list[Error] = field(default_factory=list)
+    problem: str = ""
+
+
+def check(
+    expected: ExpectedCpp,
+    folder: Path,
+    headers: tuple[str, ...],
+    compiler: Compiler,
+    include: tuple[str, ...] = (".",),
+) -> CppComparison:
+    """What the headers, whose names are relative to ``folder``, come to. Raises ``NoCompiler``."""
+    return _Comparing(expected, Headers(folder.resolve(), headers, include), compiler).compared()
+
+
+def check_files(
+    expected: ExpectedCpp,
+    files: Mapping[str, str],
+    headers: tuple[str, ...],
+    compiler: Compiler,
+    include: tuple[str, ...] = (".",),
+) -> CppComparison:
+    """As ``check`` for ``files``, texts by their names. Raises ``NoCompiler``."""
+    with tempfile.TemporaryDirectory(prefix="ucm-cts-cpp-") as folder:
+        for name, text in files.items():
+            path = Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        return check(expected, Path(folder), headers, compiler, include)
+
+
+class _Comparing:
+    def __init__(self, expected: ExpectedCpp, headers: Headers, compiler: Compiler) -> None:
+        self._expected = expected
+        self._headers = headers
+        self._compiler = compiler
+        self._abstract = {a.key: a for a in expected.abstract}
+        self._checks = list(self._rendered())
+        self._seen = Seen()
+
+    def compared(self) -> CppComparison:
+        with tempfile.TemporaryDirectory(prefix="ucm-cts-probes-") as folder, ThreadPoolExecutor(_THREADS) as threads:
+            alone = [threads.submit(self._alone, name, Path(folder)) for name in self._headers.names]
+            listing = threads.submit(listed, self._expected, self._headers, self._compiler)
+            self._probe(Path(folder))
+            of_headers = [found for one in alone for found in one.result()]
+            return self._told(of_headers, listing.result())
+
+    def _rendered(self) -> Iterator[Check]:
+        for number, expected in enumerate(self._expected.expected):
+            claim = expected.claim
+            rule = "cpp_probes"
+            if isinstance(claim, claims.Implemented):
+                declared, text = implemented(claim, self._abstract[claim.key])
+                says = "a class that implements all functions of the abstract class can be made and is called"
+                found: Text | None = Text(says, declared, text, claim.key, judged_last=True)
+                rule = "cpp_body"
+            elif isinstance(claim, claims.Runs):
+                declared, text = runs(claim, self._abstract[claim.key], self._abstract)
+                says = f"a component that implements {claim.owner} is started, called and stopped"
+                found = Text(says, declared, text, claim.key, judged_last=True)
+                rule = "cpp_body"
+            else:
+                found = render(claim)
+            if found is not None:
+                yield Check(number, expected, found, rule)
+
+    def _alone(self, name: str, folder: Path) -> list[Difference]:
+        """Whether a header compiles with nothing before it, and is the same when it is included again."""
+        own = folder / f"alone-{self._headers.names.index(name)}"
+        own.mkdir()
+        text = f'#include "{name}"\n#include "{name}"\nint main() {{ return 0; }}\n'
+        compiled = compile_text(text, own, self._headers, self._expected.standard, self._compiler)
+        if compiled.problem:
+            return [self._of_header(name, compiled.problem, (name, 0))]
+        return [self._of_header(name, e.message, self._place(e)) for e in compiled.errors[:1]]
+
+    def _of_header(self, name: str, observed: str, place: tuple[str, int]) -> Difference:
+        standard = {"cpp11": "C++11", "cpp03": "C++03"}[self._expected.standard]
+        requirement = HEADERS[self._expected.standard]
+        says = f"{name} compiles as {standard}, alone and twice"
+        return Difference(requirement, "cpp_headers", "", 0, says, observed, *place)
+
+    def _probe(self, folder: Path) -> None:
+        """Compile and run; what failed to compile is left out of the next round, so that the rest is run at last."""
+        for attempt in range(_ROUNDS):
+            left = [c for c in self._checks if self._is_left(c)]
+            made = folder / f"probes-{attempt}"
+            compiled = compile_text(
+                self._unit(left), folder, self._headers, self._expected.standard, self._compiler, made
+            )
+            if not compiled.errors and not compiled.problem:
+                self._ran(run([str(made)], folder, self._compiler), left)
+                return
+            if not self._sort(compiled):
+                return
+
+    def _is_left(self, one: Check) -> bool:
+        return one.number not in self._seen.failed and one.text.key not in self._broken_keys()
+
+    def _broken_keys(self) -> set[str]:
+        """Implementations that do not compile, and those that return references to them."""
+        broken = set(self._seen.bodies)
+        for abstract in self._expected.abstract:
+            if broken & {*(g.interface for g in abstract.getters), *(c.interface for c in abstract.startup)}:
+                broken.add(abstract.key)
+        return broken
+
+    def _sort(self, compiled: Compiled) -> bool:
+        """Take note of errors; False if they leave nothing to try again."""
+        before = len(self._seen.failed) + len(self._seen.bodies) + len(self._seen.support)
+        self._seen.problem = compiled.problem
+        for error in compiled.errors:
+            kind, _, rest = error.file.partition("#")
+            if not is_tag(error.file):
+                self._seen.loose.append(error)
+            elif kind == "body":
+                self._seen.bodies.setdefault(rest, error.message)
+            elif kind == "support":
+                self._seen.support.setdefault(rest, error.message)
+            elif kind in ("prelude", "running"):
+                self._seen.problem = f"{kind}: {error.message}"
+            elif kind.startswith("R-"):
+                self._seen.failed.setdefault(int(rest), (_observed(error.message), error.notes))
+        if compiled.ended_early:
+            first = next((e.message for e in compiled.errors if e.fatal), compiled.problem)
+            self._seen.problem = first
+            return False
+        return len(self._seen.failed) + len(self._seen.bodies) + len(self._seen.support) > before
+
+    def _ran(self, ended: Ended, left: Iterable[Check]) -> None:
+        begun: int | None = None
+        for match in _BEGUN.finditer(ended.output):
+            word, number = match[1], int(match[2])
+            if word == "broken":
+                self._seen.failed[number] = (match[3], ())
+            elif word == "kept":
+                self._seen.kept.add(number)
+            begun = number if word == "begin" else None
+        if begun is not None:
+            status = ended.status or 0
+            how = ended.problem or (f"signal {-status}" if status < 0 else f"status {status}")
+            self._seen.failed[begun] = (f"the program ended here: {how}", ())
+        self._seen.kept |= {c.number for c in left if not c.text.run}
+
+    def _unit(self, left: list[Check]) -> str:
+        modern = self._expected.standard == "cpp11"
+        lines = [f'#include "{name}"' for name in self._headers.names]
+        lines += ['#line 1 "prelude#0"', prelude(modern)]
+        for name, text in self._support(modern).items():
+            if name not in self._seen.support:
+                lines += [f'#line 1 "support#{name}"', text]
+        lines += [text for check in left for text in _outside(check)]
+        broken = self._broken_keys()
+        needed = {check.text.key for check in left}
+        wanted = self._with_references(needed)
+        for abstract in self._expected.abstract:
+            if abstract.key in wanted and abstract.key not in broken:
+                lines += [f'#line 1 "body#{abstract.key}"', implementation(abstract).replace("\n", " ")]
+        lines += [text for check in left for text in _inside(check)]
+        lines += ['#line 1 "running#0"', "int main() {"]
+        for check in left:
+            if check.text.run:
+                lines.append(f"::ucts::run({check.number}, &ucts_check_{check.number}::run_it);")
+        return "\n".join([*lines, "return 0; }", ""]).replace("<::", "< ::")  # <: is [ in C++03
+
+    def _with_references(self, keys: set[str]) -> set[str]:
+        wanted = set(keys)
+        for key in keys & self._abstract.keys():
+            abstract = self._abstract[key]
+            wanted |= {*(g.interface for g in abstract.getters), *(c.interface for c in abstract.startup)}
+        return wanted
+
+    def _support(self, modern: bool) -> dict[str, str]:
+        """What probes need of class templates that C++03 leaves to the framework, each only if something needs it."""
+        if modern:
+            return {"shared_ptr": SHARED % "::std::shared_ptr", "array": ARRAY % "::std::array"}
+        needed = {_needs(c.expected.claim) for c in self._checks}
+        every = {"shared_ptr": SHARED % "::ucm::shared_ptr", "array": ARRAY % "::ucm::array", "safe_enum": SAFE_ENUM}
+        return {name: text for name, text in every.items() if name in needed}
+
+    def _told(self, of_headers: list[Difference], listing: Listed) -> CppComparison:
+        differences = list(of_headers)
+        exercised: Counter[str] = Counter()
+        unjudged: dict[str, str] = {}
+        exercised[HEADERS[self._expected.standard]] += len(self._headers.names)
+        if not of_headers:
+            for error in self._seen.loose[:1]:
+                differences.append(self._of_header("what is generated", error.message, self._place(error)))
+        for one in self._checks:
+            why = self._not_judged(one)
+            if why:
+                unjudged.setdefault(one.expected.requirement, why)
+                continue
+            exercised[one.expected.requirement] += 1
+            observed = self._observed_of(one)
+            if observed is not None:
+                differences.append(self._difference(one, *observed))
+        found, counted, missing = listing
+        exercised.update(counted)
+        unjudged = {**missing, **unjudged}
+        return CppComparison(dict(exercised), (*differences, *found), unjudged)
+
+    def _observed_of(self, one: Check) -> tuple[str, tuple[tuple[str, int], ...]] | None:
+        if one.text.key in self._seen.bodies:
+            return self._seen.bodies[one.text.key], ()
+        return self._seen.failed.get(one.number)
+
+    def _not_judged(self, one: Check) -> str:
+        """Why nothing can be said of a check; nothing if something can."""
+        observed = self._observed_of(one)
+        if observed is None and one.number not in self._seen.kept:
+            return self._seen.problem or "what it needs does not compile"
+        functions = any(c.text.of_functions and c.number in self._seen.failed for c in self._checks)
+        if one.text.judged_last and observed is not None and functions:
+            return "functions of the abstract classes are not as they should be"
+        if one.text.pure and not self._is_implementable(one):
+            return "the class cannot be implemented"
+        return ""
+
+    def _is_implementable(self, one: Check) -> bool:
+        claim = one.expected.claim
+        assert isinstance(claim, claims.Pure)
+        others = (
+            c
+            for c in self._checks
+            if isinstance(c.expected.claim, claims.Implemented)
+            and (c.expected.claim.owner, c.expected.claim.key) == (claim.owner, claim.key)
+        )
+        return all(self._observed_of(c) is None and c.number in self._seen.kept for c in others)
+
+    def _difference(self, one: Check, observed: str, notes: tuple[tuple[str, int], ...]) -> Difference:
+        expected = one.expected
+        place = next((self._relative(f, n) for f, n in notes if f and not is_tag(f)), None) or self._found(one)
+        return Difference(
+            expected.requirement, one.rule, expected.element, expected.line, one.text.says, observed, *place
+        )
+
+    def _place(self, error: Error) -> tuple[str, int]:
+        places = [(error.file, error.line), *error.notes]
+        return next((p for p in (self._relative(f, n) for f, n in places if not is_tag(f)) if p), ("", 0))
+
+    def _relative(self, file: str, line: int) -> tuple[str, int] | None:
+        path = Path(file)
+        if path.is_absolute() and path.is_relative_to(self._headers.folder):
+            return str(path.relative_to(self._headers.folder)), line
+        return None
+
+    def _found(self, one: Check) -> tuple[str, int]:
+        """Where the headers speak of what the check is about."""
+        names = re.findall(r"::(\w+)", one.text.says) + re.findall(r"\b(\w+)\b", one.expected.element)
+        for name in reversed(names[:3]):
+            for header in self._headers.names:
+                text = (self._headers.folder / header).read_text(encoding="utf-8", errors="replace")
+                match = re.search(rf"\b{re.escape(name)}\b", text)
+                if match:
+                    return header, text.count("\n", 0, match.start()) + 1
+        return "", 0
+
+
+def _needs(claim: claims.Claim) -> str:
+    match claim:
+        case claims.ArrayOf():
+            return "array"
+        case claims.SafeEnum() | claims.SafeEnumInner():
+            return "safe_enum"
+        case claims.ConnectionTo() | claims.ReturnsReference() | claims.ConnectionShape():
+            return "shared_ptr"
+    return ""
+
+
+def _outside(check: Check) -> Iterator[str]:
+    claim = check.expected.claim
+    if isinstance(claim, claims.DeclaresConnection):
+        yield f'#line 1 "{check.tag}"'
+        yield connection_declared(claim.owner, claim.connection)
+
+
+def _inside(check: Check) -> Iterator[str]:
+    yield f'#line 1 "{check.tag}"'
+    body = check.text.declared
+    if check.text.run:
+        body += f" inline void run_it() {{ {check.text.run} }}"
+    yield f"namespace ucts_check_{check.number} {{ {body} }}"
+
+
+def _observed(message: str) -> str:
+    """The compiler's words; a condition that does not hold says nothing but that."""
+    return "it is not so" if _NOT.search(message) else message

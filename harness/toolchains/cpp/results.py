@@ -1,0 +1,38 @@
+"""What comparing C++ came to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Something that is missing, wrong or unexpected: ``element`` is the model's, by its qualified name, and ``line_in_model``
+    where it stands; ``file`` and ``line`` are the place in the vendor's headers. Lines are 0 and names empty where there are none.
+    """
+
+    requirement: str
+    rule: str
+    element: str
+    line_in_model: int
+    expected: str
+    observed: str
+    file: str = ""
+    line: int = 0
+
+    def __str__(self) -> str:
+        place = f"{self.file}:{self.line}: " if self.file else ""
+        of = f" for {self.element} (line {self.line_in_model} of the model)" if self.element else ""
+        return f"{place}expected {self.expected}{of}, observed {self.observed} [{self.requirement}]"
+
+
+@dataclass(frozen=True)
+class CppComparison:
+    """How often each requirement was looked at, and what broke it. ``unjudged`` says of requirements why they were not looked
+    at, or not everywhere.
+    """
+
+    exercised: Mapping[str, int]
+    differences: tuple[Difference, ...]
+    unjudged: Mapping[str, str] = field(default_factory=dict)
