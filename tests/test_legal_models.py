@@ -1,0 +1,49 @@
+"""Models that are legal by construction are taken for legal by everyone: schema, reader, reference tool chain, its generators."""
+
+from __future__ import annotations
+
+from hypothesis import HealthCheck, Phase, given, settings
+
+from ucm_cts.adapters.contract.metamodel.common import Element, walk, without_lines
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.reading import read_model
+from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS
+from ucm_cts.adapters.contract.metamodel.writing import write_model
+from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.harness.toolchains.legal_models import legal_models
+from ucm_cts.harness.toolchains.schema import violations
+
+some = settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+
+
+@some
+@given(legal_models())
+def test_legal_models_are_legal(model: Model) -> None:
+    written = write_model(model)
+    reading = read_model(written, "m.xml")
+    assert (reading.problems, without_lines(reading.model)) == ((), model)
+    assert violations(written) == []
+    _, told = reference().check(written, "m.xml")
+    assert [str(diagnostic) for diagnostic in told] == []
+
+
+@settings(some, max_examples=10)
+@given(legal_models())
+def test_legal_models_can_be_mapped(model: Model) -> None:
+    program = reference()
+    for task in program.generators:
+        files, told = program.generate(task, write_model(model), "m.xml")
+        assert told == []
+        assert files
+
+
+def test_every_class_is_in_legal_models() -> None:
+    drawn: set[type[Element]] = set()
+
+    @settings(some, derandomize=True, database=None, phases=[Phase.generate])
+    @given(legal_models())
+    def look(model: Model) -> None:
+        drawn.update(type(element) for element in walk(model))
+
+    look()
+    assert drawn == set(SPELLINGS)
