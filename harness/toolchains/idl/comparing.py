@@ -5,10 +5,11 @@ Facts about what is not there are left alone, because one fact says that it is m
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from ucm_cts.harness.toolchains.idl.annotations import applied
 from ucm_cts.harness.toolchains.idl.facts import FACTS
+from ucm_cts.harness.toolchains.idl.omniidl import Opinion
 from ucm_cts.harness.toolchains.idl.reading import Files, read_files
 from ucm_cts.harness.toolchains.idl.results import Difference, IdlComparison, NotExercised, Wrong
 from ucm_cts.harness.toolchains.idl.scopes import build
@@ -33,17 +34,24 @@ CHECKS = {
 """The checks that the catalogue names among its rules, and what each looks at."""
 
 
-def compare(expected: ExpectedIdl, files: Mapping[str, str], readings: Mapping[str, str] = {}) -> IdlComparison:
+def compare(
+    expected: ExpectedIdl,
+    files: Mapping[str, str],
+    readings: Mapping[str, str] = {},
+    second_opinion: Callable[[Mapping[str, str]], Opinion] | None = None,
+) -> IdlComparison:
     """Compare the vendor's ``files`` (name to text) with what is ``expected`` of them under the ``readings`` declared.
 
-    ``readings`` maps options of ``interpretations_12.yaml`` to values; what is not named counts as its first value. Never raises for
-    whatever the files hold.
+    ``readings`` maps options of ``interpretations_12.yaml`` to values; what is not named counts as its first value.
+    ``second_opinion`` is asked whether files that the grammar takes are IDL. Never raises for whatever the files hold.
     """
     read = read_files(files)
     vendor = Vendor(build(read.declarations), expected, readings, bool(read.problems), bool(read.missing))
     exercised: dict[str, int] = {}
     differences = list(_of_files(vendor, read, exercised))
     for fact in expected.facts:
+        if vendor.is_printed(fact.path):
+            continue
         try:
             wrong = FACTS[type(fact)](vendor, fact)
         except NotExercised:
@@ -52,6 +60,11 @@ def compare(expected: ExpectedIdl, files: Mapping[str, str], readings: Mapping[s
         for requirement in {fact.requirement, *(one.requirement for one in told)}:
             exercised[requirement] = exercised.get(requirement, 0) + 1
         differences += told
+    if second_opinion is not None and not any(d.rule == "idl_syntax" for d in differences):
+        differences += [
+            _about_files("R-12.1-03", Wrong("IDL", f"omniidl: {one.text}", Place(one.file, one.line)))
+            for one in second_opinion(files).problems
+        ]
     seen = {option: frozenset(values) for option, values in vendor.met.items()}
     return IdlComparison(exercised, tuple(dict.fromkeys(differences)), seen)
 

@@ -64,7 +64,7 @@ def declares(vendor: Vendor, fact: Declares) -> list[Wrong]:
         return _missing(vendor, fact)
     declaration = hit.entry.declaration
     kind = kind_of(declaration)
-    if kind == fact.kind or (not fact.kind and isinstance(declaration, TYPES)):
+    if fact.kind in ("", kind):  # of which kind data types are is a matter of their own
         return []
     return [Wrong(f"{show_kind(fact.kind)} {fact.path[-1]}", f"{show_kind(kind)} of that name", declaration.place)]
 
@@ -79,7 +79,7 @@ def _missing(vendor: Vendor, fact: Declares) -> list[Wrong]:
     elsewhere = [
         entry
         for entry in every(vendor.root)
-        if entry.declaration.name.lower() == spelled(fact.path[-1]).lower() and _is_like(entry.declaration, fact.kind)
+        if entry.declaration.name == spelled(fact.path[-1]) and _is_like(entry.declaration, fact.kind)
     ]
     if elsewhere:
         found = elsewhere[0]

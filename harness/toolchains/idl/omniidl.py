@@ -65,7 +65,7 @@ def opinion(files: Mapping[str, str]) -> Opinion:
         path.write_text("\n".join(joined(files)) + "\n")
         try:
             ran = subprocess.run(
-                [program, "-N", "-nf", "all.idl"],
+                [program, "-N", "-nf", "-nc", "all.idl"],
                 check=False,
                 cwd=folder,
                 capture_output=True,

@@ -16,10 +16,9 @@ from typing import Any
 from ucm_cts.harness.toolchains.idl.reading import read_idl
 from ucm_cts.harness.toolchains.idl.results import Wrong
 from ucm_cts.harness.toolchains.idl.scopes import Entry, Hit, build, every, resolve
-from ucm_cts.harness.toolchains.idl.showing import show, type_of
-from ucm_cts.harness.toolchains.idl.vendor import Vendor
+from ucm_cts.harness.toolchains.idl.showing import type_of
+from ucm_cts.harness.toolchains.idl.vendor import Meaning, Vendor
 from ucm_cts.reference_models.idl.declarations import (
-    ArrayOf,
     Attribute,
     Declaration,
     Enum,
@@ -31,7 +30,6 @@ from ucm_cts.reference_models.idl.declarations import (
     Operation,
     SequenceOf,
     Struct,
-    Text,
     Type,
     kind_of,
 )
@@ -106,9 +104,10 @@ def _different(ours: Vendor, mine: Entry, theirs: Vendor, entry: Entry) -> Itera
     if missing:
         yield Wrong(f"{expected.name} to inherit from {_shown(missing)}", _shown(_bases(entry)), found.place)
     for aspect in (_own_type, _contents):
-        wanted, got = aspect(ours, mine), aspect(theirs, entry)
-        if wanted != got and got is not None:
-            yield Wrong(f"{expected.name} as clause 12 prints it: {_shown(wanted)}", _shown(got), found.place)
+        named, meant = ((aspect(ours, mine, by), aspect(theirs, entry, by)) for by in (True, False))
+        if named[0] != named[1] and meant[0] != meant[1]:
+            wanted, got = _shown(named[0]), _shown(named[1])
+            yield Wrong(f"{expected.name} as clause 12 prints it: {wanted}", got, found.place)
 
 
 def _shown(value: Any) -> str:
@@ -118,25 +117,24 @@ def _shown(value: Any) -> str:
     return str(value)
 
 
-def _own_type(vendor: Vendor, entry: Entry) -> object:
+def _own_type(vendor: Vendor, entry: Entry, by_name: bool) -> object:
     type_ = type_of(entry.declaration)
-    return _simple(vendor, type_, entry) if type_ is not None else None
+    return _simple(vendor, type_, entry, by_name) if type_ is not None else None
 
 
-def _simple(vendor: Vendor, type_: Type, entry: Entry) -> str:
-    """A type by the last part of the name of what is declared, typedefs followed: where things stand does not matter."""
-    if isinstance(type_, (SequenceOf, ArrayOf)):
-        return f"{type(type_).__name__} of {_simple(vendor, type_.element, entry)}"
-    meaning = vendor.meaning(type_, entry.scope)
-    if meaning[0] == "basic":
-        return str(meaning[1])
-    if meaning[0] == "text":
-        return show(Text(meaning[1])) + (f"<{meaning[2]}>" if meaning[2] is not None else "")
+def _simple(vendor: Vendor, type_: Type, entry: Entry, by_name: bool) -> str:
+    """A type ``by_name`` of what it refers to, or else with typedefs followed. Where things stand does not matter."""
+    if isinstance(type_, SequenceOf):
+        return f"sequence of {_simple(vendor, type_.element, entry, by_name)}"
+    if by_name and isinstance(type_, Named):
+        return type_.name.rsplit("::", 1)[-1]
+    return str(_without_scopes(vendor.meaning(type_, entry.scope)))
+
+
+def _without_scopes(meaning: Meaning) -> Meaning:
     if meaning[0] == "declared":
-        return str(meaning[1][-1])
-    if isinstance(type_, Named) and meaning[0] in ("sequence", "array"):
-        return type_.name.rsplit("::", 1)[-1].lower()
-    return type_.name.rsplit("::", 1)[-1].lower() if isinstance(type_, Named) else str(meaning)
+        return (meaning[1][-1],)
+    return tuple(_without_scopes(one) if isinstance(one, tuple) and one else one for one in meaning)
 
 
 def _bases(entry: Entry) -> frozenset[str]:
@@ -145,27 +143,31 @@ def _bases(entry: Entry) -> frozenset[str]:
     return frozenset(name.rsplit("::", 1)[-1].lower() for name in names)
 
 
-def _contents(vendor: Vendor, entry: Entry) -> object:
+def _contents(vendor: Vendor, entry: Entry, by_name: bool) -> object:
     declaration = entry.declaration
     inner = Hit(entry).entry.inner
     match declaration:
         case Struct() | Exception_():
             members = inner.entries if inner is not None else ()
-            return tuple((one.declaration.name, _own_type(vendor, one)) for one in members)
+            return tuple((one.declaration.name, _own_type(vendor, one, by_name)) for one in members)
         case Enum():
             return tuple(one.name for one in declaration.enumerators)
         case Interface():
             exported = inner.entries if inner is not None else ()
             return frozenset(
-                _operation(vendor, one) for one in exported if isinstance(one.declaration, (Operation, Attribute))
+                _operation(vendor, one, by_name)
+                for one in exported
+                if isinstance(one.declaration, (Operation, Attribute))
             )
     return None
 
 
-def _operation(vendor: Vendor, entry: Entry) -> str:
+def _operation(vendor: Vendor, entry: Entry, by_name: bool) -> str:
     declaration: Declaration = entry.declaration
     if not isinstance(declaration, Operation):
         return f"attribute {declaration.name}"
-    parameters = ", ".join(f"{p.direction} {_simple(vendor, p.type, entry)}" for p in declaration.parameters)
+    parameters = ", ".join(f"{p.direction} {_simple(vendor, p.type, entry, by_name)}" for p in declaration.parameters)
     raised = ", ".join(sorted(name.rsplit("::", 1)[-1] for name in declaration.raises))
-    return f"{_own_type(vendor, entry)} {declaration.name}({parameters})" + (f" raises ({raised})" if raised else "")
+    return f"{_own_type(vendor, entry, by_name)} {declaration.name}({parameters})" + (
+        f" raises ({raised})" if raised else ""
+    )

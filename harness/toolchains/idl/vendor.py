@@ -6,7 +6,17 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from ucm_cts.harness.toolchains.idl.scopes import MOST_STEPS, NOTHING, Bound, Entry, Hit, Scope, member, resolve
+from ucm_cts.harness.toolchains.idl.scopes import (
+    MOST_STEPS,
+    NOTHING,
+    Bound,
+    Entry,
+    Hit,
+    Scope,
+    is_parameter,
+    member,
+    resolve,
+)
 from ucm_cts.harness.toolchains.idl.values import worth
 from ucm_cts.reference_models.idl.declarations import (
     Annotated,
@@ -28,6 +38,14 @@ Meaning = tuple[Any, ...]
 """A type with all names followed: basic, text, sequence, array, declared (by its path), parameter, or unknown (by its name)."""
 
 EIGHT_BITS = ("int8", "uint8")
+
+
+PRINTED = {
+    "component_execution_policies": "standard_execution_policies",
+    "container_services": "standard_services",
+    "timer": "timer_service",
+}
+"""The modules of clause 10 that 12.11 prints under other names (interpretation standard-idl)."""
 
 
 def spelled(name: str) -> str:
@@ -52,6 +70,13 @@ class Vendor:
     def reading(self, option: str) -> str:
         """What the vendor declares for ``option``, empty for nothing."""
         return self.readings.get(option, "")
+
+    def is_printed(self, path: Path) -> bool:
+        """Whether the vendor has what 12.11 prints instead of what follows from the model of a standard module."""
+        reading = self.reading("standard-idl")
+        if not path or path[0] not in PRINTED or reading == "model":
+            return False
+        return reading == "printed" or (self.root.own(path[0]) is None and self.root.own(PRINTED[path[0]]) is not None)
 
     # Places
     def at(self, path: Path) -> Hit | None:
@@ -106,15 +131,18 @@ class Vendor:
 
     def same(self, found: Type, scope: Scope, expected: Type, bound: Bound = NOTHING) -> bool:
         """Whether a vendor's type means the expected one. Nobody is held to what the model leaves open."""
-        if expected == Basic("") or self._open(expected):
+        if expected == Basic("") or self._open(expected) or self._standard(found, expected):
             return True
         if isinstance(found, Annotated) and not isinstance(expected, Annotated):
             found = found.type
-        if isinstance(found, Named) and isinstance(expected, Named) and not bound:
-            hit = resolve(found.name, scope)
+        if isinstance(found, Named) and isinstance(expected, Named):
+            hit = resolve(found.name, scope, bound)
             if hit is None:
                 return self.missing and found.name.rsplit("::", 1)[-1] == spelled(expected.name.rsplit("::", 1)[-1])
-            if hit.entry is self.entry(expected):
+            actual = hit.bound.get(hit.entry.declaration.name.lower()) if is_parameter(hit) else None
+            if actual is not None:
+                return self.same(actual.type, actual.scope, expected, actual.bound)
+            if hit.entry is self.entry(expected) and not hit.bound:
                 return True
         if isinstance(found, SequenceOf) and isinstance(expected, SequenceOf):
             return self.same(found.element, scope, expected.element, bound) and self._size(
@@ -129,7 +157,18 @@ class Vendor:
         return self.meaning(found, scope, bound) == self.expected_meaning(expected)
 
     def _open(self, expected: Type) -> bool:
-        return isinstance(expected, Named) and tuple(expected.name.split("::")[1:]) in self.expected.unmapped
+        """Whether it cannot be told what ``expected`` is in the IDL; that it is not there is told elsewhere."""
+        path = tuple(expected.name.split("::")[1:]) if isinstance(expected, Named) else ()
+        if not path or path in self.expected.abstract:
+            return False
+        return path in self.expected.unmapped or self.at(path) is None
+
+    def _standard(self, found: Type, expected: Type) -> bool:
+        """Whether a type of a standard module is meant that the vendor declares as 12.11 prints it."""
+        if not isinstance(found, Named) or not isinstance(expected, Named):
+            return False
+        path = tuple(expected.name.split("::")[1:])
+        return self.is_printed(path) and found.name.rsplit("::", 1)[-1] == path[-1]
 
     def _size(self, expression: Expression | None, scope: Scope) -> object:
         return None if expression is None else worth(expression, scope)
