@@ -75,8 +75,12 @@ def _bare_implementation(aspect: etree._Element) -> bool:
     known = aspect.getroottree().getroot().find(".//AtomicComponentImplementation")
     if known is None:
         return False
-    bare = etree.Element("AtomicComponentImplementation", dict(known.attrib))
-    bare.set("name", "bare_implementation")
+    bare = etree.Element(
+        "AtomicComponentImplementation",
+        name="bare_implementation",
+        type=str(known.get("type")),
+        language=str(known.get("language")),
+    )
     known.addnext(bare)
     return True
 
@@ -179,9 +183,9 @@ def _redefined(definition: etree._Element, tag: str) -> bool:
 
 
 def _child(definition: etree._Element, name: str) -> etree._Element:
-    child = etree.Element("TechnicalPolicyDefinition", dict(definition.attrib))
-    child.set("name", name)
-    child.set("extends", path(definition))
+    child = etree.Element("TechnicalPolicyDefinition", name=name, extends=path(definition))
+    for attribute in ("technicalAspect", "applicability"):
+        child.set(attribute, str(definition.get(attribute)))
     definition.addnext(child)
     return child
 
