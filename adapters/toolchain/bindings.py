@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable, Iterator
 
 from ucm_cts.adapters.contract.metamodel.common import Element
@@ -86,4 +87,11 @@ def not_bound(owner: Element, bindings: Bindings, scope: Scope, apis: Iterable[D
 
 
 def _abstract_types(apis: Iterable[Declared]) -> dict[int, Declared]:
-    return {id(one.element): one for one in handled(*apis) if isinstance(one.element, ABSTRACT)}
+    found: dict[int, Declared] = {}
+    for api in apis:
+        found |= api.scope.remembered(("abstract types", id(api.element)), functools.partial(_abstract_types_of, api))
+    return found
+
+
+def _abstract_types_of(api: Declared) -> dict[int, Declared]:
+    return {id(one.element): one for one in handled(api) if isinstance(one.element, ABSTRACT)}

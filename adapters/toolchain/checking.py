@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
-from ucm_cts.adapters.contract.metamodel.common import Element
-from ucm_cts.adapters.contract.metamodel.modules import Model
-from ucm_cts.adapters.contract.metamodel.names import Names, Scope, each_element
+from ucm_cts.adapters.contract.metamodel.common import Element, child_fields
+from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
+from ucm_cts.adapters.contract.metamodel.names import Names, Scope
 from ucm_cts.adapters.toolchain.diagnostics import Diagnostic
 
 Complaint = tuple[Element, str]
 """The element that is wrong, and what is wrong with it and how to mend it."""
 
-Look = Callable[[Any, Scope], Iterator[Complaint]]
+Look = Callable[[Any, Scope], Iterable[Complaint]]
 
 
 @dataclass(frozen=True)
@@ -59,15 +59,38 @@ def check(model: Model, file: str, rules: Mapping[str, Rule]) -> list[Diagnostic
     """What ``rules`` have against ``model``, in the order of its lines."""
     names = Names(model)
     found = [d for r in rules.values() if Model in r.kinds for d in _told(r, model, names.root, file)]
-    asked: dict[type[Element], tuple[Rule, ...]] = {}
-    for element, scope in each_element(model, names):
-        kind = type(element)
-        if kind not in asked:
-            asked[kind] = tuple(r for r in rules.values() if issubclass(kind, r.kinds))
-        for one in asked[kind]:
-            for wrong, message in one.look(element, scope):
-                found.append(_diagnostic(one, wrong, message, file))
+    plans: dict[type[Element], _Plan] = {}
+
+    def visit(elements: Iterable[Element], scope: Scope) -> None:
+        for element in elements:
+            kind = type(element)
+            plan = plans.get(kind)
+            if plan is None:
+                plan = plans[kind] = _plan(kind, rules)
+            for one, look in plan.looks:
+                for wrong, message in look(element, scope):
+                    found.append(_diagnostic(one, wrong, message, file))
+            inner = names.inside(element) if plan.is_module else scope
+            for field in plan.fields:
+                held = getattr(element, field)
+                if held:
+                    visit(held, inner)
+
+    visit(model.modules, names.root)
     return sorted(found, key=lambda diagnostic: diagnostic.line)
+
+
+class _Plan(NamedTuple):
+    """What is done with elements of one kind: who looks at them, and which fields hold what is looked at next."""
+
+    looks: tuple[tuple[Rule, Look], ...]
+    fields: tuple[str, ...]
+    is_module: bool
+
+
+def _plan(kind: type[Element], rules: Mapping[str, Rule]) -> _Plan:
+    looks = tuple((one, one.look) for one in rules.values() if issubclass(kind, one.kinds))
+    return _Plan(looks, child_fields(kind), issubclass(kind, MODULES))
 
 
 def _told(one: Rule, model: Model, root: Scope, file: str) -> Iterator[Diagnostic]:

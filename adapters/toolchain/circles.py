@@ -14,15 +14,20 @@ Kind = TypeVar("Kind", bound=Named)
 
 def declared_in(root: Scope, kind: type[Named]) -> Iterator[Declared]:
     """All that modules declare of exactly this ``kind``, wherever below ``root``."""
+    yield from root.remembered("declared_in", lambda: _by_kind(root)).get(kind, ())
+
+
+def _by_kind(root: Scope) -> dict[type[Named], list[Declared]]:
+    found: dict[type[Named], list[Declared]] = {}
     waiting = [root]
     while waiting:
         scope = waiting.pop()
         for same_name in scope.members.values():
             for declared in same_name:
-                if type(declared.element) is kind:
-                    yield declared
+                found.setdefault(type(declared.element), []).append(declared)
         for modules in scope.modules.values():
             waiting.extend(modules)
+    return found
 
 
 def circle(root: Scope, kind: type[Named], leads_to: Callable[[Declared], Iterator[Declared]]) -> list[Named]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel.common import Element
@@ -21,7 +22,7 @@ from ucm_cts.adapters.contract.metamodel.contracts import (
     Interface,
 )
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern, PortType
-from ucm_cts.adapters.contract.metamodel.names import MEMBER, Declared, Scope, member_of
+from ucm_cts.adapters.contract.metamodel.names import MEMBER, Declared, Scope, lineage, member_of
 
 COMPONENTS = (ComponentType, AtomicComponentImplementation, CompositeComponentImplementation)
 """What a part may be an instance of (9.5.2.2)."""
@@ -46,9 +47,13 @@ class Specified(NamedTuple):
         return mine == {identity: id(actual.element) for identity, actual in other.bound.items()}
 
 
-def part_called(composite: CompositeComponentImplementation, name: str) -> AssemblyPart | None:
-    """The part of this name; None if there is none."""
-    return next((part for part in composite.parts if part.name == name), None)
+def part_called(composite: CompositeComponentImplementation, name: str, scope: Scope) -> AssemblyPart | None:
+    """The part of this name of a composite that stands in ``scope``; None if there is none."""
+    return scope.remembered(("parts", id(composite)), functools.partial(_parts, composite)).get(name)
+
+
+def _parts(composite: CompositeComponentImplementation) -> dict[str, AssemblyPart]:
+    return {part.name: part for part in reversed(composite.parts)}
 
 
 def component_type(reference: str, scope: Scope) -> Declared | None:
@@ -61,11 +66,24 @@ def component_type(reference: str, scope: Scope) -> Declared | None:
 
 def port_of(owner: Declared, name: str) -> Declared | None:
     """The port of a component type, its own or inherited, by its name."""
-    return member_of(owner, "ports", name)
+    return owner.scope.remembered(("ports", id(owner.element)), functools.partial(_ports, owner)).get(name)
+
+
+def _ports(owner: Declared) -> dict[str, Declared]:
+    """The ports of a component type by their names; those of nearer ancestors win, and of two the first."""
+    return {
+        port.name: Declared(port, ancestor.scope)
+        for ancestor in reversed(lineage(owner))
+        for port in reversed(getattr(ancestor.element, "ports", ()))
+    }
 
 
 def specified(port: Declared) -> Specified | None:
     """What the specification of ``port`` means; None if it has not just one or names nothing that is there."""
+    return port.scope.remembered(("specified", id(port.element)), functools.partial(_specified, port))
+
+
+def _specified(port: Declared) -> Specified | None:
     assert isinstance(port.element, Port)
     specs, scope = port.element.specs, port.scope
     if len(specs) != 1:

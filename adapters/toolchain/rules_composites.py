@@ -76,14 +76,18 @@ class Ends(NamedTuple):
         return (outer, inner) if outer is not None and inner is not None else None
 
 
-def _ends(composite: CompositeComponentImplementation, scope: Scope) -> Iterator[Ends]:
+def _ends(composite: CompositeComponentImplementation, scope: Scope) -> list[Ends]:
     """The ports of each delegation that leads to one end."""
+    return scope.remembered(("delegated", id(composite)), lambda: list(_find_ends(composite, scope)))
+
+
+def _find_ends(composite: CompositeComponentImplementation, scope: Scope) -> Iterator[Ends]:
     own = scope.find(composite.type, ComponentType)
     for delegation in composite.delegations:
         if len(_targets(delegation)) != 1:
             continue
         ((part_name, port_name),) = _targets(delegation)
-        part = part_called(composite, part_name)
+        part = part_called(composite, part_name, scope)
         its_type = component_type(part.instance_of, scope) if part is not None else None
         yield Ends(
             delegation,
@@ -128,7 +132,7 @@ def delegations_lead_to_ports_of_parts(
 ) -> Iterator[Complaint]:
     """The inner end is at a port of a part."""
     for ends in _ends(composite, scope):
-        part = part_called(composite, ends.part)
+        part = part_called(composite, ends.part, scope)
         if part is None:
             yield ends.delegation, f"'{ends.part}' is no part of composite {composite.name}; name one of those"
         elif ends.inner is None and component_type(part.instance_of, scope) is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -40,11 +41,11 @@ def connections_have_a_definition(connection: Connection, scope: Scope) -> Itera
 
 
 @rule("R-9.5.5.5-01", CompositeComponentImplementation)
-def ends_are_at_parts(composite: Composite, _scope: Scope) -> Iterator[Complaint]:
+def ends_are_at_parts(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """The part of an end is one of the same composite."""
     for connection in composite.connections:
         for end in connection.ends:
-            if part_called(composite, end.part) is None:
+            if part_called(composite, end.part, scope) is None:
                 yield end, f"'{end.part}' is no part of composite {composite.name}; name one of those"
 
 
@@ -53,7 +54,7 @@ def ends_are_at_ports_of_their_part(composite: Composite, scope: Scope) -> Itera
     """The port of an end is one of its part's component type."""
     for connection in composite.connections:
         for end in connection.ends:
-            part = part_called(composite, end.part)
+            part = part_called(composite, end.part, scope)
             owner = component_type(part.instance_of, scope) if part is not None else None
             if owner is not None and port_of(owner, end.port) is None:
                 yield end, f"'{end.port}' is no port of part {end.part}; name one of those"
@@ -68,9 +69,13 @@ class Joined(NamedTuple):
 
 def _joined(composite: Composite, connection: Connection, scope: Scope) -> list[Joined]:
     """The ends whose port is there and specified."""
+    return scope.remembered(("joined", id(connection)), functools.partial(_find_joined, composite, connection, scope))
+
+
+def _find_joined(composite: Composite, connection: Connection, scope: Scope) -> list[Joined]:
     found = []
     for end in connection.ends:
-        part = part_called(composite, end.part)
+        part = part_called(composite, end.part, scope)
         owner = component_type(part.instance_of, scope) if part is not None else None
         port = port_of(owner, end.port) if owner is not None else None
         meaning = specified(port) if port is not None else None
@@ -158,11 +163,18 @@ def _pattern(connection: Connection, scope: Scope) -> Declared | None:
 
 
 def _roles(pattern: Declared) -> list[InteractionRole]:
-    return [role for ancestor in lineage(pattern) for role in getattr(ancestor.element, "roles", ())]
+    return pattern.scope.remembered(
+        ("roles", id(pattern.element)),
+        lambda: [role for ancestor in lineage(pattern) for role in getattr(ancestor.element, "roles", ())],
+    )
 
 
 def _apis(connector: Declared) -> dict[int, list[InteractionRole]]:
     """The roles that each port type of a connector plays, by the identity of the port type."""
+    return connector.scope.remembered(("apis", id(connector.element)), functools.partial(_find_apis, connector))
+
+
+def _find_apis(connector: Declared) -> dict[int, list[InteractionRole]]:
     assert isinstance(connector.element, ConnectorDefinition)
     found: dict[int, list[InteractionRole]] = {}
     for port in connector.element.ports:
@@ -175,8 +187,13 @@ def _apis(connector: Declared) -> dict[int, list[InteractionRole]]:
     return found
 
 
-def _played(composite: Composite, connection: Connection, scope: Scope) -> Iterator[tuple[InteractionRole, int]]:
+def _played(composite: Composite, connection: Connection, scope: Scope) -> list[tuple[InteractionRole, int]]:
     """Each role of a connection and how many ends play it; nothing if an end may play several roles or none."""
+    count = functools.partial(_count_played, composite, connection, scope)
+    return scope.remembered(("played", id(connection)), lambda: list(count()))
+
+
+def _count_played(composite: Composite, connection: Connection, scope: Scope) -> Iterator[tuple[InteractionRole, int]]:
     connector, pattern = scope.find(connection.definition, ConnectorDefinition), _pattern(connection, scope)
     joined = _joined(composite, connection, scope)
     if len(joined) < len(connection.ends):

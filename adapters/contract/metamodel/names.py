@@ -6,15 +6,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Hashable, Iterator
 from itertools import repeat
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar, cast
 
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.common import Element, Named, child_fields, children
 from ucm_cts.adapters.contract.metamodel.components import ComponentType
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
+
+Result = TypeVar("Result")
 
 SEPARATOR = "::"
 MEMBER = "."
@@ -38,7 +40,7 @@ class Declared(NamedTuple):
 class Scope:
     """A module, or the root: what it declares, and what is around it. ``path`` is ``::a::b``, empty for the root."""
 
-    __slots__ = ("_known", "around", "members", "modules", "path")
+    __slots__ = ("_known", "_remembered", "around", "members", "modules", "path")
 
     def __init__(self, path: str = "", around: Scope | None = None) -> None:
         self.path = path
@@ -46,13 +48,27 @@ class Scope:
         self.members: dict[str, list[Declared]] = {}
         self.modules: dict[str, list[Scope]] = {}
         self._known: dict[tuple[str, tuple[type[Named], ...]], Declared | None] = {}
+        self._remembered: dict[Hashable, object] = {}
 
     def find(self, reference: str, *kinds: type[Named]) -> Declared | None:
         """What ``reference`` means where this scope is, if it is one of ``kinds``; None if there is no such thing."""
-        key = (reference, kinds)
-        if key not in self._known:
-            self._known[key] = next((d for d in self.candidates(reference) if isinstance(d.element, kinds)), None)
-        return self._known[key]
+        try:
+            return self._known[reference, kinds]
+        except KeyError:
+            found = next((d for d in self.candidates(reference) if isinstance(d.element, kinds)), None)
+            self._known[reference, kinds] = found
+            return found
+
+    def remembered(self, key: Hashable, find_out: Callable[[], Result]) -> Result:
+        """What ``find_out`` gave when this scope was first asked for ``key``, which must say whose it is and what it is about.
+
+        It may hold the ``id`` of an element of the model, which lives as long as its scopes.
+        """
+        try:
+            return cast(Result, self._remembered[key])
+        except KeyError:
+            result = self._remembered[key] = find_out()
+            return result
 
     def candidates(self, reference: str) -> Iterator[Declared]:
         """All that ``reference`` could mean here, of whatever kind, the nearest first."""
