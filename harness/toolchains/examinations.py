@@ -12,19 +12,22 @@ from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.harness.toolchains.acceptance import RULE_FOR, RULES, Acceptance
 from ucm_cts.harness.toolchains.campaign import TASKS, Examination
 from ucm_cts.harness.toolchains.corpus import questions
+from ucm_cts.harness.toolchains.cpp import standing
+from ucm_cts.harness.toolchains.cpp.probes import CHECKS
 from ucm_cts.harness.toolchains.description import Task
 from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.generation import Comparison, Generation
 from ucm_cts.harness.toolchains.idl.comparing import compare
 from ucm_cts.reference_models.idl.mapping import expected_idl
 
-TOOLCHAIN_CHECKS = RULES
+TOOLCHAIN_CHECKS = {**RULES, **CHECKS}
 """The rules that the catalogue names for tool chains, and what each says."""
 
 
 def stand_for() -> Mapping[str, frozenset[str]]:
     """The requirements that each of them stands for."""
-    return {rule: frozenset(q.requirement for q in questions() if RULE_FOR[q.due] == rule) for rule in RULES}
+    of_models = {rule: frozenset(q.requirement for q in questions() if RULE_FOR[q.due] == rule) for rule in RULES}
+    return {**of_models, **standing.stand_for()}
 
 
 def examination_for(profile: str, statement: Statement, dress: Dress, expression: str = "") -> Examination:

@@ -292,7 +292,7 @@ def constants(context: Context) -> Iterator[Expected]:
             claim = ConstantIs(name, spelled(type_), f"static_cast< {spelled(type_)} >({value})")
             yield expect("R-13.2.7-02", declared, claim)
         floating = isinstance(actual(type_).element, contracts.PrimitiveFloat)
-        if floating and not context.modern and context.reading("cpp03-float-constants") == "source":
+        if floating and not context.modern and context.reading("cpp03-float-constants", "source") == "source":
             yield expect("R-13.10-05", declared, NotInHeader(name))
 
 

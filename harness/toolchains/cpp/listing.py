@@ -28,7 +28,9 @@ Listed = tuple[list[Difference], dict[str, int], dict[str, str]]
 
 RULE = "cpp_unexpected"
 ELEMENTS = ("PortElementObject", "Abstract_PortElementObject")
-_LISTED = (claims.NotCorba, claims.NothingElse, claims.NoOperations, claims.NotInHeader)
+LISTED = (claims.NotCorba, claims.NothingElse, claims.NoOperations, claims.NotInHeader)
+"""The claims that libclang decides."""
+
 _FOLDERS = re.compile(r"#include <\.\.\.> search starts here:\n(.*?)End of search list", re.DOTALL)
 
 
@@ -38,7 +40,7 @@ class NotThere(Exception):
 
 def listed(expected: ExpectedCpp, headers: Headers, compiler: Compiler) -> Listed:
     """What libclang has against the headers. Raises ``NoCompiler``."""
-    wanted = [e for e in expected.expected if isinstance(e.claim, _LISTED)]
+    wanted = [e for e in expected.expected if isinstance(e.claim, LISTED)]
     if not wanted:
         return [], {}, {}
     try:

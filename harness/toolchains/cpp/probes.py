@@ -22,7 +22,7 @@ from ucm_cts.harness.toolchains.cpp.compiling import (
     is_tag,
     run,
 )
-from ucm_cts.harness.toolchains.cpp.listing import Listed, listed
+from ucm_cts.harness.toolchains.cpp.listing import LISTED, RULE, Listed, listed
 from ucm_cts.harness.toolchains.cpp.prelude import ARRAY, SAFE_ENUM, SHARED, prelude
 from ucm_cts.harness.toolchains.cpp.results import CppComparison, Difference
 from ucm_cts.reference_models.cpp import expected as claims
@@ -33,8 +33,12 @@ CHECKS = {
     "cpp_headers": "Each header compiles alone and twice, and all of them together, as the standard of the profile.",
     "cpp_body": "Classes that implement the abstract classes, with all that they inherit, compile, link and are called.",
     "cpp_unexpected": "libclang finds nothing in the headers that the mapping excludes and no probe could see.",
+    "cpp_generated": "The tool chain writes files for each legal model.",
 }
 """What the rules do."""
+
+GENERATED = ("R-13-05", "cpp_generated")
+"""The requirement that files can be had of legal models at all, and its rule."""
 
 HEADERS = {"cpp11": "R-13-04", "cpp03": "R-13.10-01"}
 """The requirement that headers compile."""
@@ -43,6 +47,13 @@ _ROUNDS = 4
 _THREADS = 2
 _BEGUN = re.compile(r"^ucts (begin|kept|broken) (\d+) ?(.*)$", re.MULTILINE)
 _NOT = re.compile(r"holds<false>|holds<\(?false")
+
+
+def rule_of(claim: claims.Claim) -> str:
+    """The rule that looks at ``claim``."""
+    if isinstance(claim, claims.Implemented | claims.Runs):
+        return "cpp_body"
+    return RULE if isinstance(claim, LISTED) else "cpp_probes"
 
 
 @dataclass(frozen=True)
@@ -119,21 +130,18 @@ class _Comparing:
     def _rendered(self) -> Iterator[Check]:
         for number, expected in enumerate(self._expected.expected):
             claim = expected.claim
-            rule = "cpp_probes"
             if isinstance(claim, claims.Implemented):
                 declared, text = implemented(claim, self._abstract[claim.key])
                 says = "a class that implements all functions of the abstract class can be made and is called"
                 found: Text | None = Text(says, declared, text, claim.key, judged_last=True)
-                rule = "cpp_body"
             elif isinstance(claim, claims.Runs):
                 declared, text = runs(claim, self._abstract[claim.key], self._abstract)
                 says = f"a component that implements {claim.owner} is started, called and stopped"
                 found = Text(says, declared, text, claim.key, judged_last=True)
-                rule = "cpp_body"
             else:
                 found = render(claim)
             if found is not None:
-                yield Check(number, expected, found, rule)
+                yield Check(number, expected, found, rule_of(claim))
 
     def _alone(self, name: str, folder: Path) -> list[Difference]:
         """Whether a header compiles with nothing before it, and is the same when it is included again."""
