@@ -40,6 +40,8 @@ def _parents(declared: Declared) -> Iterator[Declared]:
 @rule("R-9.3.3.2-05", InteractionPattern)
 def roles_are_not_redefined(pattern: InteractionPattern, scope: Scope) -> Iterator[Complaint]:
     """A pattern has the roles of its ancestors already."""
+    if not pattern.roles or not pattern.extends:
+        return
     for ancestor in lineage(Declared(pattern, scope))[1:]:
         assert isinstance(ancestor.element, InteractionPattern)
         theirs = {role.name for role in ancestor.element.roles}
@@ -54,6 +56,8 @@ def roles_are_not_redefined(pattern: InteractionPattern, scope: Scope) -> Iterat
 @rule("R-9.3.3.2-07", InteractionPattern, under="item-redefinition=refused")
 def items_are_not_redefined(pattern: InteractionPattern, scope: Scope) -> Iterator[Complaint]:
     """A pattern has the items of its ancestors already."""
+    if not pattern.items or not pattern.extends:
+        return
     for ancestor in lineage(Declared(pattern, scope))[1:]:
         assert isinstance(ancestor.element, InteractionPattern)
         theirs = {item.name for item in ancestor.element.items}
