@@ -11,7 +11,9 @@ DATA_TYPES = (DataType, AbstractDataType)
 
 def actual_type(reference: str, scope: Scope) -> Declared | None:
     """The data type that ``reference`` means in ``scope`` and that is no alias; None if there is none, or only a circle of aliases."""
-    found = scope.find(reference, *DATA_TYPES)
+    found = scope.find_one_of(reference, DATA_TYPES)
+    if found is None or not isinstance(found.element, Alias):
+        return found
     seen: set[int] = set()
     while found is not None and isinstance(found.element, Alias):
         if id(found.element) in seen:

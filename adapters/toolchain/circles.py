@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from graphlib import CycleError, TopologicalSorter
 from typing import TypeVar
 
@@ -28,6 +28,29 @@ def _by_kind(root: Scope) -> dict[type[Named], list[Declared]]:
         for modules in scope.modules.values():
             waiting.extend(modules)
     return found
+
+
+def has_circle(starts: Iterable[Declared], leads_to: Callable[[Declared], Iterable[Declared]]) -> bool:
+    """Whether any of ``starts`` leads to itself, or to something that does."""
+    done: set[int] = set()
+    for start in starts:
+        if id(start.element) in done:
+            continue
+        open_ones = {id(start.element)}
+        way = [(id(start.element), iter(leads_to(start)))]
+        while way:
+            identity, following = way[-1]
+            found = next(following, None)
+            if found is None:
+                way.pop()
+                open_ones.discard(identity)
+                done.add(identity)
+            elif id(found.element) in open_ones:
+                return True
+            elif id(found.element) not in done:
+                open_ones.add(id(found.element))
+                way.append((id(found.element), iter(leads_to(found))))
+    return False
 
 
 def circle(root: Scope, kind: type[Named], leads_to: Callable[[Declared], Iterator[Declared]]) -> list[Named]:

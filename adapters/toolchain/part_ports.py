@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel.common import Element
@@ -11,6 +12,7 @@ from ucm_cts.adapters.contract.metamodel.components import (
     AtomicComponentImplementation,
     ComponentType,
     CompositeComponentImplementation,
+    ConnectionEnd,
     Port,
     PortRoleSpec,
     PortTypeSpec,
@@ -64,9 +66,29 @@ def component_type(reference: str, scope: Scope) -> Declared | None:
     return component.scope.find(getattr(component.element, "type", ""), ComponentType)
 
 
+def port_of_end(composite: CompositeComponentImplementation, end: ConnectionEnd, scope: Scope) -> Declared | None:
+    """The port that ``end`` of a connection of ``composite`` names; None if that, its part or its type is not there."""
+    part = part_called(composite, end.part, scope)
+    return ports_of_component(part.instance_of, scope).get(end.port) if part is not None else None
+
+
+def ports_of_component(reference: str, scope: Scope) -> Mapping[str, Declared]:
+    """The ports of the component that ``reference`` means, by their names; none if it is not there."""
+    return scope.remembered(("ports of", reference), functools.partial(_ports_of_component, reference, scope))
+
+
+def _ports_of_component(reference: str, scope: Scope) -> Mapping[str, Declared]:
+    owner = component_type(reference, scope)
+    return _ports_by_name(owner) if owner is not None else {}
+
+
 def port_of(owner: Declared, name: str) -> Declared | None:
     """The port of a component type, its own or inherited, by its name."""
-    return owner.scope.remembered(("ports", id(owner.element)), functools.partial(_ports, owner)).get(name)
+    return _ports_by_name(owner).get(name)
+
+
+def _ports_by_name(owner: Declared) -> Mapping[str, Declared]:
+    return owner.scope.remembered(("ports", id(owner.element)), functools.partial(_ports, owner))
 
 
 def _ports(owner: Declared) -> dict[str, Declared]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -22,7 +21,7 @@ from ucm_cts.adapters.contract.metamodel.interactions import (
 )
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
 from ucm_cts.adapters.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.toolchain.part_ports import Specified, component_type, part_called, port_of, specified
+from ucm_cts.adapters.toolchain.part_ports import Specified, component_type, part_called, port_of_end, specified
 
 DEFINITIONS = (ConnectorDefinition, InteractionPattern)
 """What a connection may be an instance of (9.3.3.1)."""
@@ -54,9 +53,10 @@ def ends_are_at_ports_of_their_part(composite: Composite, scope: Scope) -> Itera
     """The port of an end is one of its part's component type."""
     for connection in composite.connections:
         for end in connection.ends:
+            if port_of_end(composite, end, scope) is not None:
+                continue
             part = part_called(composite, end.part, scope)
-            owner = component_type(part.instance_of, scope) if part is not None else None
-            if owner is not None and port_of(owner, end.port) is None:
+            if part is not None and component_type(part.instance_of, scope) is not None:
                 yield end, f"'{end.port}' is no port of part {end.part}; name one of those"
 
 
@@ -75,9 +75,7 @@ def _joined(composite: Composite, connection: Connection, scope: Scope) -> list[
 def _find_joined(composite: Composite, connection: Connection, scope: Scope) -> list[Joined]:
     found = []
     for end in connection.ends:
-        part = part_called(composite, end.part, scope)
-        owner = component_type(part.instance_of, scope) if part is not None else None
-        port = port_of(owner, end.port) if owner is not None else None
+        port = port_of_end(composite, end, scope)
         meaning = specified(port) if port is not None else None
         if meaning is not None:
             found.append(Joined(end, meaning))
@@ -211,6 +209,8 @@ def _count_played(composite: Composite, connection: Connection, scope: Scope) ->
         return
     else:
         players = [meaning.target for _, meaning in joined]
-    numbers = Counter(id(player) for player in players)
+    numbers: dict[int, int] = {}
+    for player in players:
+        numbers[id(player)] = numbers.get(id(player), 0) + 1
     for role in _roles(pattern) if pattern is not None else ():
-        yield role, numbers[id(role)]
+        yield role, numbers.get(id(role), 0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ucm_cts.adapters.contract.metamodel.contracts import (
     AbstractDataType,
@@ -23,6 +23,8 @@ from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.toolchain.circles import circle
+
+_DATA_TYPES = (DataType, AbstractDataType)
 
 
 @rule("R-9.2.7-11", Method)
@@ -138,8 +140,9 @@ Typed = StructureField | UnionCase | Alias | Array | Sequence | Constant
 @rule(
     "R-9.2.8-03", StructureField, UnionCase, Alias, Array, Sequence, Constant, under="abstract-types-elsewhere=refused"
 )
-def abstract_types_serve_interfaces_only(typed: Typed, scope: Scope) -> Iterator[Complaint]:
+def abstract_types_serve_interfaces_only(typed: Typed, scope: Scope) -> Iterable[Complaint]:
     """Nothing would ever bind an abstract type inside another type or a constant."""
-    found = scope.find(typed.type, DataType, AbstractDataType)
-    if found is not None and isinstance(found.element, AbstractDataType):
-        yield typed, f"{typed.name} is of the abstract type {typed.type}; give it an actual one"
+    found = scope.find_one_of(typed.type, _DATA_TYPES)
+    if found is None or not isinstance(found.element, AbstractDataType):
+        return ()
+    return [(typed, f"{typed.name} is of the abstract type {typed.type}; give it an actual one")]

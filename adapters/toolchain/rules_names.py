@@ -56,10 +56,11 @@ _KINDS: tuple[tuple[str, tuple[type[Named], ...]], ...] = (
 
 
 @rule("R-9.1.4.1-01", Named)
-def names_are_not_empty(named: Named, _scope: Scope) -> Iterator[Complaint]:
+def names_are_not_empty(named: Named, _scope: Scope) -> Iterable[Complaint]:
     """An identifier identifies, so it has at least one character."""
-    if not named.name and not isinstance(named, _NEED_NO_NAME + _HAVE_RULES_OF_THEIR_OWN):
-        yield named, f"{type(named).__name__.rstrip('_')} has an empty name; give it one"
+    if named.name or isinstance(named, _NEED_NO_NAME + _HAVE_RULES_OF_THEIR_OWN):
+        return ()
+    return [(named, f"{type(named).__name__.rstrip('_')} has an empty name; give it one")]
 
 
 @rule("R-9.1.4.4-01", *MODULES)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ucm_cts.adapters.contract.metamodel.common import Named
 from ucm_cts.adapters.contract.metamodel.contracts import (
@@ -33,37 +33,43 @@ Typed = StructureField | UnionCase | Alias | Array | Sequence | Constant | Excep
 TYPED = (StructureField, UnionCase, Alias, Array, Sequence, Constant, ExceptionField, ConfigurationParameter)
 """What refers to a data type (9.2.2.4)."""
 
+_OF_ONE_CLASS = ("R-9.2.4.2-01", "R-9.2.4.4-01", "R-9.2.4.6-01", "R-9.2.4.9-01", "R-9.2.5.4-01")
+"""Requirements that say of one class of ``TYPED`` what 9.2.2.4 says of all."""
+
 _INTERFACES = (Interface, AbstractInterface)
+_TYPES = (*DATA_TYPES, *_INTERFACES)
 
 
-@rule("R-9.2.2.4-02", *TYPED, also=("R-9.2.4.3-04",))
-def data_types_are_named(typed: Typed, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.2.4-02", *TYPED, also=("R-9.1.4.4-05", "R-9.2.4.3-04"))
+def data_types_are_named(typed: Typed, _scope: Scope) -> Iterable[Complaint]:
     """A reference is more than nothing."""
-    if not typed.type:
-        yield typed, f"{typed.name} has an empty type; name a data type"
+    return [(typed, f"{typed.name} has an empty type; name a data type")] if not typed.type else ()
 
 
-@rule("R-9.2.2.4-03", *TYPED)
-def data_types_exist(typed: Typed, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.2.4-03", *TYPED, also=("R-9.1.4.4-05", "R-9.2.1-07", "R-9.2.6.1-01", *_OF_ONE_CLASS))
+def data_types_exist(typed: Typed, scope: Scope) -> Iterable[Complaint]:
     """What is named as a type is declared."""
-    if typed.type and not _is_data_type(typed, scope) and not _means(typed.type, scope):
-        yield typed, f"{typed.name} has the type '{typed.type}', which is not declared; declare it"
+    if not typed.type or _is_data_type(typed, scope) or _means(typed.type, scope):
+        return ()
+    return [(typed, f"{typed.name} has the type '{typed.type}', which is not declared; declare it")]
 
 
-@rule("R-9.2.2.4-04", *TYPED)
-def interfaces_are_no_data_types(typed: Typed, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.2.4-04", *TYPED, also=_OF_ONE_CLASS)
+def interfaces_are_no_data_types(typed: Typed, scope: Scope) -> Iterable[Complaint]:
     """Where a data type is asked for an interface will not do."""
-    if not _is_data_type(typed, scope) and scope.find(typed.type, *_INTERFACES) is not None:
-        yield typed, f"{typed.name} has the type {typed.type}, which is an interface; name a data type"
+    if _is_data_type(typed, scope) or scope.find(typed.type, *_INTERFACES) is None:
+        return ()
+    return [(typed, f"{typed.name} has the type {typed.type}, which is an interface; name a data type")]
 
 
 @rule("R-9.2.1-07", *TYPED)
-def other_declarations_are_no_types(typed: Typed, scope: Scope) -> Iterator[Complaint]:
+def other_declarations_are_no_types(typed: Typed, scope: Scope) -> Iterable[Complaint]:
     """Only data types and interfaces are types."""
     if _is_data_type(typed, scope) or scope.find(typed.type, *_INTERFACES) is not None:
-        return
-    if _means(typed.type, scope):
-        yield typed, f"{typed.name} has the type {typed.type}, which is no type at all; name a data type"
+        return ()
+    if not _means(typed.type, scope):
+        return ()
+    return [(typed, f"{typed.name} has the type {typed.type}, which is no type at all; name a data type")]
 
 
 @rule("R-9.2.1-08", ItemBinding)
@@ -76,20 +82,22 @@ def items_are_bound_to_no_constants(binding: ItemBinding, scope: Scope) -> Itera
 
 
 @rule("R-9.2.2.5-01", Parameter, Attribute)
-def types_exist(typed: Parameter | Attribute, scope: Scope) -> Iterator[Complaint]:
+def types_exist(typed: Parameter | Attribute, scope: Scope) -> Iterable[Complaint]:
     """What is named as a type is declared."""
-    if not _means(typed.type, scope):
-        yield typed, f"{typed.name} has the type '{typed.type}', which is not declared; declare it"
+    if _is_type(typed, scope) or _means(typed.type, scope):
+        return ()
+    return [(typed, f"{typed.name} has the type '{typed.type}', which is not declared; declare it")]
 
 
 @rule("R-9.2.2.5-02", Parameter, Attribute)
-def types_are_types(typed: Parameter | Attribute, scope: Scope) -> Iterator[Complaint]:
+def types_are_types(typed: Parameter | Attribute, scope: Scope) -> Iterable[Complaint]:
     """A parameter's type is a data type or an interface."""
-    if _means(typed.type, scope) and scope.find(typed.type, *DATA_TYPES, *_INTERFACES) is None:
-        yield typed, f"{typed.name} has the type {typed.type}, which is no type at all; name one"
+    if _is_type(typed, scope) or not _means(typed.type, scope):
+        return ()
+    return [(typed, f"{typed.name} has the type {typed.type}, which is no type at all; name one")]
 
 
-@rule("R-9.2.4.1-02", Enumeration, ArrayDimension, Sequence)
+@rule("R-9.2.4.1-02", Enumeration, ArrayDimension, Sequence, also=("R-9.2.4.7-03",))
 def index_types_exist(indexed: Enumeration | ArrayDimension | Sequence, scope: Scope) -> Iterator[Complaint]:
     """An index type is a kind of integer, or the name of a declared integer type."""
     if indexed.index_type not in INTEGER_RANGES and not _means(indexed.index_type, scope):
@@ -97,7 +105,7 @@ def index_types_exist(indexed: Enumeration | ArrayDimension | Sequence, scope: S
         yield indexed, f"the index type '{indexed.index_type}' is no integer; name one of {known}"
 
 
-@rule("R-9.2.4.1-03", Enumeration, ArrayDimension, Sequence)
+@rule("R-9.2.4.1-03", Enumeration, ArrayDimension, Sequence, also=("R-9.2.4.7-03",))
 def named_index_types_are_integers(
     indexed: Enumeration | ArrayDimension | Sequence, scope: Scope
 ) -> Iterator[Complaint]:
@@ -115,7 +123,11 @@ def index_kind(index_type: str, scope: Scope) -> str | None:
 
 
 def _is_data_type(typed: Typed, scope: Scope) -> bool:
-    return scope.find(typed.type, *DATA_TYPES) is not None
+    return scope.find_one_of(typed.type, DATA_TYPES) is not None
+
+
+def _is_type(typed: Parameter | Attribute, scope: Scope) -> bool:
+    return scope.find_one_of(typed.type, _TYPES) is not None
 
 
 def _means(reference: str, scope: Scope) -> bool:

@@ -21,7 +21,7 @@ from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.toolchain.actual_types import DATA_TYPES, actual_type
 from ucm_cts.adapters.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.toolchain.circles import circle
+from ucm_cts.adapters.toolchain.circles import circle, declared_in, has_circle
 from ucm_cts.adapters.toolchain.rules_references import index_kind
 
 
@@ -62,21 +62,34 @@ def aliases_lead_to_other_types(_model: Model, root: Scope) -> Iterator[Complain
 @rule("R-9.2.4.3-06", Model)
 def structures_are_finite(_model: Model, root: Scope) -> Iterator[Complaint]:
     """No structure's value contains a value of the same structure."""
-    yield from _told(circle(root, Structure, _structures_in), "contains")
+    if not _all_are_finite(root):
+        yield from _told(circle(root, Structure, _structures_in), "contains")
 
 
 @rule("R-9.2.4.9-01", Model)
 def arrays_are_finite(_model: Model, root: Scope) -> Iterator[Complaint]:
     """No array is an element of itself."""
-    yield from _told(circle(root, Array, _elements), "contains")
+    if not _all_are_finite(root):
+        yield from _told(circle(root, Array, _elements), "contains")
 
 
 @rule("R-9.2.4.3-06", Model, under="recursive-types=refused", also=("R-9.2.4.6-01",))
 def sequences_and_unions_are_finite(_model: Model, root: Scope) -> Iterator[Complaint]:
     """Neither does a type contain itself where a shorter value would do."""
+    if _all_are_finite(root):
+        return
     plain = circle(root, Structure, _structures_in) or circle(root, Array, _elements)
     if not plain:
         yield from _told(circle(root, Sequence, _sequences_in) or circle(root, Union, _unions_in), "contains")
+
+
+def _all_are_finite(root: Scope) -> bool:
+    """Whether no type at all contains itself in any way: then no rule has to look for its own circles."""
+    kinds = (Structure, Array, Sequence, Union)
+    return root.remembered(
+        "all are finite",
+        lambda: not has_circle((d for kind in kinds for d in declared_in(root, kind)), lambda d: _parts(d, kinds)),
+    )
 
 
 def _told(found: list[Named], leads: str) -> Iterator[Complaint]:
