@@ -115,22 +115,28 @@ def parsed(text: str) -> Expression:
     return _Parser(text).whole()
 
 
-def fit(text: str, type_: str, scope: Scope) -> None:
+Ranges = Mapping[str, tuple[int, int]]
+
+
+def fit(text: str, type_: str, scope: Scope, ranges: Ranges = INTEGER_RANGES) -> None:
     """Raise ``NotAConstant`` or ``NoValueOfType`` unless ``text`` is a value of what ``type_`` means in ``scope``.
 
     Values of types that IDL has no constants of are not looked at, nor are those of types that are not there.
+    ``ranges`` are those of the kinds of integers.
     """
     found = actual_type(type_, scope)
+    if found is not None and isinstance(found.element, PrimitiveInteger):
+        _fit_integer(parsed(text), found.element, scope, ranges)
     for cls, fitting in _FITTING.items():
         if found is not None and isinstance(found.element, cls):
             fitting(parsed(text), found.element, scope)
 
 
-def _fit_integer(expression: Expression, type_: PrimitiveInteger, scope: Scope) -> None:
+def _fit_integer(expression: Expression, type_: PrimitiveInteger, scope: Scope, ranges: Ranges) -> None:
     value = _Calculation().result(expression, scope)
     if not _is_integer(value):
         raise NoValueOfType("it is no integer")
-    least, most = INTEGER_RANGES.get(type_.kind, (value, value))
+    least, most = ranges.get(type_.kind, (value, value))
     if not least <= value <= most:
         raise NoValueOfType(f"{type_.kind} holds {least} to {most}")
 
@@ -174,7 +180,6 @@ def _fit_enumeration(expression: Expression, type_: Enumeration, scope: Scope) -
 
 
 _FITTING: Mapping[type, Callable[..., None]] = {
-    PrimitiveInteger: _fit_integer,
     PrimitiveFloat: _fit_float,
     PrimitiveBoolean: _fit_boolean,
     PrimitiveChar: _fit_char,

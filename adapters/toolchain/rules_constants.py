@@ -14,15 +14,24 @@ from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.toolchain.constant_values import NotAConstant, NoValueOfType, fit
 
+_FITTING = (
+    *(f"R-9.2.3.2-{number:02}" for number in range(3, 11)),
+    "R-9.1.4.4-05",
+    "R-9.2.2.6-02",
+    "R-9.2.4.2-02",
+    "R-9.2.6.1-03",
+)
+"""Requirements that say of some types, or of names in values, what 9.2.6.1 says of all."""
 
-@rule("R-9.2.2.6-01", Constant, ConfigurationParameterValue)
+
+@rule("R-9.2.2.6-01", Constant, ConfigurationParameterValue, also=("R-9.2.6.1-01",))
 def values_are_given(valued: Constant | ConfigurationParameterValue, _scope: Scope) -> Iterator[Complaint]:
     """A value is more than nothing."""
     if not valued.value:
         yield valued, "a value is empty; give one"
 
 
-@rule("R-9.2.6.1-03", Constant)
+@rule("R-9.2.6.1-03", Constant, also=("R-9.2.2.6-02", "R-9.2.3.3-04"))
 def constants_follow_the_grammar(constant: Constant, scope: Scope) -> Iterator[Complaint]:
     """The value is what IDL writes for a constant."""
     try:
@@ -34,7 +43,7 @@ def constants_follow_the_grammar(constant: Constant, scope: Scope) -> Iterator[C
         pass
 
 
-@rule("R-9.2.6.1-04", Constant)
+@rule("R-9.2.6.1-04", Constant, also=_FITTING)
 def constants_are_values_of_their_types(constant: Constant, scope: Scope) -> Iterator[Complaint]:
     """The value is one that the type has."""
     try:

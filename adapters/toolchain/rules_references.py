@@ -33,7 +33,7 @@ Typed = StructureField | UnionCase | Alias | Array | Sequence | Constant | Excep
 TYPED = (StructureField, UnionCase, Alias, Array, Sequence, Constant, ExceptionField, ConfigurationParameter)
 """What refers to a data type (9.2.2.4)."""
 
-_OF_ONE_CLASS = ("R-9.2.4.2-01", "R-9.2.4.4-01", "R-9.2.4.6-01", "R-9.2.4.9-01", "R-9.2.5.4-01")
+OF_ONE_CLASS = ("R-9.2.4.2-01", "R-9.2.4.4-01", "R-9.2.4.6-01", "R-9.2.4.9-01", "R-9.2.5.4-01")
 """Requirements that say of one class of ``TYPED`` what 9.2.2.4 says of all."""
 
 _INTERFACES = (Interface, AbstractInterface)
@@ -46,7 +46,7 @@ def data_types_are_named(typed: Typed, _scope: Scope) -> Iterable[Complaint]:
     return [(typed, f"{typed.name} has an empty type; name a data type")] if not typed.type else ()
 
 
-@rule("R-9.2.2.4-03", *TYPED, also=("R-9.1.4.4-05", "R-9.2.1-07", "R-9.2.6.1-01", *_OF_ONE_CLASS))
+@rule("R-9.2.2.4-03", *TYPED, also=("R-9.1.4.4-05", "R-9.2.1-07", "R-9.2.6.1-01", *OF_ONE_CLASS))
 def data_types_exist(typed: Typed, scope: Scope) -> Iterable[Complaint]:
     """What is named as a type is declared."""
     if not typed.type or _is_data_type(typed, scope) or _means(typed.type, scope):
@@ -54,7 +54,7 @@ def data_types_exist(typed: Typed, scope: Scope) -> Iterable[Complaint]:
     return [(typed, f"{typed.name} has the type '{typed.type}', which is not declared; declare it")]
 
 
-@rule("R-9.2.2.4-04", *TYPED, also=_OF_ONE_CLASS)
+@rule("R-9.2.2.4-04", *TYPED, also=OF_ONE_CLASS)
 def interfaces_are_no_data_types(typed: Typed, scope: Scope) -> Iterable[Complaint]:
     """Where a data type is asked for an interface will not do."""
     if _is_data_type(typed, scope) or scope.find(typed.type, *_INTERFACES) is None:

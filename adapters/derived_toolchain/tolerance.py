@@ -1,0 +1,37 @@
+"""What mutants are made of: not hearing what the reader says, and doing without several rules."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import msgspec
+
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading
+from ucm_cts.adapters.derived_toolchain.registry import replacing_rule
+from ucm_cts.adapters.toolchain.program import Program
+
+
+def deaf(program: Program, when: Callable[[Problem, Model], object]) -> Program:
+    """``program``, but problems in reading for which ``when`` holds do not count. It is given what could be read, too."""
+
+    def read(text: bytes, file: str) -> Reading:
+        reading = program.read(text, file)
+        told = tuple(problem for problem in reading.problems if not when(problem, reading.model))
+        return msgspec.structs.replace(reading, problems=told)
+
+    return replace(program, read=read)
+
+
+def without(program: Program, *rules: str) -> Program:
+    """``program`` without the ``rules`` of these names."""
+    for name in rules:
+        program = replacing_rule(program, name, None)
+    return program
+
+
+def lacks(problem: Problem, attribute: str, *tags: str) -> bool:
+    """Whether ``problem`` is that an element of ``tags``, or any element if there are none, has no ``attribute``."""
+    told = problem.message.endswith(f" has no {attribute}; give it one")
+    return problem.kind == "missing attribute" and told and (not tags or problem.element in tags)
