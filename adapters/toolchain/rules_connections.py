@@ -42,7 +42,7 @@ def connections_have_a_definition(connection: Connection, scope: Scope) -> Itera
 @rule("R-9.5.5.5-01", CompositeComponentImplementation)
 def ends_are_at_parts(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """The part of an end is one of the same composite."""
-    for connection in composite.connections:
+    for connection in _not_wholly_joined(composite, scope):
         for end in connection.ends:
             if part_called(composite, end.part, scope) is None:
                 yield end, f"'{end.part}' is no part of composite {composite.name}; name one of those"
@@ -51,13 +51,22 @@ def ends_are_at_parts(composite: Composite, scope: Scope) -> Iterator[Complaint]
 @rule("R-9.5.5.5-02", CompositeComponentImplementation)
 def ends_are_at_ports_of_their_part(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """The port of an end is one of its part's component type."""
-    for connection in composite.connections:
+    for connection in _not_wholly_joined(composite, scope):
         for end in connection.ends:
             if port_of_end(composite, end, scope) is not None:
                 continue
             part = part_called(composite, end.part, scope)
             if part is not None and component_type(part.instance_of, scope) is not None:
                 yield end, f"'{end.port}' is no port of part {end.part}; name one of those"
+
+
+class Definition(NamedTuple):
+    """What a connection is an instance of: a connector, with the roles that each of its port types plays, or a pattern."""
+
+    connector: Declared | None
+    pattern: Declared | None
+    apis: dict[int, list[InteractionRole]]
+    roles: list[InteractionRole]
 
 
 class Joined(NamedTuple):
@@ -67,31 +76,58 @@ class Joined(NamedTuple):
     meaning: Specified
 
 
-def _joined(composite: Composite, connection: Connection, scope: Scope) -> list[Joined]:
-    """The ends whose port is there and specified."""
-    return scope.remembered(("joined", id(connection)), functools.partial(_find_joined, composite, connection, scope))
+class Joint(NamedTuple):
+    """A connection, what it is an instance of, and those of its ends whose port is there and specified."""
+
+    connection: Connection
+    definition: Definition
+    joined: list[Joined]
 
 
-def _find_joined(composite: Composite, connection: Connection, scope: Scope) -> list[Joined]:
+def _joints(composite: Composite, scope: Scope) -> list[Joint]:
+    return scope.remembered(("joints", id(composite)), functools.partial(_find_joints, composite, scope))
+
+
+def _find_joints(composite: Composite, scope: Scope) -> list[Joint]:
     found = []
-    for end in connection.ends:
-        port = port_of_end(composite, end, scope)
-        meaning = specified(port) if port is not None else None
-        if meaning is not None:
-            found.append(Joined(end, meaning))
+    for connection in composite.connections:
+        joined = []
+        for end in connection.ends:
+            port = port_of_end(composite, end, scope)
+            meaning = specified(port) if port is not None else None
+            if meaning is not None:
+                joined.append(Joined(end, meaning))
+        found.append(Joint(connection, _definition(connection.definition, scope), joined))
     return found
+
+
+def _not_wholly_joined(composite: Composite, scope: Scope) -> list[Connection]:
+    """The connections with an end whose port is not there, or not specified."""
+    return [one.connection for one in _joints(composite, scope) if len(one.joined) < len(one.connection.ends)]
+
+
+def _definition(reference: str, scope: Scope) -> Definition:
+    return scope.remembered(("definition", reference), functools.partial(_find_definition, reference, scope))
+
+
+def _find_definition(reference: str, scope: Scope) -> Definition:
+    connector = scope.find(reference, ConnectorDefinition)
+    if connector is None:
+        pattern = scope.find(reference, InteractionPattern)
+        return Definition(None, pattern, {}, _roles(pattern) if pattern is not None else [])
+    assert isinstance(connector.element, ConnectorDefinition)
+    refined = connector.scope.find(connector.element.pattern, InteractionPattern)
+    return Definition(connector, None, _apis(connector), _roles(refined) if refined is not None else [])
 
 
 @rule("R-9.5.5.4-04", CompositeComponentImplementation)
 def connectors_have_the_apis_of_their_ends(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """A connector has a port for the port type of each end; ends with a role are not looked at."""
-    for connection in composite.connections:
-        connector = scope.find(connection.definition, ConnectorDefinition)
-        if connector is None:
+    for connection, definition, joined in _joints(composite, scope):
+        if definition.connector is None:
             continue
-        apis = _apis(connector)
-        for end, meaning in _joined(composite, connection, scope):
-            if meaning.kind is PortTypeSpec and id(meaning.target) not in apis:
+        for end, meaning in joined:
+            if meaning.kind is PortTypeSpec and id(meaning.target) not in definition.apis:
                 yield (
                     end,
                     f"{connection.definition} has no port with the port type of {end.part}.{end.port}; use another one",
@@ -101,12 +137,11 @@ def connectors_have_the_apis_of_their_ends(composite: Composite, scope: Scope) -
 @rule("R-9.5.5.4-05", CompositeComponentImplementation)
 def patterns_have_the_roles_of_their_ends(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """A pattern has the role of each end; ends with a port type are not looked at."""
-    for connection in composite.connections:
-        pattern = _pattern(connection, scope)
-        if pattern is None:
+    for connection, definition, joined in _joints(composite, scope):
+        if definition.pattern is None:
             continue
-        roles = {id(role) for role in _roles(pattern)}
-        for end, meaning in _joined(composite, connection, scope):
+        roles = {id(role) for role in definition.roles}
+        for end, meaning in joined:
             if meaning.kind is PortRoleSpec and id(meaning.target) not in roles:
                 yield (
                     end,
@@ -117,33 +152,31 @@ def patterns_have_the_roles_of_their_ends(composite: Composite, scope: Scope) ->
 @rule("R-9.5.5.4-06", CompositeComponentImplementation)
 def roles_are_not_played_too_often(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """No more ends play a role than it allows."""
-    for connection in composite.connections:
-        for role, number in _played(composite, connection, scope):
-            most = role.upper_multiplicity
-            if most is not None and 0 <= most < number:
-                name = f"role {role.name} of {connection.definition}"
-                yield connection, f"{number} ends of {connection.name} play {name}, which {most} may; take some out"
+    for connection, role, number in _played(composite, scope):
+        most = role.upper_multiplicity
+        if most is not None and 0 <= most < number:
+            name = f"role {role.name} of {connection.definition}"
+            yield connection, f"{number} ends of {connection.name} play {name}, which {most} may; take some out"
 
 
 @rule("R-9.5.5.4-07", CompositeComponentImplementation, under="role-minimum=check")
 def roles_are_played_often_enough(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """No fewer ends play a role than it asks for."""
-    for connection in composite.connections:
-        for role, number in _played(composite, connection, scope):
-            if role.lower_multiplicity is not None and number < role.lower_multiplicity:
-                name = f"role {role.name} of {connection.definition}"
-                yield (
-                    connection,
-                    f"{number} ends of {connection.name} play {name}, which wants {role.lower_multiplicity}; add some",
-                )
+    for connection, role, number in _played(composite, scope):
+        if role.lower_multiplicity is not None and number < role.lower_multiplicity:
+            name = f"role {role.name} of {connection.definition}"
+            yield (
+                connection,
+                f"{number} ends of {connection.name} play {name}, which wants {role.lower_multiplicity}; add some",
+            )
 
 
 @rule("R-9.5.5.4-08", CompositeComponentImplementation, under="connected-types=check")
 def connected_ports_bind_alike(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """The same stands for an abstract type or an item at all ends."""
-    for connection in composite.connections:
+    for _, _, joined in _joints(composite, scope):
         seen: dict[int, Declared] = {}
-        for end, meaning in _joined(composite, connection, scope):
+        for end, meaning in joined:
             for identity, actual in meaning.bound.items():
                 if seen.setdefault(identity, actual).element is not actual.element:
                     other = seen[identity].path
@@ -153,26 +186,12 @@ def connected_ports_bind_alike(composite: Composite, scope: Scope) -> Iterator[C
                     )
 
 
-def _pattern(connection: Connection, scope: Scope) -> Declared | None:
-    """The pattern that a connection is an instance of, if it is not one of a connector."""
-    if scope.find(connection.definition, ConnectorDefinition) is not None:
-        return None
-    return scope.find(connection.definition, InteractionPattern)
-
-
 def _roles(pattern: Declared) -> list[InteractionRole]:
-    return pattern.scope.remembered(
-        ("roles", id(pattern.element)),
-        lambda: [role for ancestor in lineage(pattern) for role in getattr(ancestor.element, "roles", ())],
-    )
+    return [role for ancestor in lineage(pattern) for role in getattr(ancestor.element, "roles", ())]
 
 
 def _apis(connector: Declared) -> dict[int, list[InteractionRole]]:
     """The roles that each port type of a connector plays, by the identity of the port type."""
-    return connector.scope.remembered(("apis", id(connector.element)), functools.partial(_find_apis, connector))
-
-
-def _find_apis(connector: Declared) -> dict[int, list[InteractionRole]]:
     assert isinstance(connector.element, ConnectorDefinition)
     found: dict[int, list[InteractionRole]] = {}
     for port in connector.element.ports:
@@ -185,32 +204,28 @@ def _find_apis(connector: Declared) -> dict[int, list[InteractionRole]]:
     return found
 
 
-def _played(composite: Composite, connection: Connection, scope: Scope) -> list[tuple[InteractionRole, int]]:
-    """Each role of a connection and how many ends play it; nothing if an end may play several roles or none."""
-    count = functools.partial(_count_played, composite, connection, scope)
-    return scope.remembered(("played", id(connection)), lambda: list(count()))
+Playing = tuple[Connection, InteractionRole, int]
 
 
-def _count_played(composite: Composite, connection: Connection, scope: Scope) -> Iterator[tuple[InteractionRole, int]]:
-    connector, pattern = scope.find(connection.definition, ConnectorDefinition), _pattern(connection, scope)
-    joined = _joined(composite, connection, scope)
+def _played(composite: Composite, scope: Scope) -> list[Playing]:
+    """Each role of each connection and how many ends play it; nothing of one whose ends may play several roles or none."""
+    return scope.remembered(
+        ("played", id(composite)), lambda: [one for joint in _joints(composite, scope) for one in _count(joint)]
+    )
+
+
+def _count(joint: Joint) -> Iterator[Playing]:
+    connection, definition, joined = joint
     if len(joined) < len(connection.ends):
         return
-    if connector is not None:
-        apis = _apis(connector)
-        wanted = getattr(connector.element, "pattern", "")
-        pattern = connector.scope.find(wanted, InteractionPattern)
-        if any(meaning.kind is PortTypeSpec and len(apis.get(id(meaning.target), ())) != 1 for _, meaning in joined):
-            return
-        players = [
-            apis[id(meaning.target)][0] if meaning.kind is PortTypeSpec else meaning.target for _, meaning in joined
-        ]
-    elif any(meaning.kind is PortTypeSpec for _, meaning in joined):
-        return
-    else:
-        players = [meaning.target for _, meaning in joined]
     numbers: dict[int, int] = {}
-    for player in players:
+    for _, meaning in joined:
+        player = meaning.target
+        if meaning.kind is PortTypeSpec:
+            candidates = definition.apis.get(id(meaning.target), ())
+            if len(candidates) != 1:
+                return
+            player = candidates[0]
         numbers[id(player)] = numbers.get(id(player), 0) + 1
-    for role in _roles(pattern) if pattern is not None else ():
-        yield role, numbers.get(id(role), 0)
+    for role in definition.roles:
+        yield connection, role, numbers.get(id(role), 0)
