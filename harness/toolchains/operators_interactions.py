@@ -13,9 +13,10 @@ from ucm_cts.harness.toolchains.operators_interfaces import NOWHERE, beside, nam
 @keeps("R-9.3.2.1-01", at="InteractionModule")
 def first_declaration_last(module: etree._Element) -> bool:
     """What is used may be declared after it."""
-    if len(module) < 2:
+    declarations = list(module.iterchildren(etree.Element))
+    if len(declarations) < 2:
         return False
-    module.append(module[0])
+    module.append(declarations[0])
     return True
 
 
