@@ -21,6 +21,7 @@ REPLACED: dict[str, tuple[str, str, str]] = {
     "unsigned_short_is_short": ("R-12.3.1-06", r"typedef unsigned short ", "typedef short "),
     "unsigned_long_is_long": ("R-12.3.1-07", r"typedef unsigned long (\w+);", r"typedef long \1;"),
     "unsigned_long_long_is_unsigned_long": ("R-12.3.1-08", r"typedef unsigned long long ", "typedef unsigned long "),
+    "unsigned_long_long_is_signed": ("R-12.3.1-08", r"typedef unsigned long long ", "typedef long long "),
     "float_is_double": ("R-12.3.1-09", r"typedef float ", "typedef double "),
     "double_is_float": ("R-12.3.1-10", r"typedef double ", "typedef float "),
     "char_is_wchar": ("R-12.3.1-11", r"typedef char ", "typedef wchar "),
@@ -56,6 +57,7 @@ REPLACED: dict[str, tuple[str, str, str]] = {
     "array_with_another_index": ("R-12.4.1.2-05", ARRAY_INDEX, '@IndexType(typeid="long long")\n'),
     "enumeration_without_index": ("R-12.4.1.2-06", ENUM_INDEX, "\n"),
     "enumeration_with_another_index": ("R-12.4.1.2-06", ENUM_INDEX, '@IndexType(typeid="long long")\n'),
+    "default_index_not_told": ("R-12.4.1.2-04", r'@IndexType\(typeid="unsigned long"\)\n(?= *typedef seq)', "\n"),
     "values_forgotten": ("R-12.4.1.3-02", r"@DefaultValue\(.*\)\n", "\n"),
     "values_counted_from_one": ("R-12.4.1.3-02", r'@DefaultValue\(val="0"\)', '@DefaultValue(val="1")'),
     "another_default": (
@@ -75,6 +77,7 @@ REPLACED: dict[str, tuple[str, str, str]] = {
     "constant_without_sign": ("R-12.5-03", r"-273", "273"),
     "constant_read_as_decimal": ("R-12.5-03", r"0xFF00", "65000"),
     "constant_with_another_enumerator": ("R-12.5-03", r"::constants::high;", "::constants::low;"),
+    "hyphen_left_out": ("R-12.2-03", r"\btwo_values\b", "twovalues"),
     # interfaces and exceptions (12.6)
     "exception_is_a_structure": ("R-12.6-01", r"exception closed", "struct closed"),
     "exception_field_renamed": ("R-12.6-02", r"rank_t limit;", "rank_t bound;"),
@@ -113,6 +116,8 @@ REPLACED: dict[str, tuple[str, str, str]] = {
         "module services",
     ),
     "needless_parameter": ("R-12.7-12", r"module data_types", "module data_types<typename T>"),
+    "parameter_with_one_capital": ("R-12.7-09", r"MESSAGE_TYPE_T", "Message_type_t"),
+    "inner_parameter_not_handed_out": ("R-12.7-12", r"\n#endif", "\n\n#endif"),
     # components (12.8)
     "component_renamed": ("R-12.8.1-01", r"\bhermit\b", "HermitComponent"),
     "component_attribute_forgotten": ("R-12.8.1-02", r" *attribute \S+ rate;\n", ""),
@@ -146,6 +151,7 @@ REPLACED: dict[str, tuple[str, str, str]] = {
     ),
     "policy_getter_called_like_that_of_a_port": ("R-12.8.5-02", r"get_tp_", "get_"),
     "policy_getter_without_its_element": ("R-12.8.5-02", r"(get_tp_[A-Za-z]+)_\w+", r"\1"),
+    "policy_getter_called_after_its_definition": ("R-12.8.5-02", r"get_tp_Drive", "get_tp_self_executing"),
     "inherited_policy_element_forgotten": ("R-12.8.5-02", r" *\S+ get_tp_Night_run_api\(\);\n", ""),
     "required_policy_element_with_a_getter": (
         "R-12.8.5-03",
@@ -247,8 +253,22 @@ ALSO: dict[str, tuple[str, ...]] = {
 }
 """What the same defect breaks besides."""
 
+DECLARES: dict[str, tuple[str, ...]] = {
+    "unsigned_long_long_is_unsigned_long": ("idl-ulonglong=unsigned-long-long",),
+    "boolean_as_the_table_prints_it": ("idl-boolean=boolean",),
+    "default_index_not_told": ("index-annotations=always",),
+    "policy_getter_called_after_its_definition": ("idl-policy-getters=instance",),
+    "parameter_with_one_capital": ("idl-template-names=upper",),
+    "hyphen_left_out": ("idl-hyphens=underscore",),
+    "inner_parameter_not_handed_out": ("idl-template-propagation=containment",),
+}
+"""What such a tool chain claims, so that what it does is wrong."""
+
 for _name, (_requirement, _pattern, _replacement) in REPLACED.items():
-    breaks(_requirement, task="idl", also=ALSO.get(_name, ()))(replaced(_name, _pattern, _replacement))
+    _declares = DECLARES.get(_name, ())
+    breaks(_requirement, task="idl", also=ALSO.get(_name, ()), declares=_declares)(
+        replaced(_name, _pattern, _replacement)
+    )
 for _name, (_requirement, _pattern, _replacement) in PRINTED.items():
     breaks(_requirement, task="idl")(replaced(_name, _pattern, _replacement, STANDARD))
 for _name, (_requirement, _text) in APPENDED.items():

@@ -17,17 +17,21 @@ from ucm_cts.harness.toolchains.cpp.probes import CHECKS
 from ucm_cts.harness.toolchains.description import Task
 from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.generation import Comparison, Generation
+from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS
 from ucm_cts.harness.toolchains.idl.comparing import compare
+from ucm_cts.harness.toolchains.idl.omniidl import opinion
+from ucm_cts.reference_models.idl.expectations import STANDS_FOR
 from ucm_cts.reference_models.idl.mapping import expected_idl
 
-TOOLCHAIN_CHECKS = {**RULES, **CHECKS}
+TOOLCHAIN_CHECKS = {**RULES, **IDL_CHECKS, **CHECKS}
 """The rules that the catalogue names for tool chains, and what each says."""
 
 
 def stand_for() -> Mapping[str, frozenset[str]]:
     """The requirements that each of them stands for."""
     of_models = {rule: frozenset(q.requirement for q in questions() if RULE_FOR[q.due] == rule) for rule in RULES}
-    return {**of_models, **standing.stand_for()}
+    of_idl = {rule: frozenset(requirements) for rule, requirements in STANDS_FOR.items()}
+    return {**of_models, **of_idl, **standing.stand_for()}
 
 
 def examination_for(profile: str, statement: Statement, dress: Dress, expression: str = "") -> Examination:
@@ -49,4 +53,4 @@ GENERATES: Mapping[Task, tuple[str, str]] = {"idl": ("R-12-01", "idl_generated")
 
 
 def _compare_idl(statement: Statement, model: Model, files: Mapping[str, str]) -> Comparison:
-    return compare(expected_idl(model), files, statement.readings)
+    return compare(expected_idl(model), files, statement.readings, opinion)

@@ -13,6 +13,7 @@ from ucm_cts.reference_models.idl.declarations import Type
 Path = tuple[str, ...]
 
 STANDS_FOR: dict[str, tuple[str, ...]] = {
+    "idl_generated": ("R-12-01",),
     "idl_syntax": ("R-12.1-03",),
     "idl_building_blocks": ("R-12.1-02",),
     "idl_types": (

@@ -185,7 +185,7 @@ def _kinds(vendor: Vendor, annotation: Annotation, scope: Scope) -> set[str] | N
         if not kind:
             return set()
         kinds |= kind
-    if "ULONG" in kinds and vendor.reading("idl-ulonglong") == "unsigned-long":
+    if "ULONG" in kinds and vendor.reading("idl-ulonglong") != "unsigned-long-long":
         kinds.add("ULONGLONG")
     return kinds
 
@@ -201,7 +201,6 @@ def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
         one.name.lower(): before for before, one in zip((None, *enum.enumerators), enum.enumerators, strict=False)
     }
     annotated = any(number is not None for number, _ in shown.values())
-    vendor.met.setdefault("enumerator-values", set()).add("annotated" if annotated else "position")
     wanted = dict(fact.values)
     wrong = []
     for name, value in wanted.items():

@@ -20,6 +20,7 @@ from ucm_cts.reference_models.idl.declarations import Place
 from ucm_cts.reference_models.idl.expectations import RULE_OF, Expected, ExpectedIdl
 
 CHECKS = {
+    "idl_generated": "Files of IDL are generated for each legal model.",
     "idl_syntax": "The generated files are IDL: they can be parsed, nothing is declared twice, and every name means something.",
     "idl_building_blocks": "They use core data types, annotations, basic interfaces and template modules, nothing else of IDL.",
     "idl_types": "Each data type is declared under its name, as the table and the examples of clause 12 have it.",

@@ -9,7 +9,7 @@ from typing import Any
 from ucm_cts.harness.toolchains.idl.annotations import defaulted, indexed, numbered, tagged
 from ucm_cts.harness.toolchains.idl.facts_of_interfaces import access, getter, inherits, no_getter, only, raises, takes
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
-from ucm_cts.harness.toolchains.idl.scopes import Entry, Hit, every, resolve
+from ucm_cts.harness.toolchains.idl.scopes import Entry, Hit, Scope, every, resolve
 from ucm_cts.harness.toolchains.idl.showing import show, show_kind, show_worth, type_of
 from ucm_cts.harness.toolchains.idl.subject import here, nearest
 from ucm_cts.harness.toolchains.idl.values import Chosen, equal, model_worth, worth
@@ -24,6 +24,7 @@ from ucm_cts.reference_models.idl.declarations import (
     Module,
     Native,
     Struct,
+    Type,
     Typedef,
     Union,
     kind_of,
@@ -104,18 +105,25 @@ def means(vendor: Vendor, fact: Means) -> list[Wrong]:
                 declaration.place,
             )
         ]
-    if not vendor.known(found, hit.entry.scope) or vendor.same(found, hit.entry.scope, fact.type):
+    if not vendor.known(found, hit.entry.scope):
         return []
-    if _printed_long(vendor, found, hit, fact):
-        return []
-    return [Wrong(f"{show(fact.type)} {fact.path[-1]}", show(found), declaration.place)]
+    right = vendor.same(found, hit.entry.scope, fact.type)
+    if fact.requirement == ULONGLONG:
+        right = _unsigned_long_long(vendor, found, hit.entry.scope)
+    return [] if right else [Wrong(f"{show(fact.type)} {fact.path[-1]}", show(found), declaration.place)]
 
 
-def _printed_long(vendor: Vendor, found: Any, hit: Hit, fact: Means) -> bool:
-    """The table prints unsigned long for ULONGLONG, too (interpretation idl-ulonglong)."""
-    if fact.requirement != "R-12.3.1-08" or vendor.meaning(found, hit.entry.scope)[:2] != ("basic", "unsigned long"):
-        return False
-    return vendor.reading("idl-ulonglong") == "unsigned-long"
+ULONGLONG = "R-12.3.1-08"
+
+
+def _unsigned_long_long(vendor: Vendor, found: Type, scope: Scope) -> bool:
+    """The table prints unsigned long, which is too small (interpretation idl-ulonglong)."""
+    name = str(vendor.meaning(found, scope)[1]).replace(" ", "-")
+    readings = ("unsigned-long-long", "unsigned-long")
+    if name in readings:
+        vendor.met.setdefault("idl-ulonglong", set()).add(name)
+    declared = vendor.reading("idl-ulonglong")
+    return name == declared if declared in readings else name in readings
 
 
 def selects(vendor: Vendor, fact: Selects) -> list[Wrong]:

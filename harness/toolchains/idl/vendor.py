@@ -97,10 +97,10 @@ class Vendor:
                 found = member(hit, candidate) or _enumerator(hit, candidate)
             if found is not None and found.entry.declaration.name == candidate:
                 return found
-        return self._renamed(hit, name) if "-" in name and self.reading("hyphens") != "underscore" else None
+        return self._renamed(hit, name) if "-" in name and self.reading("idl-hyphens") != "underscore" else None
 
     def _renamed(self, hit: Hit | None, name: str) -> Hit | None:
-        """What has the name but for its hyphens (interpretation hyphens), if just one thing has."""
+        """What has the name but for its hyphens (interpretation idl-names), if just one thing has."""
         scope = self.root if hit is None else hit.entry.inner
         pattern = re.compile(r"\w*".join(map(re.escape, name.split("-"))), re.IGNORECASE)
         like = [key for key in (scope.members if scope is not None else ()) if pattern.fullmatch(key)]
@@ -127,7 +127,8 @@ class Vendor:
         return True
 
     def _printed_boolean(self, name: str) -> bool:
-        return name == "bool" and self.reading("idl-boolean") == "bool"
+        """The table prints bool, which is no type of IDL (interpretation idl-boolean)."""
+        return name == "bool" and self.reading("idl-boolean") != "boolean"
 
     def same(self, found: Type, scope: Scope, expected: Type, bound: Bound = NOTHING) -> bool:
         """Whether a vendor's type means the expected one. Nobody is held to what the model leaves open."""
@@ -180,6 +181,8 @@ class Vendor:
         """What a vendor's type means."""
         match type_:
             case Basic():
+                if type_.name == "boolean" and self.reading("idl-boolean") == "bool":
+                    return ("unknown", "boolean")
                 name = {"int16": "short", "int32": "long", "int64": "long long"}.get(type_.name, type_.name)
                 name = {"uint16": "unsigned short", "uint32": "unsigned long", "uint64": "unsigned long long"}.get(
                     name, name
