@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import msgspec
 
+from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.derived_toolchain.registry import Mutant, Variant, mutants, variants
 from ucm_cts.adapters.toolchain.program import reference
 from ucm_cts.harness.catalogue import load_requirements
@@ -19,6 +21,9 @@ from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
 from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.processing import InProcess
+
+_REFERENCE = replace(reference(), read=functools.lru_cache(8192)(read_model))
+"""Mutants differ in what they make of models, seldom in how they read them."""
 
 _PROFILES: dict[str, str] = {task: profile for profile, task in TASKS.items()}
 
@@ -53,7 +58,7 @@ def examine_toolchain(subject: ToolChainSubject) -> MutantResult | VariantResult
     profile = _PROFILES[derived.task]
     statement = declaring(derived.declares)
     examination = examination_for(profile, statement, Dress())
-    program = derived.derive(reference())
+    program = derived.derive(_REFERENCE)
     campaign = ToolChainCampaign(InProcess(program), examination, (subject.name, ""), profile, statement, jobs=1)
     for _ in campaign.ask():
         pass

@@ -1,0 +1,66 @@
+"""Which of the legal models that a tool chain refuses stand for a defect of their own?
+
+One defect makes a tool refuse every model that has a certain construct in it. The simplest of them is to blame; the others have
+the same odd construct, which no accepted model has.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+from collections.abc import Collection, Iterator, Mapping
+
+from lxml import etree
+
+_LITERALS = frozenset(
+    ("kind", "direction", "mode", "nature", "multiplicity", "applicability", "charBase", "indexType", "defaultCase")
+)
+
+
+class Blame:
+    """Of the legal models ``texts``, by name, those in ``refused`` were refused."""
+
+    def __init__(self, texts: Mapping[str, str], refused: Collection[str]) -> None:
+        used = {name: constructs(text) for name, text in texts.items()}
+        usual = frozenset().union(*(used[name] for name in texts if name not in refused))
+        self._used = {name: used[name] for name in texts if name in refused}
+        self._odd = {name: found - usual for name, found in self._used.items()}
+        self._simplest_first = sorted(self._used, key=lambda name: len(self._used[name]))
+
+    def instead_of(self, name: str) -> str:
+        """A simpler refused model that shares what is odd about ``name``, or is part of it; nothing if it is to blame itself."""
+        for other in itertools.takewhile(lambda other: other != name, self._simplest_first):
+            if self._odd[other] & self._odd[name] or self._used[other] < self._used[name]:
+                return other
+        return ""
+
+
+@functools.lru_cache(8192)
+def constructs(text: str) -> frozenset[str]:
+    """What a model uses: elements inside others, several of a kind, neighbours, attributes together and how they are written."""
+    return frozenset(_found(etree.fromstring(text.encode())))
+
+
+def _found(root: etree._Element) -> Iterator[str]:
+    yield f"/{root.tag!s}"
+    for element in root.iter(etree.Element):
+        tag = str(element.tag)
+        inside = [str(child.tag) for child in element if isinstance(child.tag, str)]
+        yield from (f"{tag}/{child}" for child in inside)
+        yield from (f"{tag}/{child} several" for child in set(inside) if inside.count(child) > 1)
+        yield from (f"{before}, {after}" for before, after in itertools.pairwise(inside) if before != after)
+        if not inside:
+            yield f"{tag} empty"
+        attributes = {str(a): str(v) for a, v in element.attrib.items()}
+        yield f"{tag}({', '.join(sorted(attributes))})"
+        yield from (f"{tag}@{attribute} {_shape(attribute, value)}" for attribute, value in attributes.items())
+
+
+def _shape(attribute: str, value: str) -> str:
+    """How the value is written, as far as it may matter."""
+    if attribute in _LITERALS and not (":" in value or "." in value):
+        return value
+    if value.lstrip("+-").isdecimal():
+        return "negative" if value.startswith("-") else "0" if int(value) == 0 else "number"
+    signs = "".join(sign for sign in ("::", ".", "-", '"', "'", " ") if sign in value)
+    return ("root " if value.startswith("::") else "") + (signs or ("name" if value else "nothing"))
