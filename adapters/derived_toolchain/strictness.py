@@ -11,7 +11,7 @@ import msgspec
 
 from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.contract.metamodel.reading import Reading
+from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading
 from ucm_cts.adapters.toolchain.checking import Complaint, Rule
 from ucm_cts.adapters.toolchain.program import Program
 
@@ -24,6 +24,17 @@ def refusing(program: Program, kind: type[Element], when: Callable[[Any, Scope],
             yield element, "this is not how it is done"
 
     return replace(program, rules={**program.rules, "overzealous": Rule("overzealous", "", (kind,), look)})
+
+
+def refusing_text(program: Program, pattern: bytes) -> Program:
+    """``program``, but models in whose text the regular expression ``pattern`` is found are wrong to it."""
+
+    def read(text: bytes, file: str) -> Reading:
+        reading = program.read(text, file)
+        problem = Problem(kind="text", line=1, element="", message="is not written like that")
+        return msgspec.structs.replace(reading, problems=(problem,)) if re.search(pattern, text) else reading
+
+    return replace(program, read=read)
 
 
 def overhearing(program: Program, kind: str, tag: str, attribute: str) -> Program:

@@ -1,15 +1,19 @@
-"""What mutants are made of: not hearing what the reader says, and doing without several rules."""
+"""What mutants are made of: not hearing what the reader or a rule says, and doing without several rules."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import msgspec
 
+from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading
 from ucm_cts.adapters.derived_toolchain.registry import replacing_rule
+from ucm_cts.adapters.toolchain.checking import Complaint
 from ucm_cts.adapters.toolchain.program import Program
 
 
@@ -29,6 +33,16 @@ def without(program: Program, *rules: str) -> Program:
     for name in rules:
         program = replacing_rule(program, name, None)
     return program
+
+
+def forgiving(program: Program, name: str, when: Callable[[Any], object]) -> Program:
+    """``program``, but what the rule ``name`` says of elements for which ``when`` holds does not count."""
+    known = program.rules[name].look
+
+    def look(element: Element, scope: Scope) -> Iterator[Complaint]:
+        return (complaint for complaint in known(element, scope) if not when(complaint[0]))
+
+    return replacing_rule(program, name, look)
 
 
 def lacks(problem: Problem, attribute: str, *tags: str) -> bool:

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
-from dataclasses import replace
-
-import msgspec
 
 from ucm_cts.adapters.contract.metamodel.components import Connection
 from ucm_cts.adapters.contract.metamodel.contracts import AbstractDataType
@@ -19,9 +15,8 @@ from ucm_cts.adapters.contract.metamodel.interactions import (
     PortType,
 )
 from ucm_cts.adapters.contract.metamodel.modules import Model, PlatformModule
-from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading
 from ucm_cts.adapters.derived_toolchain.registry import breaks
-from ucm_cts.adapters.derived_toolchain.strictness import overhearing, refusing
+from ucm_cts.adapters.derived_toolchain.strictness import overhearing, refusing, refusing_text
 from ucm_cts.adapters.toolchain.program import Program
 
 
@@ -113,16 +108,7 @@ def modules_are_not_empty(program: Program) -> Program:
 @breaks("R-9.3.2.2-02", task="check")
 def names_of_bound_items_come_first(program: Program) -> Program:
     """Takes an item binding that begins with its connector item for an error."""
-    return _refusing_text(program, rb"<ItemBinding\s+connectorItem")
-
-
-def _refusing_text(program: Program, pattern: bytes) -> Program:
-    def read(text: bytes, file: str) -> Reading:
-        reading = program.read(text, file)
-        problem = Problem(kind="text", line=1, element="", message="is not written like that")
-        return msgspec.structs.replace(reading, problems=(problem,)) if re.search(pattern, text) else reading
-
-    return replace(program, read=read)
+    return refusing_text(program, rb"<ItemBinding\s+connectorItem")
 
 
 @breaks("R-9.3.2.2-03", task="check", declares=("module-extension=refused",))
@@ -266,4 +252,4 @@ def any_kind(program: Program) -> Program:
 @breaks("R-9.3.5.4-01", task="check")
 def names_of_port_elements_come_first(program: Program) -> Program:
     """Takes a port element whose first attribute is not its name for an error."""
-    return _refusing_text(program, rb"<PortElement\s+(?!name)")
+    return refusing_text(program, rb"<PortElement\s+(?!name)")
