@@ -14,6 +14,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import click
 from lxml import etree
@@ -69,8 +70,7 @@ def costs(path: Path) -> dict[str, tuple[float, float]]:
     taken: dict[str, list[tuple[float, float]]] = {way: [] for way in WAYS}
     for _ in range(_ROUNDS):
         for way in WAYS:
-            command = [sys.executable, "-m", __spec__.name, "--way", way, str(path)]
-            seconds, megabytes = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+            seconds, megabytes = _alone("--way", way, str(path))
             taken[way].append((seconds, megabytes))
     return {
         way: (statistics.median(s for s, _ in measured), max(m for _, m in measured)) for way, measured in taken.items()
@@ -91,21 +91,29 @@ def table(elements: int, size: int, measured: dict[str, tuple[float, float]]) ->
 
 
 @click.command()
-@click.option("--way", type=click.Choice(list(WAYS)), help="Measure this alone, with the model at PATH.")
+@click.option("--make", is_flag=True, help="Only write the model to PATH.")
+@click.option("--way", type=click.Choice(list(WAYS)), help="Only measure this, with the model at PATH.")
 @click.option("--elements", default=ELEMENTS, show_default=True)
 @click.argument("path", type=click.Path(path_type=Path), required=False)
-def main(way: str | None, elements: int, path: Path | None) -> None:
-    """Make a large model and print what each way costs."""
-    if way is not None and path is not None:
-        click.echo(json.dumps(_measured(WAYS[way], path)))
-        return
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "large.xml"
+def main(make: bool, way: str | None, elements: int, path: Path | None) -> None:
+    """Make a large model and print what each way costs. This process stays small: others begin with its memory."""
+    if path is None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "large.xml"
+            count = _alone("--make", "--elements", str(elements), str(path))
+            Console(width=100).print(table(count, path.stat().st_size, costs(path)))
+    elif make:
         made = large_model(elements)
-        count = sum(1 for _ in walk(made)) - 1
         path.write_bytes(write_model(made))
-        del made
-        Console(width=100).print(table(count, path.stat().st_size, costs(path)))
+        click.echo(json.dumps(sum(1 for _ in walk(made)) - 1))
+    elif way is not None:
+        click.echo(json.dumps(_measured(WAYS[way], path)))
+
+
+def _alone(*arguments: str) -> Any:
+    """What this module answers in a process of its own."""
+    command = [sys.executable, "-m", __spec__.name, *arguments]
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
 
 
 def _measured(way: Callable[[Path], None], path: Path) -> tuple[float, float]:
