@@ -55,11 +55,14 @@ def rule(
     return register
 
 
-def check(model: Model, file: str, rules: Mapping[str, Rule]) -> list[Diagnostic]:
-    """What ``rules`` have against ``model``, in the order of its lines."""
+Plans = dict[type[Element], "_Plan"]
+"""What is done with each kind of element, found out once for one set of rules."""
+
+
+def check(model: Model, file: str, rules: Mapping[str, Rule], plans: Plans) -> list[Diagnostic]:
+    """What ``rules`` have against ``model``, in the order of its lines. ``plans`` are those of the same rules, empty at first."""
     names = Names(model)
     found = [d for r in rules.values() if Model in r.kinds for d in _told(r, model, names.root, file)]
-    plans: dict[type[Element], _Plan] = {}
 
     def visit(elements: Iterable[Element], scope: Scope) -> None:
         for element in elements:

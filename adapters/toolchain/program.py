@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import Reading, read_model
-from ucm_cts.adapters.toolchain.checking import RULES, Rule, check
+from ucm_cts.adapters.toolchain.checking import RULES, Plans, Rule, check
 from ucm_cts.adapters.toolchain.diagnostics import Diagnostic
 
 Generator = Callable[[Model], Mapping[str, str]]
@@ -23,6 +23,7 @@ class Program:
     read: Callable[[bytes, str], Reading]
     rules: Mapping[str, Rule]
     generators: Mapping[str, Generator] = field(default_factory=dict)
+    _plans: Plans = field(init=False, repr=False, compare=False, default_factory=dict)
 
     def check(self, text: bytes, file: str) -> tuple[Model | None, list[Diagnostic]]:
         """The model in ``text``, and what is wrong with it; ``file`` is what diagnostics call it."""
@@ -30,7 +31,7 @@ class Program:
         told = [Diagnostic(file, p.line, p.message, clause=p.clause) for p in reading.problems]
         if reading.model is None or told:
             return None, told
-        told = check(reading.model, file, self.rules)
+        told = check(reading.model, file, self.rules, self._plans)
         return (None if told else reading.model), told
 
     def generate(self, task: str, text: bytes, file: str) -> tuple[Mapping[str, str], list[Diagnostic]]:
