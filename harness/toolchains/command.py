@@ -33,13 +33,14 @@ def certify_toolchain(
     if profile not in TOOLCHAIN_PROFILES:
         raise WrongUse(f"profile '{profile}' is of frameworks; a tool chain has {', '.join(TOOLCHAIN_PROFILES)}")
     toolchain = read_toolchain(path)
-    if toolchain.command_for(TASKS[profile]) is None:
+    command = toolchain.command_for(TASKS[profile])
+    if command is None:
         raise WrongUse(f"{path} does not say how '{TASKS[profile]}' is done, which profile '{profile}' needs")
     known = known_today(known_failures)
     statement = read_statement(ics) if ics is not None else default_statement()
     check_subject(statement, toolchain, profile)
     processor = CommandLine(toolchain)
-    examination = examination_for(profile, statement, Dress(seed, toolchain.dialect), expression)
+    examination = examination_for(profile, statement, Dress(seed, toolchain.dialect), expression, command)
     if not examination.models:
         raise WrongUse(f"no model matches -k '{expression}'; try a requirement or a part of its id")
     console = Output()

@@ -13,13 +13,16 @@ from ucm_cts.harness.toolchains.acceptance import RULE_FOR, RULES, Acceptance
 from ucm_cts.harness.toolchains.campaign import TASKS, Examination
 from ucm_cts.harness.toolchains.corpus import questions
 from ucm_cts.harness.toolchains.cpp import standing
-from ucm_cts.harness.toolchains.cpp.probes import CHECKS
-from ucm_cts.harness.toolchains.description import Task
+from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
+from ucm_cts.harness.toolchains.cpp.compiling import Compiler
+from ucm_cts.harness.toolchains.cpp.probes import CHECKS, GENERATED
+from ucm_cts.harness.toolchains.description import Command
+from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.harness.toolchains.dressing import Dress
-from ucm_cts.harness.toolchains.generation import Comparison, Generation
+from ucm_cts.harness.toolchains.generation import Generation
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS
-from ucm_cts.harness.toolchains.idl.comparing import compare
-from ucm_cts.harness.toolchains.idl.omniidl import opinion
+from ucm_cts.harness.toolchains.idl.comparing import compare as compare_idl
+from ucm_cts.reference_models.cpp.expected import Standard
 from ucm_cts.reference_models.idl.expectations import STANDS_FOR
 from ucm_cts.reference_models.idl.mapping import expected_idl
 
@@ -34,23 +37,34 @@ def stand_for() -> Mapping[str, frozenset[str]]:
     return {**of_models, **of_idl, **standing.stand_for()}
 
 
-def examination_for(profile: str, statement: Statement, dress: Dress, expression: str = "") -> Examination:
-    """What ``profile`` asks, with models in ``dress``, as far as it concerns ``expression`` and what the vendor states. Raises ``WrongUse``."""
+def examination_for(
+    profile: str, statement: Statement, dress: Dress, expression: str = "", command: Command | None = None
+) -> Examination:
+    """What ``profile`` asks, with models in ``dress``, as far as it concerns ``expression`` and what the vendor states.
+
+    ``command`` says of generated C++ which compiler takes it, and where its headers are. Raises ``WrongUse``.
+    """
     unfinished = in_the_making(profile)
     if unfinished:
         raise WrongUse(unfinished)
-    match TASKS[profile]:
-        case "check":
-            return Acceptance(statement, dress, expression)
-        case "idl":
-            return Generation(functools.partial(_compare_idl, statement), GENERATES["idl"], dress, expression)
-        case _:
-            raise WrongUse(f"profile '{profile}' is in the making")
+    task = TASKS[profile]
+    if task == "check":
+        return Acceptance(statement, dress, expression)
+    if task == "idl":
+        return Generation(
+            functools.partial(_compare_idl, statement.readings), ("R-12-01", "idl_generated"), dress, expression
+        )
+    standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
+    how = command or Command(command=())
+    return Generation(functools.partial(_compare_cpp, standard, statement.readings, how), GENERATED, dress, expression)
 
 
-GENERATES: Mapping[Task, tuple[str, str]] = {"idl": ("R-12-01", "idl_generated")}
-"""The requirement, and its rule, that a tool chain makes files of legal models at all."""
+def _compare_idl(readings: Mapping[str, str], model: Model, files: Mapping[str, str]) -> Comparison:
+    return compare_idl(expected_idl(model), files, readings)
 
 
-def _compare_idl(statement: Statement, model: Model, files: Mapping[str, str]) -> Comparison:
-    return compare(expected_idl(model), files, statement.readings, opinion)
+def _compare_cpp(
+    standard: Standard, readings: Mapping[str, str], how: Command, model: Model, files: Mapping[str, str]
+) -> Comparison:
+    compiler = Compiler(how.compiler) if how.compiler else Compiler()
+    return compare_cpp(model, files, standard, readings, compiler, how.include, how.headers)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Protocol
 
 import msgspec
 from lxml import etree
@@ -14,6 +13,7 @@ from ucm_cts.harness.catalogue import SUITE
 from ucm_cts.harness.documents import read_text
 from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Processed
 from ucm_cts.harness.toolchains.campaign import Fact
+from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.processing import Made
 from ucm_cts.reference_models.findings import Finding
@@ -22,44 +22,6 @@ FOLDERS = (SUITE / "models" / "mapping", SUITE / "models" / "legal")
 
 AROUND = 3
 """Lines of a generated file shown before and after the one that is wrong."""
-
-
-class Difference(Protocol):
-    """Something that is missing, wrong or unexpected in a generated file."""
-
-    @property
-    def requirement(self) -> str: ...
-
-    @property
-    def rule(self) -> str: ...
-
-    @property
-    def element(self) -> str: ...
-
-    @property
-    def line_in_model(self) -> int: ...
-
-    @property
-    def expected(self) -> str: ...
-
-    @property
-    def observed(self) -> str: ...
-
-    @property
-    def file(self) -> str: ...
-
-    @property
-    def line(self) -> int: ...
-
-
-class Comparison(Protocol):
-    """What generated files come to: how often each requirement was looked at, what broke one, which readings were met."""
-
-    @property
-    def exercised(self) -> Mapping[str, int]: ...
-
-    @property
-    def differences(self) -> Sequence[Difference]: ...
 
 
 Compare = Callable[[Model, Mapping[str, str]], Comparison]
@@ -123,6 +85,8 @@ class Generation:
         for requirement, times in comparison.exercised.items():
             for _ in range(times - len(broken.get(requirement, ()))):
                 yield Fact(requirement, (name,), measure="declarations as they should be")
+        for requirement, why in comparison.unjudged.items():
+            yield Fact(requirement, (name,), unclear=why)
         for requirement, differences in broken.items():
             for difference in differences:
                 yield Fact(requirement, (name,), self._finding(difference), processed=_evidence(made, difference))

@@ -14,7 +14,7 @@ from typing import Any
 
 from ucm_cts.harness.toolchains.cpp.checks import class_words
 from ucm_cts.harness.toolchains.cpp.compiling import STANDARDS, Compiler, Headers, run
-from ucm_cts.harness.toolchains.cpp.results import Difference
+from ucm_cts.harness.toolchains.differences import Difference
 from ucm_cts.reference_models.cpp import expected as claims
 from ucm_cts.reference_models.cpp.expected import Class, Connected, Expected, ExpectedCpp, Named, Returned
 

@@ -23,8 +23,9 @@ from ucm_cts.harness.toolchains.cpp.compiling import (
     run,
 )
 from ucm_cts.harness.toolchains.cpp.listing import LISTED, RULE, Listed, listed
+from ucm_cts.harness.toolchains.cpp.needs import lacks
 from ucm_cts.harness.toolchains.cpp.prelude import ARRAY, SAFE_ENUM, SHARED, prelude
-from ucm_cts.harness.toolchains.cpp.results import CppComparison, Difference
+from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.reference_models.cpp import expected as claims
 from ucm_cts.reference_models.cpp.expected import Expected, ExpectedCpp
 
@@ -89,7 +90,7 @@ def check(
     headers: tuple[str, ...],
     compiler: Compiler,
     include: tuple[str, ...] = (".",),
-) -> CppComparison:
+) -> Comparison:
     """What the headers, whose names are relative to ``folder``, come to. Raises ``NoCompiler``."""
     return _Comparing(expected, Headers(folder.resolve(), headers, include), compiler).compared()
 
@@ -100,7 +101,7 @@ def check_files(
     headers: tuple[str, ...],
     compiler: Compiler,
     include: tuple[str, ...] = (".",),
-) -> CppComparison:
+) -> Comparison:
     """As ``check`` for ``files``, texts by their names. Raises ``NoCompiler``."""
     with tempfile.TemporaryDirectory(prefix="ucm-cts-cpp-") as folder:
         for name, text in files.items():
@@ -119,7 +120,7 @@ class _Comparing:
         self._checks = list(self._rendered())
         self._seen = Seen()
 
-    def compared(self) -> CppComparison:
+    def compared(self) -> Comparison:
         with tempfile.TemporaryDirectory(prefix="ucm-cts-probes-") as folder, ThreadPoolExecutor(_THREADS) as threads:
             alone = [threads.submit(self._alone, name, Path(folder)) for name in self._headers.names]
             listing = threads.submit(listed, self._expected, self._headers, self._compiler)
@@ -174,7 +175,17 @@ class _Comparing:
                 return
 
     def _is_left(self, one: Check) -> bool:
-        return one.number not in self._seen.failed and one.text.key not in self._broken_keys()
+        broken = one.number in self._seen.failed or one.text.key in self._broken_keys()
+        return not broken and not self._pointless(one)
+
+    def _pointless(self, one: Check) -> str:
+        """What a check needs that another one has found missing; nothing if it says something of its own."""
+        for other in self._checks:
+            if other.number in self._seen.failed and other.number != one.number:
+                lacking = lacks(one.expected.claim, other.expected.claim)
+                if lacking:
+                    return lacking
+        return ""
 
     def _broken_keys(self) -> set[str]:
         """Implementations that do not compile, and those that return references to them."""
@@ -187,12 +198,13 @@ class _Comparing:
     def _sort(self, compiled: Compiled) -> bool:
         """Take note of errors; False if they leave nothing to try again."""
         before = len(self._seen.failed) + len(self._seen.bodies) + len(self._seen.support)
+        probes_alone = any(error.file.startswith("R-") for error in compiled.errors)
         self._seen.problem = compiled.problem
         for error in compiled.errors:
             kind, _, rest = error.file.partition("#")
             if not is_tag(error.file):
-                self._seen.loose.append(error)
-            elif kind == "body":
+                self._seen.loose.append(error)  # not of one probe
+            elif kind == "body" and not probes_alone:  # else it may follow from what the probe found
                 self._seen.bodies.setdefault(rest, error.message)
             elif kind == "support":
                 self._seen.support.setdefault(rest, error.message)
@@ -257,7 +269,7 @@ class _Comparing:
         every = {"shared_ptr": SHARED % "::ucm::shared_ptr", "array": ARRAY % "::ucm::array", "safe_enum": SAFE_ENUM}
         return {name: text for name, text in every.items() if name in needed}
 
-    def _told(self, of_headers: list[Difference], listing: Listed) -> CppComparison:
+    def _told(self, of_headers: list[Difference], listing: Listed) -> Comparison:
         differences = list(of_headers)
         exercised: Counter[str] = Counter()
         unjudged: dict[str, str] = {}
@@ -277,7 +289,7 @@ class _Comparing:
         found, counted, missing = listing
         exercised.update(counted)
         unjudged = {**missing, **unjudged}
-        return CppComparison(dict(exercised), (*differences, *found), unjudged)
+        return Comparison(dict(exercised), (*differences, *found), unjudged=unjudged)
 
     def _observed_of(self, one: Check) -> tuple[str, tuple[tuple[str, int], ...]] | None:
         if one.text.key in self._seen.bodies:
@@ -286,6 +298,9 @@ class _Comparing:
 
     def _not_judged(self, one: Check) -> str:
         """Why nothing can be said of a check; nothing if something can."""
+        lacking = self._pointless(one)
+        if lacking:
+            return lacking
         observed = self._observed_of(one)
         if observed is None and one.number not in self._seen.kept:
             return self._seen.problem or "what it needs does not compile"

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
+from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.idl.annotations import applied
 from ucm_cts.harness.toolchains.idl.facts import FACTS
 from ucm_cts.harness.toolchains.idl.omniidl import Opinion
 from ucm_cts.harness.toolchains.idl.reading import Files, read_files
-from ucm_cts.harness.toolchains.idl.results import Difference, IdlComparison, NotExercised, Wrong
+from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
 from ucm_cts.harness.toolchains.idl.scopes import build
 from ucm_cts.harness.toolchains.idl.standard import standard_differences
 from ucm_cts.harness.toolchains.idl.validity import building_blocks, invalid
@@ -40,7 +41,7 @@ def compare(
     files: Mapping[str, str],
     readings: Mapping[str, str] = {},
     second_opinion: Callable[[Mapping[str, str]], Opinion] | None = None,
-) -> IdlComparison:
+) -> Comparison:
     """Compare the vendor's ``files`` (name to text) with what is ``expected`` of them under the ``readings`` declared.
 
     ``readings`` maps options of ``interpretations_12.yaml`` to values; what is not named counts as its first value.
@@ -67,7 +68,7 @@ def compare(
             for one in second_opinion(files).problems
         ]
     seen = {option: frozenset(values) for option, values in vendor.met.items()}
-    return IdlComparison(exercised, tuple(dict.fromkeys(differences)), seen)
+    return Comparison(exercised, tuple(dict.fromkeys(differences)), seen)
 
 
 def _difference(fact: Expected, wrong: Wrong) -> Difference:

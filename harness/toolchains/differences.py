@@ -1,4 +1,4 @@
-"""What comparing C++ came to."""
+"""What comparing generated files with a mapping comes to."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 @dataclass(frozen=True)
 class Difference:
     """Something that is missing, wrong or unexpected: ``element`` is the model's, by its qualified name, and ``line_in_model``
-    where it stands; ``file`` and ``line`` are the place in the vendor's headers. Lines are 0 and names empty where there are none.
+    where it stands; ``file`` and ``line`` are the place in the vendor's file, what is around it if it is missing. Lines are 0 and
+    names empty where there are none.
     """
 
     requirement: str
@@ -28,11 +29,12 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class CppComparison:
-    """How often each requirement was looked at, and what broke it. ``unjudged`` says of requirements why they were not looked
-    at, or not everywhere.
+class Comparison:
+    """How often each requirement was looked at, and what broke it. ``readings`` are the values of options that were met,
+    ``unjudged`` says of requirements why they were not looked at, or not everywhere.
     """
 
     exercised: Mapping[str, int]
     differences: tuple[Difference, ...]
+    readings: Mapping[str, frozenset[str]] = field(default_factory=dict)
     unjudged: Mapping[str, str] = field(default_factory=dict)

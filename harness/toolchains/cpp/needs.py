@@ -1,0 +1,80 @@
+"""Which probes say nothing any more once another one has failed, so that each defect is told once."""
+
+from __future__ import annotations
+
+from ucm_cts.reference_models.cpp import expected as claims
+from ucm_cts.reference_models.cpp.expected import Claim, Connected, Named, Returned
+
+_AT_LAST = (claims.Implemented, claims.Runs)
+_USED = (
+    claims.Arity,
+    claims.Passed,
+    claims.Startup,
+    claims.StartupTakes,
+    claims.ConnectionTo,
+    claims.ConnectionShape,
+)
+"""What implementations rely on, beside what is not there at all."""
+
+
+def lacks(claim: Claim, failed: Claim) -> str:
+    """What ``claim`` needs and ``failed`` says is not there; nothing if ``claim`` can be judged all the same."""
+    if isinstance(failed, claims.Declares):
+        return f"{failed.name} is not declared" if _speaks_of(claim, failed.name) and claim != failed else ""
+    if isinstance(failed, claims.DeclaresConnection):
+        return f"{failed.connection} is not declared" if _uses_connection(claim, failed) else ""
+    if isinstance(failed, claims.Arity) and _uses_function(claim, failed):
+        return f"{failed.method} is not declared"
+    if isinstance(failed, claims.ReturnsReference) and _uses_result(claim, failed):
+        return f"{failed.getter} leads to no class"
+    if isinstance(claim, _AT_LAST) and isinstance(failed, _USED):
+        return "what it uses is not as it should be" if _owner(claim) in (_owner(failed), None) else ""
+    return ""
+
+
+def _owner(claim: Claim) -> str | None:
+    """The class that the model's element became."""
+    owner = getattr(claim, "owner", None)
+    if isinstance(owner, Named):
+        return owner.name
+    if isinstance(owner, Returned | Connected):
+        return owner.owner
+    return owner if isinstance(owner, str) else ""
+
+
+def _speaks_of(claim: Claim, name: str) -> bool:
+    for field in ("name", "owner", "derived"):
+        value = getattr(claim, field, None)
+        if value == name or (isinstance(value, Named) and value.name == name):
+            return True
+        if isinstance(value, Returned | Connected) and value.owner == name:
+            return True
+    return False
+
+
+def _uses_connection(claim: Claim, failed: claims.DeclaresConnection) -> bool:
+    if getattr(claim, "connection", None) == failed.connection and getattr(claim, "owner", None) == failed.owner:
+        return claim != failed
+    if getattr(claim, "owner", None) == Connected(failed.owner, failed.connection):
+        return True
+    return isinstance(claim, _AT_LAST) and _owner(claim) == failed.owner
+
+
+def _uses_result(claim: Claim, failed: claims.ReturnsReference) -> bool:
+    reached = Returned(failed.owner, failed.getter)
+    at_last = isinstance(claim, _AT_LAST) and _owner(claim) == failed.owner
+    return at_last or getattr(claim, "owner", None) == reached
+
+
+def _uses_function(claim: Claim, failed: claims.Arity) -> bool:
+    same_class = getattr(claim, "owner", None) == failed.owner
+    if isinstance(claim, claims.Passed | claims.Pure):
+        return same_class and (claim.method, claim.parameters) == (failed.method, failed.parameters)
+    if isinstance(claim, _AT_LAST):
+        return _owner(claim) == _owner(failed)
+    if isinstance(failed.owner, Named):
+        reached = Returned(failed.owner.name, failed.method)
+        if isinstance(claim, claims.ReturnsReference):
+            return (claim.owner, claim.getter) == (reached.owner, reached.getter)
+        return getattr(claim, "owner", None) == reached
+    return False
