@@ -121,9 +121,15 @@ def _answer(made: Made) -> Answer:
 
 def judge(asked: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judgement]:
     """A judgement for each question that was answered."""
-    legal = {q.name: q.text for q in asked if q.due == "accept" and q.name in answers}
+    legal = {q.name: q.text for q in asked if q.due == "accept" and q.name in answers and _stands(q, answers)}
     blame = Blame(legal, {name for name in legal if answers[name].accepted is False})
     return [_judged(q, answers, blame) for q in asked if q.name in answers]
+
+
+def _stands(q: Question, answers: Mapping[str, Answer]) -> bool:
+    """Whether ``q`` may be held against anybody: its twin, if it has one, was accepted."""
+    twin = answers.get(q.twin)
+    return not q.twin or (twin is not None and bool(twin.accepted))
 
 
 def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame) -> Judgement:
@@ -135,8 +141,7 @@ def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame) -> Judgeme
         )
     if answer.accepted is None:
         return Judgement(q, rule, "unclear", observed=f"no answer: {answer.told}")
-    twin = answers.get(q.twin) if q.twin else None
-    if q.twin and (twin is None or not twin.accepted):
+    if not _stands(q, answers):
         return Judgement(q, rule, "unclear", observed=f"its legal twin {q.twin} was not accepted")
     if q.due == "accept":
         return _of_legal(q, answer, rule, blame)

@@ -140,12 +140,12 @@ def one_more_than_a_role_allows(connection: etree._Element) -> bool:
 
 @breaks("R-9.5.5.4-07", at="Connection", under=("role-minimum=check",))
 def fewer_than_a_role_wants(connection: etree._Element) -> bool:
-    """Fewer ends play a role than it wants."""
-    for end in connection.findall("ConnectionEnd"):
-        role = _role_of(end)
-        if role is not None:
-            role.set("lowerMultiplicity", "100")
-            role.set("upperMultiplicity", "-1")
+    """No end plays a role that wants one."""
+    ends = connection.findall("ConnectionEnd")
+    for role in [_role_of(end) for end in ends]:
+        if role is not None and int(str(role.get("lowerMultiplicity"))) > 0:
+            for end in [end for end in ends if _role_of(end) is role]:
+                connection.remove(end)
             return True
     return False
 
