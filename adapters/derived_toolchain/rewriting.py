@@ -31,7 +31,10 @@ def rewritten(program: Program, rewrite: Callable[[Files], Files]) -> Program:
     return replace(program, generators={**program.generators, "idl": wrong})
 
 
-def replaced(name: str, pattern: str, replacement: str, file: str = MODEL) -> Derive:
+Replacement = str | Callable[[re.Match[str]], str]
+
+
+def replaced(name: str, pattern: str, replacement: Replacement, file: str = MODEL) -> Derive:
     """Called ``name``: in ``file``, ``replacement`` stands for each match of ``pattern``."""
 
     def derive(program: Program) -> Program:

@@ -7,14 +7,21 @@ opened again, so they are written in one piece.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.common import Named, children, walk
-from ucm_cts.adapters.contract.metamodel.components import AtomicComponentImplementation, ComponentType
+from ucm_cts.adapters.contract.metamodel.components import (
+    AtomicComponentImplementation,
+    ComponentTechnicalPolicy,
+    ComponentType,
+    PortTypeSpec,
+)
 from ucm_cts.adapters.contract.metamodel.contracts import Constant, DataType, Exception_, Interface
+from ucm_cts.adapters.contract.metamodel.interactions import PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
-from ucm_cts.adapters.contract.metamodel.names import SEPARATOR, Declared, Names, Scope
+from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, lineage
 from ucm_cts.adapters.toolchain.idl_components import PORT_ELEMENT_OBJECT, Components, port_element_interfaces
 from ucm_cts.adapters.toolchain.idl_names import Templates, identifier, parameter
 from ucm_cts.adapters.toolchain.idl_standard import STANDARD
@@ -125,6 +132,9 @@ class Writer:
             yield from self._references(part)
         if not unit.inside:
             yield from references(unit.element, unit.scope)
+        if isinstance(unit.element, AtomicComponentImplementation):
+            for policy, scope in self._components.policies(unit.element, unit.scope):
+                yield from references(policy, scope)
 
     def _text(self, unit: Unit) -> Lines:
         element, scope = unit.element, unit.scope
@@ -209,8 +219,12 @@ def references(element: Named, scope: Scope) -> Iterator[tuple[Declared, bool]]:
             yield base, True
     if isinstance(element, Constant):
         yield from _constants(element.value, scope)
-    if isinstance(element, (ComponentType, AtomicComponentImplementation)):
-        yield from _ports(element, scope)
+    if isinstance(element, ComponentType):
+        specs = [spec for port in element.ports for spec in port.specs if isinstance(spec, PortTypeSpec)]
+        yield from _elements([scope.find(spec.type, PortType) for spec in specs])
+    if isinstance(element, ComponentTechnicalPolicy):
+        definition = scope.find(element.technical_policy_definition, TechnicalPolicyDefinition)
+        yield from _elements(lineage(definition) if definition is not None else [])
 
 
 def _constants(value: str, scope: Scope) -> Iterator[tuple[Declared, bool]]:
@@ -221,16 +235,11 @@ def _constants(value: str, scope: Scope) -> Iterator[tuple[Declared, bool]]:
             yield found, True
 
 
-def _ports(element: ComponentType | AtomicComponentImplementation, scope: Scope) -> Iterator[tuple[Declared, bool]]:
-    """What getters return: all port types and policies are looked through, because order costs nothing."""
-    for part in walk(element):
-        for name in ("type", "name"):
-            found = scope.find(getattr(part, name, ""), Named)
-            if found is not None and found.element is not element and not isinstance(found.element, MODULES):
-                for one in walk(found.element):
-                    interface_ = found.scope.find(getattr(one, "interface", "") or "", Interface)
-                    if interface_ is not None:
-                        yield interface_, False
-
-
-__all__ = ["SEPARATOR", "generate"]
+def _elements(owners: Sequence[Declared | None]) -> Iterator[tuple[Declared, bool]]:
+    """The interfaces of port elements, which getters return."""
+    for owner in owners:
+        if owner is not None and isinstance(owner.element, (PortType, TechnicalPolicyDefinition)):
+            for one in owner.element.port_elements:
+                found = owner.scope.find(one.interface, Interface)
+                if found is not None:
+                    yield found, False

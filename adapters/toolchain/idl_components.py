@@ -18,7 +18,7 @@ from ucm_cts.adapters.contract.metamodel.contracts import AbstractInterface, Int
 from ucm_cts.adapters.contract.metamodel.interactions import PortElement, PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, each_element, lineage
-from ucm_cts.adapters.toolchain.idl_names import ABSTRACT, TYPES, Templates, absolute, identifier, parameter
+from ucm_cts.adapters.toolchain.idl_names import ABSTRACT, TYPES, Templates, absolute, identifier
 from ucm_cts.adapters.toolchain.idl_types import Lines, attribute, block, inherits
 
 COMPONENT_OBJECT = "::ComponentObject"
@@ -105,7 +105,7 @@ class Components:
         type_ = scope.find(element.type, ComponentType)
         assert type_ is not None
         before, lines = Lines(), Lines()
-        for policy, around in self._policies(element, scope):
+        for policy, around in self.policies(element, scope):
             assert isinstance(policy, ComponentTechnicalPolicy)
             definition = around.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
             for ancestor in lineage(definition) if definition is not None else []:
@@ -119,7 +119,7 @@ class Components:
         bases = [absolute(type_), COMPONENT_OBJECT]
         return [*before, *block(f"interface {plain(element.name + '_Body')}{inherits(bases)}", lines)]
 
-    def _policies(self, element: AtomicComponentImplementation, scope: Scope) -> list[Declared]:
+    def policies(self, element: AtomicComponentImplementation, scope: Scope) -> list[Declared]:
         """The component policies of an implementation, each once; those of ports are no business of the body's."""
         named = (scope.find(one.name, ComponentTechnicalPolicy) for one in element.policies)
         found = {one.path: one for one in named if one is not None}
@@ -155,6 +155,3 @@ def port_element_interfaces(model: Model, names: Names) -> set[str]:
             actual = scope.find(element.actual_type, Interface)
             found |= {actual.path} if actual is not None else set()
     return found
-
-
-__all__ = ["Components", "parameter", "port_element_interfaces"]

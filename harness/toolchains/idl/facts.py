@@ -22,6 +22,7 @@ from ucm_cts.reference_models.idl.declarations import (
     Exception_,
     Expression,
     Module,
+    Named,
     Native,
     Struct,
     Type,
@@ -110,10 +111,20 @@ def means(vendor: Vendor, fact: Means) -> list[Wrong]:
     right = vendor.same(found, hit.entry.scope, fact.type)
     if fact.requirement == ULONGLONG:
         right = _unsigned_long_long(vendor, found, hit.entry.scope)
+    if fact.requirement == BOOLEAN and right:
+        right = _boolean(vendor, found)
     return [] if right else [Wrong(f"{show(fact.type)} {fact.path[-1]}", show(found), declaration.place)]
 
 
 ULONGLONG = "R-12.3.1-08"
+BOOLEAN = "R-12.3.1-13"
+
+
+def _boolean(vendor: Vendor, found: Type) -> bool:
+    """The table prints bool (interpretation idl-boolean)."""
+    name = "bool" if found == Named("bool") else "boolean"
+    vendor.met.setdefault("idl-boolean", set()).add(name)
+    return vendor.reading("idl-boolean") in ("", "observed", name)
 
 
 def _unsigned_long_long(vendor: Vendor, found: Type, scope: Scope) -> bool:

@@ -181,8 +181,6 @@ class Vendor:
         """What a vendor's type means."""
         match type_:
             case Basic():
-                if type_.name == "boolean" and self.reading("idl-boolean") == "bool":
-                    return ("unknown", "boolean")
                 name = {"int16": "short", "int32": "long", "int64": "long long"}.get(type_.name, type_.name)
                 name = {"uint16": "unsigned short", "uint32": "unsigned long", "uint64": "unsigned long long"}.get(
                     name, name
