@@ -69,6 +69,7 @@ class Acceptance:
             twins = {q.twin for q in wanted}
             asked = [q for q in asked if q in wanted or q.name in twins]
         self._questions = dressed(asked, dress)
+        self.not_asked = _not_asked(statement)
         self._texts = {q.name: q.text for q in self._questions}
 
     @property
@@ -97,6 +98,23 @@ class Acceptance:
         finding = Finding(q.requirement, judgement.rule, q.name, judgement.expected, judgement.observed)
         processed = msgspec.structs.replace(made.processed, twin=self._texts.get(q.twin, ""))
         return Fact(q.requirement, asked, finding, processed=processed, measure=measure)
+
+
+def _not_asked(statement: Statement) -> Mapping[str, str]:
+    """The requirements that only other readings than the declared ones ask about, and which readings hold instead."""
+    all_questions = questions()
+    asked = {q.requirement for q in all_questions if all(map(statement.meets, q.under))}
+    options: dict[str, set[str]] = {}
+    for q in all_questions:
+        if q.requirement not in asked:
+            unmet = {need.partition("=")[0] for need in q.under if not statement.meets(need)}
+            options.setdefault(q.requirement, set()).update(unmet)
+    said = f"{statement.source} says" if statement.source else "without a statement it holds that"
+    told = {
+        requirement: ", ".join(f"{option} = {statement.readings[option]}" for option in sorted(unmet))
+        for requirement, unmet in options.items()
+    }
+    return {requirement: f"{said} {readings}" for requirement, readings in told.items()}
 
 
 def dressed(asked: Sequence[Question], dress: Dress) -> list[Question]:

@@ -49,6 +49,10 @@ class Examination(Protocol):
     def models(self) -> Sequence[tuple[str, str]]:
         """The models to be processed, each with its name, simple ones first."""
 
+    @property
+    def not_asked(self) -> Mapping[str, str]:
+        """The requirements that do not apply by what the vendor states, and why."""
+
     def look(self, name: str, made: Made) -> tuple[Fact, ...]:
         """What was made of one model says by itself; this may take time, and is done for several models at once."""
 
@@ -85,6 +89,8 @@ class ToolChainCampaign:
         self._looked: dict[str, tuple[Fact, ...]] = {}
         self._facts: list[Fact] = []
         self._tally = Tally()
+        for requirement, reason in examination.not_asked.items():
+            self._tally.settle(requirement, "not applicable", reason)
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
         self._measures: Counter[str] = Counter()
         self._began = time.monotonic()

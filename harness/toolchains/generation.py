@@ -48,6 +48,11 @@ class Generation:
         """Name and text of each model."""
         return tuple(self._texts.items())
 
+    @property
+    def not_asked(self) -> Mapping[str, str]:
+        """None: every model is asked of everybody, and what is expected of it follows the readings."""
+        return {}
+
     def look(self, name: str, made: Made) -> tuple[Fact, ...]:
         """What the files of one model say."""
         return tuple(fact for fact in self._facts(name, made) if self._is_wanted(fact.requirement))
