@@ -22,7 +22,11 @@ from ucm_cts.adapters.toolchain.policy_use import aspect_of, uses
 from ucm_cts.adapters.toolchain.program import Program
 
 
-@breaks("R-9.4.1-02", task="check")
+@breaks(
+    "R-9.4.1-02",
+    task="check",
+    also=("R-9-01", "R-9.4.1-06", "R-9.4.3.2-05", "R-9.4.3.2-11", "R-9.4.2.1-02", "R-9.5.1-06"),
+)
 def apis_for_all_or_none(program: Program) -> Program:
     """Takes definitions with and without port elements side by side for an error."""
 
@@ -51,7 +55,7 @@ def _multiplicity(policy: Declared) -> str:
     return getattr(aspect.element, "multiplicity", "") if aspect is not None else ""
 
 
-@breaks("R-9.4.1-06", task="check")
+@breaks("R-9.4.1-06", task="check", also=("R-9.4.4.1-01", "R-9.5.1-06"))
 def languages_apart_from_policies(program: Program) -> Program:
     """Takes a module that lists three languages and defines policies for an error."""
 
@@ -74,7 +78,14 @@ def modules_of_aspects_are_not_empty(program: Program) -> Program:
     return refusing(program, Model, empty)
 
 
-@breaks("R-9.4.2.1-05", task="check")
+@breaks(
+    "R-9.4.2.1-05",
+    task="check",
+    also=(
+        "R-9.1.4.8-02",
+        "R-9.2.2.15-03",
+    ),
+)
 def components_among_aspects(program: Program) -> Program:
     """Lets component modules stand anywhere."""
     return overhearing(program, "misplaced element", "ComponentModule", "stand")
@@ -86,13 +97,20 @@ def multiplicity_left_out(program: Program) -> Program:
     return overhearing(program, "missing attribute", "TechnicalAspect", "multiplicity")
 
 
-@breaks("R-9.4.3.1-03", task="check")
+@breaks("R-9.4.3.1-03", task="check", also=("R-9.4.3.1-02",))
 def any_multiplicity(program: Program) -> Program:
     """Takes any word for a multiplicity."""
     return overhearing(program, "bad literal", "TechnicalAspect", "multiplicity")
 
 
-@breaks("R-9.4.3.1-04", task="check")
+@breaks(
+    "R-9.4.3.1-04",
+    task="check",
+    also=(
+        "R-9.5.4.5-01",
+        "R-9.5.4.1-03",
+    ),
+)
 def any_number_is_one(program: Program) -> Program:
     """Takes a second policy of an aspect that allows any number for an error."""
 
@@ -129,7 +147,7 @@ def applicability_left_out(program: Program) -> Program:
     return overhearing(program, "missing attribute", "TechnicalPolicyDefinition", "applicability")
 
 
-@breaks("R-9.4.3.2-05", task="check")
+@breaks("R-9.4.3.2-05", task="check", also=("R-9.4.3.2-04",))
 def any_applicability(program: Program) -> Program:
     """Takes any word for an applicability."""
     return overhearing(program, "bad literal", "TechnicalPolicyDefinition", "applicability")
@@ -158,7 +176,11 @@ def port_elements_are_not_inherited(program: Program) -> Program:
     return refusing(program, ComponentTechnicalPolicy, inherited)
 
 
-@breaks("R-9.4.3.4-01", task="check")
+@breaks(
+    "R-9.4.3.4-01",
+    task="check",
+    also=("R-9-01", "R-9.1.2-05", "R-9.1.4.1-01", "R-9.1.4.1-03", "R-9.2.2.15-05", "R-9.2.2.14-01"),
+)
 def names_of_definitions_come_first(program: Program) -> Program:
     """Takes a policy definition that begins with its applicability for an error."""
     return refusing_text(program, rb"<TechnicalPolicyDefinition\s+applicability")
@@ -175,7 +197,11 @@ def languages_do_not_come_first(program: Program) -> Program:
     return refusing(program, NonfunctionalAspectModule, first)
 
 
-@breaks("R-9.4.3.4-03", task="check")
+@breaks(
+    "R-9.4.3.4-03",
+    task="check",
+    also=("R-9-01", "R-9.1.2-05", "R-9.1.4.1-01", "R-9.1.4.1-03", "R-9.2.2.15-05", "R-9.4.3.4-01", "R-9.2.2.14-01"),
+)
 def names_of_aspects_come_first(program: Program) -> Program:
     """Takes an aspect that begins with its multiplicity for an error."""
     return refusing_text(program, rb"<TechnicalAspect\s+multiplicity")
@@ -191,7 +217,14 @@ def parameters_come_first(program: Program) -> Program:
     return refusing(program, TechnicalPolicyDefinition, late)
 
 
-@breaks("R-9.4.4-01", task="check")
+@breaks(
+    "R-9.4.4-01",
+    task="check",
+    also=(
+        "R-9-01",
+        "R-9.5.4.1-02",
+    ),
+)
 def languages_are_not_alone(program: Program) -> Program:
     """Takes a module that has a list of languages and nothing else and is in another module for an error."""
 
@@ -201,7 +234,7 @@ def languages_are_not_alone(program: Program) -> Program:
     return refusing(program, NonfunctionalAspectModule, alone)
 
 
-@breaks("R-9.4.4.2-02", task="check")
+@breaks("R-9.4.4.2-02", task="check", also=("R-9.5.4.1-02", "R-9.2.9.2-03", "R-9.5.1-06"))
 def languages_are_identifiers(program: Program) -> Program:
     """Takes an implementation in a language with a plus in its name for an error."""
     return refusing(program, AtomicComponentImplementation, lambda one, _: "+" in one.language)

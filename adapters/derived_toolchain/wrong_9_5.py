@@ -45,7 +45,14 @@ def modules_of_components_are_not_empty(program: Program) -> Program:
     return refusing(program, Model, empty)
 
 
-@breaks("R-9.5.2.1-04", task="check")
+@breaks(
+    "R-9.5.2.1-04",
+    task="check",
+    also=(
+        "R-9.1.4.8-02",
+        "R-9.2.2.15-03",
+    ),
+)
 def aspects_among_components(program: Program) -> Program:
     """Lets technical aspects stand anywhere."""
     return overhearing(program, "misplaced element", "TechnicalAspect", "stand")
@@ -88,20 +95,24 @@ def one_binding_a_port(program: Program) -> Program:
     return refusing(program, PortTypeSpec, lambda spec, _: len(spec.bindings) > 1)
 
 
-@breaks("R-9.5.4.1-01", task="check")
+@breaks("R-9.5.4.1-01", task="check", also=("R-9.5.4.1-02",))
 def language_left_out(program: Program) -> Program:
     """Does without the language of an atomic implementation."""
     reading = overhearing(program, "missing attribute", "AtomicComponentImplementation", "language")
     return forgiving(reading, "languages_are_listed", lambda implementation: not implementation.language)
 
 
-@breaks("R-9.5.4.5-01", task="check")
+@breaks(
+    "R-9.5.4.5-01",
+    task="check",
+    also=("R-9-01", "R-9.1.2-10", "R-9.2.2.14-01"),
+)
 def names_of_implementations_come_first(program: Program) -> Program:
     """Takes an atomic implementation that begins with its language for an error."""
     return refusing_text(program, rb"<AtomicComponentImplementation\s+language")
 
 
-@breaks("R-9.5.4.2-05", task="check")
+@breaks("R-9.5.4.2-05", task="check", also=("R-9.5.1-06",))
 def one_component_a_policy(program: Program) -> Program:
     """Takes the second component of a policy for an error if it is of another type."""
 
@@ -113,7 +124,7 @@ def one_component_a_policy(program: Program) -> Program:
     return refusing(program, ComponentTechnicalPolicy, two_types)
 
 
-@breaks("R-9.5.4.2-07", task="check")
+@breaks("R-9.5.4.2-07", task="check", also=("R-9.2.2.14-01",))
 def parameters_have_values(program: Program) -> Program:
     """Takes a policy that gives values to some parameters of its definition, but not to all, for an error."""
 

@@ -62,7 +62,7 @@ def ports_of_composites(program: Program) -> Program:
     return overhearing(program, "misplaced element", "Port", "stand")
 
 
-@breaks("R-9.5.5.3-04", task="check")
+@breaks("R-9.5.5.3-04", task="check", also=("R-9.1.4.1-01",))
 def no_part_of_the_own_type(program: Program) -> Program:
     """Takes a part of the composite's own component type for an error."""
 
@@ -116,7 +116,15 @@ def delegations_beside_connections(program: Program) -> Program:
     return refusing(program, Composite, lambda composite, _: composite.delegations and not composite.connections)
 
 
-@breaks("R-9.5.5.8-01", task="check")
+@breaks(
+    "R-9.5.5.8-01",
+    task="check",
+    also=(
+        "R-9.1.2-10",
+        "R-9.1.4.1-01",
+        "R-9.1.4.1-03",
+    ),
+)
 def names_of_parts_come_first(program: Program) -> Program:
     """Takes a part that does not begin with its name for an error."""
     return refusing_text(program, rb"<Part\s+instanceOf")
