@@ -11,7 +11,7 @@ import msgspec
 
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.derived_toolchain.registry import Mutant, Variant, mutants, variants
-from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.adapters.toolchain.program import Program, reference
 from ucm_cts.harness.catalogue import load_requirements
 from ucm_cts.harness.profiles import PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.harness.results import RequirementResult
@@ -20,10 +20,14 @@ from ucm_cts.harness.stating.statement import Statement, default_statement
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
 from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.examinations import examination_for
-from ucm_cts.harness.toolchains.processing import InProcess
+from ucm_cts.harness.toolchains.generation import mapping_models
+from ucm_cts.harness.toolchains.processing import MODEL_FILE, InProcess
 
 _REFERENCE = replace(reference(), read=functools.lru_cache(8192)(read_model))
 """Mutants differ in what they make of models, seldom in how they read them."""
+
+SOME = 4
+"""Models of generators that are gone through before it is asked whether a mutant is found out."""
 
 _PROFILES: dict[str, str] = {task: profile for profile, task in TASKS.items()}
 
@@ -57,23 +61,59 @@ def examine_toolchain(subject: ToolChainSubject) -> MutantResult | VariantResult
     derived = known[subject.name]
     profile = _PROFILES[derived.task]
     statement = declaring(derived.declares)
-    examination = examination_for(profile, statement, Dress())
     program = derived.derive(_REFERENCE)
-    campaign = ToolChainCampaign(InProcess(program), examination, (subject.name, ""), profile, statement, jobs=1)
-    for _ in campaign.ask():
-        pass
-    campaign.judge()
-    report = campaign.report()
-    failed = tuple(_kill(result) for result in report.requirements if result.verdict == "fail")
+    kills: dict[str, Kill] = {}
+    asked = 0
+    trouble = ""
+    for names in _batches(derived, program):
+        examination = examination_for(profile, statement, Dress(), models=names)
+        campaign = ToolChainCampaign(InProcess(program), examination, (subject.name, ""), profile, statement, jobs=1)
+        for _ in campaign.ask():
+            pass
+        campaign.judge()
+        report = campaign.report()
+        asked += report.scenarios
+        kills |= {r.id: _kill(r) for r in report.requirements if r.verdict == "fail" and r.id not in kills}
+        unsettled = [r.id for r in report.requirements if r.verdict in ("error", "inconclusive")]
+        trouble = f"undecided: {', '.join(unsettled)}" if unsettled and names is None else ""
+        if subject.breaks and kills.keys() >= set(subject.breaks):
+            break
     seconds = round(time.monotonic() - began, 3)
+    failed = tuple(kills[requirement] for requirement in sorted(kills))
     if not subject.breaks:
-        unsettled = tuple(r.id for r in report.requirements if r.verdict in ("error", "inconclusive"))
-        trouble = f"undecided: {', '.join(unsettled)}" if unsettled else ""
-        return VariantResult(subject.name, failed, (), report.scenarios, seconds, trouble)
+        return VariantResult(subject.name, failed, (), asked, seconds, trouble)
     clause = subject.breaks[0].removeprefix("R-").rpartition("-")[0]
-    return MutantResult(
-        subject.name, subject.lie, clause, subject.breaks, subject.also, failed, (), report.scenarios, seconds
-    )
+    return MutantResult(subject.name, subject.lie, clause, subject.breaks, subject.also, failed, (), asked, seconds)
+
+
+def _batches(derived: Mutant | Variant, program: Program) -> list[tuple[str, ...] | None]:
+    """The models to go through, None for all of them at once.
+
+    What a generator makes as the reference tool chain makes it has been judged there. Of what it makes otherwise a mutant gets
+    some after others, until it is found out; a variant gets the smallest and the largest ones.
+    """
+    if derived.task == "check":
+        return [None]
+    names = [
+        name
+        for name, text in mapping_models().items()
+        if _made(program, derived.task, text) != _usual(derived.task, text)
+    ]
+    if isinstance(derived, Variant):
+        return [tuple(dict.fromkeys((*names[:SOME], *names[-SOME:])))] if names else []
+    return [tuple(names[first : first + SOME]) for first in range(0, len(names), SOME)]
+
+
+def _made(program: Program, task: str, text: str) -> object:
+    try:
+        return program.generate(task, text.encode(), MODEL_FILE)[0]
+    except Exception as problem:  # noqa: BLE001 - a mutant may do anything
+        return type(problem)
+
+
+@functools.lru_cache(256)
+def _usual(task: str, text: str) -> object:
+    return _made(_REFERENCE, task, text)
 
 
 def declaring(readings: tuple[str, ...]) -> Statement:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.harness.catalogue import in_the_making
@@ -38,11 +38,17 @@ def stand_for() -> Mapping[str, frozenset[str]]:
 
 
 def examination_for(
-    profile: str, statement: Statement, dress: Dress, expression: str = "", command: Command | None = None
+    profile: str,
+    statement: Statement,
+    dress: Dress,
+    expression: str = "",
+    command: Command | None = None,
+    models: Collection[str] | None = None,
 ) -> Examination:
     """What ``profile`` asks, with models in ``dress``, as far as it concerns ``expression`` and what the vendor states.
 
-    ``command`` says of generated C++ which compiler takes it, and where its headers are. Raises ``WrongUse``.
+    ``command`` says of generated C++ which compiler takes it, and where its headers are. Code is generated from ``models`` only, if
+    they are named. Raises ``WrongUse``.
     """
     unfinished = in_the_making(profile)
     if unfinished:
@@ -52,11 +58,13 @@ def examination_for(
         return Acceptance(statement, dress, expression)
     if task == "idl":
         return Generation(
-            functools.partial(_compare_idl, statement.readings), ("R-12-01", "idl_generated"), dress, expression
+            functools.partial(_compare_idl, statement.readings), ("R-12-01", "idl_generated"), dress, expression, models
         )
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
     how = command or Command(command=())
-    return Generation(functools.partial(_compare_cpp, standard, statement.readings, how), GENERATED, dress, expression)
+    return Generation(
+        functools.partial(_compare_cpp, standard, statement.readings, how), GENERATED, dress, expression, models
+    )
 
 
 def _compare_idl(readings: Mapping[str, str], model: Model, files: Mapping[str, str]) -> Comparison:

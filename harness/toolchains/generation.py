@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
 import msgspec
 from lxml import etree
@@ -31,13 +31,22 @@ Compare = Callable[[Model, Mapping[str, str]], Comparison]
 class Generation:
     """Asks for the files of each model and compares them as soon as they are there."""
 
-    def __init__(self, compare: Compare, generates: tuple[str, str], dress: Dress, expression: str = "") -> None:
+    def __init__(
+        self,
+        compare: Compare,
+        generates: tuple[str, str],
+        dress: Dress,
+        expression: str = "",
+        only: Collection[str] | None = None,
+    ) -> None:
         """``generates`` are the requirement, and its rule, that files can be had of a legal model at all. Of the models
-        only those whose name holds a word of ``expression``, or all if one of its words is no part of any name.
+        only those of ``only``, if there is such a list, whose name holds a word of ``expression``, or all if none does: then
+        only what is said of requirements that hold one of the words.
         """
         self._compare = compare
         self._generates = generates
-        models = {name: dress.of(text) for name, text in mapping_models().items()}
+        chosen = {name: text for name, text in mapping_models().items() if only is None or name in only}
+        models = {name: dress.of(text) for name, text in chosen.items()}
         words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
         named = {name: text for name, text in models.items() if any(word in name.lower() for word in words)}
         self._texts = named or models
