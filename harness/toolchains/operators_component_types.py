@@ -10,8 +10,8 @@ from lxml import etree
 from ucm_cts.harness.toolchains.declarations import (
     NOWHERE,
     is_interface,
+    member,
     path,
-    resolved,
     spare,
     spare_like,
     spare_unlike,
@@ -189,9 +189,7 @@ def role_of_nothing_known(spec: etree._Element) -> None:
 def item_without_type(binding: etree._Element) -> bool:
     """An item that the role involves is not bound."""
     spec = binding.getparent()
-    name, _, role_name = str(spec.get("role") if spec is not None else "").rpartition(".")
-    pattern = resolved(binding, name, "InteractionPattern")
-    role = pattern.find(f"InteractionRole[@name='{role_name}']") if pattern is not None else None
+    role = member(spec, str(spec.get("role")), "InteractionPattern", "InteractionRole") if spec is not None else None
     item = str(binding.get("item")).rpartition(".")[2]
     if spec is None or role is None or role.find(f"InvolvedItem[@item='{item}']") is None:
         return False

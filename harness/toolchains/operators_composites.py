@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from ucm_cts.harness.toolchains.declarations import NOWHERE, path, resolved, spare_like
+from ucm_cts.harness.toolchains.declarations import NOWHERE, member, path, resolved, spare_like
 from ucm_cts.harness.toolchains.operators import breaks, keeps
 from ucm_cts.harness.toolchains.operators_aspects import ELSEWHERE
 
@@ -158,16 +158,14 @@ def _role_of(end: etree._Element) -> etree._Element | None:
     reference = str(connection.get("definition"))
     connector = resolved(connection, reference, "ConnectorDefinition")
     if connector is None:
-        return _role(spec, str(spec.get("role"))) if spec.tag == "PortRoleSpec" else None
+        return _member_role(spec, "role") if spec.tag == "PortRoleSpec" else None
     port_type = resolved(spec, str(spec.get("type")), "PortType")
     ports = [p for p in connector.findall("ConnectorPort") if resolved(p, str(p.get("api")), "PortType") is port_type]
-    return _role(ports[0], str(ports[0].get("portRole"))) if len(ports) == 1 else None
+    return _member_role(ports[0], "portRole") if len(ports) == 1 else None
 
 
-def _role(element: etree._Element, reference: str) -> etree._Element | None:
-    name, _, wanted = reference.rpartition(".")
-    pattern = resolved(element, name, "InteractionPattern")
-    return pattern.find(f"InteractionRole[@name='{wanted}']") if pattern is not None else None
+def _member_role(element: etree._Element, attribute: str) -> etree._Element | None:
+    return member(element, str(element.get(attribute)), "InteractionPattern", "InteractionRole")
 
 
 @breaks("R-9.5.5.4-08", at="Connection", under=("connected-types=check",))

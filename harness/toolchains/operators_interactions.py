@@ -6,8 +6,9 @@ import copy
 
 from lxml import etree
 
+from ucm_cts.harness.toolchains.declarations import NOWHERE
 from ucm_cts.harness.toolchains.operators import breaks, keeps
-from ucm_cts.harness.toolchains.operators_interfaces import NOWHERE, beside, named
+from ucm_cts.harness.toolchains.operators_interfaces import beside, named
 
 
 @keeps("R-9.3.2.1-01", at="InteractionModule")

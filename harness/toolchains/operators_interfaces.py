@@ -6,10 +6,8 @@ import copy
 
 from lxml import etree
 
+from ucm_cts.harness.toolchains.declarations import NOWHERE
 from ucm_cts.harness.toolchains.operators import breaks, keeps
-
-NOWHERE = "declared_nowhere"
-"""A name that no model has."""
 
 
 def named(element: etree._Element, tag: str, name: str) -> etree._Element | None:

@@ -6,8 +6,9 @@ import copy
 
 from lxml import etree
 
+from ucm_cts.harness.toolchains.declarations import NOWHERE
 from ucm_cts.harness.toolchains.operators import breaks, keeps
-from ucm_cts.harness.toolchains.operators_interfaces import NOWHERE, beside
+from ucm_cts.harness.toolchains.operators_interfaces import beside
 
 ELSEWHERE = ("declarations-elsewhere=refused",)
 _DATA_TYPES = ("PrimitiveInteger", "PrimitiveFloat", "PrimitiveChar", "PrimitiveBoolean", "StringType")

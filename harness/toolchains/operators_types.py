@@ -7,8 +7,9 @@ import copy
 from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
+from ucm_cts.harness.toolchains.declarations import NOWHERE
 from ucm_cts.harness.toolchains.operators import breaks, keeps
-from ucm_cts.harness.toolchains.operators_interfaces import NOWHERE, beside
+from ucm_cts.harness.toolchains.operators_interfaces import beside
 from ucm_cts.harness.toolchains.operators_modules import in_the_same_module, module_of
 
 

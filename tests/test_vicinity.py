@@ -1,0 +1,67 @@
+"""Where a diagnostic may point to: the lines that have to do with a change, and none of the others."""
+
+from __future__ import annotations
+
+import pytest
+
+from ucm_cts.harness.toolchains.corpus import differing_lines
+from ucm_cts.harness.toolchains.vicinity import vicinity
+
+MODEL = """\
+<Model>
+  <ComponentModule name="components">
+    <ComponentType name="box">
+      <Port name="front">
+        <PortTypeSpec
+            type="::interactions::socket"/>
+      </Port>
+    </ComponentType>
+    <ComponentType name="crate"/>
+    <CompositeComponentImplementation name="home" type="box">
+      <Part name="one" instanceOf="crate"/>
+    </CompositeComponentImplementation>
+  </ComponentModule>
+  <InteractionModule name="interactions">
+    <PortType name="socket"/>
+    <PortType name="plug"/>
+  </InteractionModule>
+</Model>
+"""
+
+
+def lines_after(*swaps: tuple[str, str]) -> frozenset[int]:
+    """What has to do with these changes of the model."""
+    text = MODEL
+    for old, new in swaps:
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    return vicinity(text, differing_lines(MODEL, text))
+
+
+@pytest.mark.parametrize(
+    ("swap", "there", "elsewhere"),
+    [
+        (('<PortType name="socket"/>', '<PortType name="hole"/>'), {14, 15}, {3, 4, 10, 11}),
+        (('type="::interactions::socket"', 'type="plug"'), {3, 4, 5, 6, 10, 16}, {9, 11}),
+        (('<ComponentType name="crate"/>', '<ComponentType name="crate" refines="crate"/>'), {9, 10, 11}, {3, 4, 15}),
+        (('<Part name="one" instanceOf="crate"/>', ""), {10}, {3 + 1, 9, 15}),
+    ],
+    ids=["declaration", "reference", "name", "emptied"],
+)
+def test_what_was_changed_and_what_shares_its_names(
+    swap: tuple[str, str], there: set[int], elsewhere: set[int]
+) -> None:
+    lines = lines_after(swap)
+    assert there <= lines
+    assert not elsewhere & lines
+
+
+def test_an_element_that_was_emptied_counts_although_only_its_end_moved() -> None:
+    spec = '\n        <PortTypeSpec\n            type="::interactions::socket"/>'
+    lines = lines_after((spec, ""))
+    assert 4 in lines
+    assert 15 not in lines
+
+
+def test_all_lines_of_what_is_no_xml() -> None:
+    assert vicinity("<a>\n<b>\n", frozenset({1})) == {1, 2, 3}
