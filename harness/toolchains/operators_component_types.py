@@ -200,7 +200,9 @@ def item_without_type(binding: etree._Element) -> bool:
 @breaks("R-9.5.3.5-01", at="InteractionItemBinding")
 def item_of_nothing_known(binding: etree._Element) -> None:
     """The pattern has no such item."""
-    binding.set("item", f"{str(binding.get('item')).rpartition('.')[0]}.{NOWHERE}")
+    again = copy.deepcopy(binding)
+    again.set("item", f"{str(binding.get('item')).rpartition('.')[0]}.{NOWHERE}")
+    binding.addnext(again)
 
 
 @breaks("R-9.5.3.5-02", at="InteractionItemBinding")
