@@ -139,12 +139,12 @@ def compile_text(
     """
     source = folder / "probes.cpp"
     source.write_text(text, encoding="utf-8")
-    words = [*compiler.command, STANDARDS[standard], "-pedantic-errors", "-w", *headers.options]
+    words = [*compiler.command, STANDARDS[standard], "-pedantic-errors", *headers.options]
     words += ["-O0", str(source), *headers.sources, "-o", str(made)] if made else ["-fsyntax-only", str(source)]
     structured = [*words, "-fmax-errors=0", "-fdiagnostics-format=json"]
     ended = run(structured, folder, compiler)
     found = _read_json(ended.errors)
-    if ended.status not in (0, None) and (found is None or not found or any(not is_tag(e.file) for e in found)):
+    if ended.status not in (0, None) and (not found or not all(is_own(e.file) for e in found)):
         ended = run(words, folder, compiler)
         found = _read_text(ended.errors)
     if ended.problem:
@@ -156,11 +156,17 @@ def compile_text(
 
 
 _TAG = re.compile(r"(?:R-[0-9.]+-[0-9]+|body|support|running|prelude)#\w+$")
+_OWN = ("R-", "body#", "support#")
 
 
 def is_tag(file: str) -> bool:
-    """Whether ``file`` is a name that a probe gave itself."""
+    """Whether ``file`` is a name that probes give themselves."""
     return _TAG.match(file) is not None
+
+
+def is_own(file: str) -> bool:
+    """Whether ``file`` is the name of one probe, or of what it is made of."""
+    return is_tag(file) and file.startswith(_OWN)
 
 
 def _read_json(errors: str) -> list[Error] | None:
@@ -210,17 +216,18 @@ def _read_text(errors: str) -> list[Error]:
             undefined = re.match(r".*(undefined reference to .*|multiple definition of .*)", line)
             if undefined:
                 found.append(Error("", 0, undefined[1]))
+            if ": In " in line:
+                around = ""
             continue
         file, kind = match["file"], match["kind"] or ""
         if kind in ("error", "fatal error"):
-            tag = file if is_tag(file) else around
             place = (file, int(match["line"]))
             notes = () if is_tag(file) else (place,)
-            found.append(Error(tag or file, place[1], match["message"], kind == "fatal error", notes))
-            around = ""
-        elif is_tag(file) and kind == "note" and found and not is_tag(found[-1].file):
+            tag = file if is_own(file) else around or file
+            found.append(Error(tag, place[1], match["message"], kind == "fatal error", notes))
+        elif is_own(file) and kind == "note" and found and not is_own(found[-1].file):
             last = found.pop()
             found.append(Error(file, last.line, last.message, last.fatal, ((last.file, last.line),)))
-        elif is_tag(file) and "required from" in line:
+        elif is_own(file) and "required from" in line:
             around = file
     return found

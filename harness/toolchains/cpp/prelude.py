@@ -8,9 +8,9 @@ MOST_PARAMETERS = 8
 
 def prelude(modern: bool) -> str:
     """The text that comes after the headers and before the checks."""
-    typed = "decltype(__VA_ARGS__)" if modern else "__typeof__(__VA_ARGS__)"
+    typed = "decltype(e)" if modern else "__typeof__(e)"
     standard = "#include <cstdint>\n#include <array>\n#include <memory>\n" if modern else "#include <stdint.h>\n"
-    return f"{_INCLUDES}{standard}#define UCTS_TYPE(...) {typed}\n{_TOOLS}{_signatures()}{_RUNNING}"
+    return f"{_INCLUDES}{standard}#define UCTS_TYPE(e) {typed}\n{_TOOLS}{_signatures()}{_RUNNING}"
 
 
 _INCLUDES = """\

@@ -274,9 +274,6 @@ class _Comparing:
         exercised: Counter[str] = Counter()
         unjudged: dict[str, str] = {}
         exercised[HEADERS[self._expected.standard]] += len(self._headers.names)
-        if not of_headers:
-            for error in self._seen.loose[:1]:
-                differences.append(self._of_header("what is generated", error.message, self._place(error)))
         for one in self._checks:
             why = self._not_judged(one)
             if why:
@@ -286,6 +283,9 @@ class _Comparing:
             observed = self._observed_of(one)
             if observed is not None:
                 differences.append(self._difference(one, *observed))
+        if not differences:  # else it follows from one of these
+            for error in self._seen.loose[:1]:
+                differences.append(self._of_header("what is generated", error.message, self._place(error)))
         found, counted, missing = listing
         exercised.update(counted)
         unjudged = {**missing, **unjudged}

@@ -1,0 +1,43 @@
+"""Tool chains that change the text of the C++ that the reference generates."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.derived_toolchain.registry import Derive
+from ucm_cts.adapters.toolchain.program import Program
+
+Files = Mapping[str, str]
+
+Edit = tuple[str, str]
+"""A pattern, over lines, and what stands for each match in every file."""
+
+
+def regenerated(program: Program, task: str, rewrite: Callable[[Files], Files]) -> Program:
+    """``program`` with other files for ``task``."""
+    generate = program.generators[task]
+
+    def other(model: Model) -> Files:
+        return rewrite(generate(model))
+
+    return replace(program, generators={**program.generators, task: other})
+
+
+def edited(name: str, task: str, says: str, edits: Sequence[Edit]) -> Derive:
+    """Called ``name``: makes ``edits``, one after the other, in what ``task`` generates."""
+
+    def rewrite(files: Files) -> Files:
+        changed = dict(files)
+        for pattern, replacement in edits:
+            changed = {name: re.sub(pattern, replacement, text, flags=re.DOTALL) for name, text in changed.items()}
+        return changed
+
+    def derive(program: Program) -> Program:
+        return regenerated(program, task, rewrite)
+
+    derive.__name__ = name
+    derive.__doc__ = says
+    return derive
