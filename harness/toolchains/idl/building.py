@@ -357,3 +357,6 @@ class Builder(Transformer[Any, Any]):
 
     def qualified(self, *names: Token) -> str:
         return "::".join(name.removeprefix("_") for name in names)
+
+    def absolute(self, *names: Token) -> str:
+        return "::" + self.qualified(*names)

@@ -72,8 +72,9 @@ def read_files(files: Mapping[str, str]) -> Files:
     return Files(declarations, tuple(problems), tuple(sorted(missing)))
 
 
+@functools.lru_cache(maxsize=32)
 def read_idl(text: str, file: str = "") -> tuple[Declaration, ...]:
-    """The declarations in ``text``. Raises ``NotIdl``."""
+    """The declarations in ``text``; vendors hand over one standard file with each model. Raises ``NotIdl``."""
     parsed = _parsed(text, file, "start")
     assert isinstance(parsed, tuple)
     return parsed
@@ -115,6 +116,16 @@ def blanked(text: str, file: str = "") -> str:
     return "".join([*pieces, text[at:]])
 
 
+_QUOTED = r'"(?:\\.|[^"\\\n])*"'
+_VALUE = re.compile(rf"(?:=|\[|\bcase\b)(?:{_QUOTED}|[^;{{}}\"])*|{_QUOTED}")
+"""What may hold a shift: from where a value begins to the end of the declaration. Elsewhere >> closes two brackets."""
+
+
+def _shifts_marked(text: str) -> str:
+    """``text`` with another character, and a blank, for each shift to the right."""
+    return re.sub(rf"{_QUOTED}|>>", lambda m: "\u226b " if m[0] == ">>" else m[0], text)
+
+
 def _problem(text: str, at: int, file: str, told: str) -> Problem:
     return Problem(file, text.count("\n", 0, at) + 1, at - (text.rfind("\n", 0, at) + 1) + 1, told)
 
@@ -149,6 +160,8 @@ def _parsed(text: str, file: str, start: str) -> tuple[Declaration, ...] | Expre
         raise NotIdl(_problem(text, text.index("\0"), file, "a NUL is not IDL; remove it"))
     text = blanked(text, file)
     _bounded(text, file)
+    if ">>" in text:
+        text = _shifts_marked(text) if start != "start" else _VALUE.sub(lambda m: _shifts_marked(m[0]), text)
     parser, builder = _parser()
     builder.begin(file)
     try:

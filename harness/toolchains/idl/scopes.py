@@ -47,11 +47,14 @@ class Scope:
 
 @dataclass(eq=False)
 class Entry:
-    """A declaration where it stands; ``inner`` is the scope that it opens, if it does."""
+    """A declaration where it stands; ``inner`` is the scope that it opens, if it does. ``followed`` is set while the template of
+    an instance is looked for, lest that lead in a circle.
+    """
 
     declaration: Declaration
     scope: Scope
     inner: Scope | None = None
+    followed: bool = False
 
     @property
     def path(self) -> tuple[str, ...]:
@@ -167,26 +170,32 @@ def _descend(hit: Hit | None, parts: Sequence[str]) -> Hit | None:
     return hit
 
 
-def member(hit: Hit, name: str, steps: int = MOST_STEPS) -> Hit | None:
+def member(hit: Hit, name: str) -> Hit | None:
     """What ``name`` means in the scope that ``hit`` opens, inherited names included."""
     if isinstance(hit.entry.declaration, ModuleInstance):
-        template = _instantiated(hit, steps)
-        return member(template, name, steps - 1) if template is not None and steps else None
+        template = _instantiated(hit)
+        return member(template, name) if template is not None else None
     inner = hit.entry.inner
     entry = inner.own(name) if inner is not None else None
     if entry is not None:
         return Hit(entry, hit.bound)
     for base in bases(hit):
-        found = member(base, name, 0) if base.entry is not hit.entry else None
-        if found is not None:
-            return found
+        entry = base.entry.inner.own(name) if base.entry.inner is not None else None
+        if entry is not None:
+            return Hit(entry, base.bound)
     return None
 
 
-def _instantiated(hit: Hit, steps: int) -> Hit | None:
+def _instantiated(hit: Hit) -> Hit | None:
     instance = hit.entry.declaration
     assert isinstance(instance, ModuleInstance)
-    template = resolve(instance.template, hit.entry.scope, hit.bound) if steps else None
+    if hit.entry.followed:
+        return None
+    hit.entry.followed = True
+    try:
+        template = resolve(instance.template, hit.entry.scope, hit.bound)
+    finally:
+        hit.entry.followed = False
     if template is None or not isinstance(template.entry.declaration, Module):
         return None
     parameters = template.entry.declaration.parameters

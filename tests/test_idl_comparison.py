@@ -1,0 +1,154 @@
+"""The worked example of clause 12 by hand is conformant, and each difference names requirement, element and places."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from idl_subjects import TELLER, TELLER_IDL, model_of
+
+from ucm_cts.harness.toolchains.differences import Difference
+from ucm_cts.harness.toolchains.idl.comparing import CHECKS, compare
+from ucm_cts.harness.toolchains.idl.standard import printed
+from ucm_cts.reference_models.idl.expectations import RULE_OF, STANDS_FOR, Declares, Getter, Templated
+from ucm_cts.reference_models.idl.mapping import expected_idl
+
+EXPECTED = expected_idl(model_of(TELLER))
+
+
+def differences(text: str, *readings: str) -> list[Difference]:
+    declared = {option: value for option, _, value in (reading.partition("=") for reading in readings)}
+    return list(compare(EXPECTED, {"bank.idl": text}, declared).differences)
+
+
+def edited(old: str, new: str) -> str:
+    assert TELLER_IDL.count(old) == 1, old
+    return TELLER_IDL.replace(old, new)
+
+
+def test_checks_are_those_that_requirements_name() -> None:
+    assert CHECKS.keys() == STANDS_FOR.keys()
+    assert {fact.rule for fact in EXPECTED.facts} <= CHECKS.keys()
+
+
+def test_the_printed_example_is_expected() -> None:
+    declared = {fact.path for fact in EXPECTED.facts if isinstance(fact, Declares) and fact.needed}
+    assert ("bank", "desk", "TellerComponentImpl_Body") in declared
+    assert ("bank_platform", "services") not in declared, "nothing in it can be written"
+    getters = {fact.names[0] for fact in EXPECTED.facts if isinstance(fact, Getter)}
+    assert getters == {"get_teller_api", "get_tp_ExecPolicy_self-execution_api"}
+    templates = {
+        fact.path[-1]: fact.required for fact in EXPECTED.facts if isinstance(fact, Templated) and fact.required
+    }
+    intf = ("bank_platform", "services", "contracts", "service_intf_t")
+    message = ("bank_platform", "services", "data", "message_type_t")
+    assert templates == {"services": (intf,), "contracts": (intf,), "data": (message,)} or templates["services"] == ()
+
+
+def test_the_example_by_hand_is_conformant() -> None:
+    comparison = compare(EXPECTED, {"bank.idl": TELLER_IDL})
+    assert not comparison.differences
+    for requirement in ("R-12.7-08", "R-12.7-12", "R-12.8.2-03", "R-12.8.4-02", "R-12.8.4-07", "R-12.8.5-03"):
+        assert comparison.exercised[requirement] >= 1
+    assert comparison.readings["idl-template-names"] == {"upper"}
+
+
+EDITS = [
+    ("readonly attribute", "attribute", "R-12.8.1-04", "::bank::desk::TellerComponent.id"),
+    ("get_teller_api()", "get_teller_api(in long x)", "R-12.8.4-05", "::bank::desk::TellerComponent.teller"),
+    ("types::HelloInterface get", "PortElementObject get", "R-12.8.4-06", "::bank::desk::TellerComponent.teller"),
+    ("interface PrinterComponent { }", "interface PrinterComponent { PortElementObject get_printer_api(); }",
+     "R-12.8.4-07", "::bank::desk::PrinterComponent.printer"),
+    ("interface PrinterComponent { }", "interface PrinterComponent { PortElementObject get_asked_client(); }",
+     "R-12.8.4-02", "::bank::desk::PrinterComponent.asked"),
+    ("get_tp_TellerExecPolicy_", "get_tp_", "R-12.8.5-02", "::bank::desk::TellerComponentImpl.ExecPolicy"),
+    ("HelloInterface : PortElementObject", "HelloInterface", "R-12.8.3-02", "::bank::types::HelloInterface"),
+    ("trace_intf : PortElementObject", "trace_intf", "R-12.8.3-02", "::bank_platform::policy_mod::api::trace_intf"),
+    ("PrinterComponent, ComponentObject", "PrinterComponent", "R-12.8.2-03", "::bank::desk::PrinterComponentImpl"),
+    ("<typename MESSAGE_TYPE_T>", "<interface MESSAGE_TYPE_T>", "R-12.7-11", "::bank_platform::services::data"),
+    ("module services<interface SERVICE_INTF_T>", "module services", "R-12.7-12", "::bank_platform::services"),
+    ("typedef short", "typedef long", "R-12.3.1-02", "::bank::types::id_t"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "requirement", "element"), EDITS, ids=[e[2] for e in EDITS])
+def test_an_edit_is_told_with_requirement_element_and_places(
+    old: str, new: str, requirement: str, element: str
+) -> None:
+    (difference,) = differences(edited(old, new))
+    assert (difference.requirement, difference.rule) == (requirement, RULE_OF[requirement])
+    assert difference.element == element
+    name = element.rpartition("::")[2].rpartition(".")[2]
+    assert f'name="{name}"' in TELLER.splitlines()[difference.line_in_model - 1]
+    around = TELLER_IDL[: TELLER_IDL.index(old)].count("\n") + 1
+    assert difference.file == "bank.idl"
+    assert around - 1 <= difference.line <= around + 1
+    assert f"[{requirement}]" in str(difference)
+
+
+@pytest.mark.parametrize(
+    ("reading", "failed"),
+    [
+        ("idl-policy-getters=component-and-instance", False),
+        ("idl-policy-getters=instance", True),
+        ("idl-policy-getters=definition", True),
+        ("idl-template-names=upper", False),
+        ("idl-template-names=first", True),
+        ("idl-template-propagation=direct", False),
+        ("idl-template-propagation=containment", True),
+        ("index-annotations=always", False),
+    ],
+)
+def test_declared_readings_are_binding(reading: str, failed: bool) -> None:
+    assert bool(differences(TELLER_IDL, reading)) == failed
+
+
+def test_what_is_missing_is_told_once() -> None:
+    (difference,) = differences(TELLER_IDL[: TELLER_IDL.index("module bank {")])
+    assert (difference.requirement, difference.element) == ("R-12.7-06", "::bank")
+
+
+def test_nothing_is_missed_in_files_that_cannot_be_read() -> None:
+    (difference,) = differences(edited("typedef short id_t;", "typedef short id_t"))
+    assert (difference.requirement, difference.file, difference.line) == ("R-12.1-03", "bank.idl", 16)
+
+
+def test_no_files_are_no_idl_at_all() -> None:
+    comparison = compare(EXPECTED, {})
+    assert {d.requirement for d in comparison.differences} == {"R-12.7-06"}
+    assert "R-12.1-03" not in comparison.exercised
+
+
+def test_names_of_files_that_are_not_handed_over_are_believed() -> None:
+    head = TELLER_IDL.index("module bank_platform")
+    text = '#include "ucm/core.idl"\n' + TELLER_IDL[head:]
+    assert differences(text) == []
+    assert "R-12.1-03" in {d.requirement for d in differences(TELLER_IDL[head:])}
+
+
+def test_names_that_differ_in_case_are_other_names() -> None:
+    (difference,) = differences(TELLER_IDL.replace("PrinterComponent ", "printerComponent "))
+    assert difference.requirement in ("R-12.8.1-01", "R-12.1-03")
+
+
+def test_circles_of_names_end() -> None:
+    text = (
+        "typedef b a; typedef a b; interface i : j { }; interface j : i { a f(); }; const long c = d; const long d = c;"
+    )
+    template = "module t<typename T> { typedef T u; }; module t<x::u> x; module y::z<long> y; typedef y::u v;"
+    told = differences(TELLER_IDL + text + template)
+    assert {d.observed.split("'")[1] for d in told} == {"y::z", "y::u"}
+
+
+def test_all_that_clause_12_prints_belongs_to_a_requirement() -> None:
+    requirements = {requirement for requirement, _ in printed()}
+    assert requirements == set(STANDS_FOR["idl_standard"])
+
+
+LINES = TELLER_IDL.splitlines(keepends=True)
+
+
+@settings(max_examples=60, deadline=None, derandomize=True, database=None)
+@given(st.permutations(range(len(LINES))), st.integers(0, len(LINES)))
+def test_no_file_ends_the_comparison(order: list[int], length: int) -> None:
+    compare(EXPECTED, {"a.idl": "".join(LINES[n] for n in order[:length])})

@@ -1,0 +1,82 @@
+"""Profile idl on whole tool chains: the reference keeps all, each mutant breaks what it says, and no variant is failed."""
+
+from __future__ import annotations
+
+import functools
+
+import pytest
+from idl_subjects import Subject, subjects
+
+from ucm_cts.adapters.derived_toolchain.registry import Mutant, Variant, mutants, variants
+from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.harness.toolchains.idl.comparing import compare
+from ucm_cts.harness.toolchains.idl.omniidl import opinion
+from ucm_cts.harness.toolchains.idl.reading import read_files
+from ucm_cts.reference_models.idl.declarations import Module
+from ucm_cts.reference_models.idl.expectations import RULE_OF
+
+MUTANTS = {name: mutant for name, mutant in mutants().items() if mutant.task == "idl"}
+VARIANTS = {name: variant for name, variant in variants().items() if variant.task == "idl"}
+
+
+@functools.cache
+def changed(mutant: Mutant | Variant) -> tuple[Subject, ...]:
+    """The models of which a derived tool chain makes other files than the reference, with these files."""
+    generate = mutant.derive(reference()).generators["idl"]
+    made = (subject._replace(files=generate(subject.model)) for subject in subjects())
+    return tuple(one for one, same in zip(made, subjects(), strict=True) if one.files != same.files)
+
+
+@pytest.mark.parametrize("subject", subjects(), ids=[s.name for s in subjects()])
+def test_the_reference_is_conformant(subject: Subject) -> None:
+    comparison = compare(subject.expected, subject.files)
+    assert not comparison.differences
+    assert sum(comparison.exercised.values()) > len(subject.expected.facts) / 2
+
+
+@pytest.mark.parametrize("subject", subjects(), ids=[s.name for s in subjects()])
+def test_omniidl_takes_all_that_has_no_templates(subject: Subject) -> None:
+    read = read_files(subject.files)
+    assert not read.problems
+    assert not read.missing
+    text = str(read.declarations)
+    templates = "TemplateParameter(" in text
+    assert opinion(subject.files).verdict == ("none" if templates else "agreed")
+    assert Module.__name__ in text
+
+
+def test_every_requirement_with_a_rule_has_a_mutant_and_a_model() -> None:
+    testable = {r.id for r in load_requirements() if r.profile == "idl" and r.rules} - {"R-12-01"}
+    assert testable == RULE_OF.keys() - {"R-12-01"}
+    assert testable <= {requirement for mutant in MUTANTS.values() for requirement in mutant.breaks}
+    seen = {r for subject in subjects() for r in compare(subject.expected, subject.files).exercised}
+    only_if_used = {"R-12.4.1.3-03", "R-12.7-07"}  # the reference writes no default values and misplaces nothing
+    assert testable - seen == only_if_used
+
+
+@pytest.mark.parametrize("mutant", MUTANTS.values(), ids=MUTANTS.keys())
+def test_mutants_are_killed_for_the_right_reason(mutant: Mutant) -> None:
+    broken: set[str] = set()
+    readings = dict(reading.split("=") for reading in mutant.declares)
+    for subject in changed(mutant):
+        broken |= {d.requirement for d in compare(subject.expected, subject.files, readings).differences}
+        assert broken <= {*mutant.breaks, *mutant.also}
+        if broken >= set(mutant.breaks):
+            return
+    pytest.fail(f"survives: {broken}")
+
+
+@pytest.mark.parametrize("variant", VARIANTS.values(), ids=VARIANTS.keys())
+def test_variants_are_spared(variant: Variant) -> None:
+    subjects = changed(variant)
+    assert subjects
+    readings = dict(reading.split("=") for reading in variant.declares)
+    for subject in subjects[:3]:
+        assert not compare(subject.expected, subject.files, readings).differences, subject.name
+
+
+def test_omniidl_spares_the_variants() -> None:
+    for name, variant in VARIANTS.items():
+        for subject in changed(variant)[:1]:
+            assert opinion(subject.files).verdict != "refused", name
