@@ -221,7 +221,7 @@ def default_cases_come_last(program: Program) -> Program:
 
 @breaks("R-9.2.4.7-01", task="check")
 def enumerations_do_not_count(program: Program) -> Program:
-    """Takes an enumeration of three consecutive values for an error."""
+    """Takes an enumeration of the values 4, 5 and 6 for an error."""
     return refusing(program, Enumeration, lambda e, _: [one.value for one in e.enumerators] == [4, 5, 6])
 
 
