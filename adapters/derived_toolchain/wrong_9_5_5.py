@@ -72,7 +72,6 @@ def no_part_of_the_own_type(program: Program) -> Program:
             own is not None
             and (found := scope.find(part.instance_of, ComponentType)) is not None
             and found.element is own.element
-            and part.name != "inner"
             for part in composite.parts
         )
 
