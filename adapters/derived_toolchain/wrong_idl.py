@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.derived_toolchain.registry import breaks
-from ucm_cts.adapters.derived_toolchain.rewriting import STANDARD, appended, replaced
+from ucm_cts.adapters.derived_toolchain.rewriting import STANDARD, appended, replaced, rewritten
 from ucm_cts.adapters.toolchain.program import Program
 
 ENUM_INDEX = r'@IndexType\(typeid="(?!unsigned long")[^"]*"\)\n(?= *enum)'
@@ -288,3 +288,9 @@ def templates_are_plain_modules(program: Program) -> Program:
     program = replaced("", r"(module [a-z_]+)<(?:typename|interface) \w+> \{", r"\1 {")(program)
     program = replaced("", r" *module ::.*<.*> (\w+);\n", "")(program)
     return replaced("", r"\b\w+_(message_api|stream_api|more_api|watching_api)::", r"::PortElementObject //")(program)
+
+
+@breaks("R-12-01", task="idl")
+def generates_nothing(program: Program) -> Program:
+    """There is no file."""
+    return rewritten(program, lambda files: {})

@@ -50,6 +50,7 @@ def compare(
     read = read_files(files)
     vendor = Vendor(build(read.declarations), expected, readings, bool(read.problems), bool(read.missing))
     exercised: dict[str, int] = {}
+    unjudged: dict[str, str] = {}
     differences = list(_of_files(vendor, read, exercised))
     for fact in expected.facts:
         if vendor.is_printed(fact.path):
@@ -57,6 +58,8 @@ def compare(
         try:
             wrong = FACTS[type(fact)](vendor, fact)
         except NotExercised:
+            if read.problems:
+                unjudged[fact.requirement] = f"not all files can be read: {read.problems[0]}"
             continue
         told = [_difference(fact, one) for one in wrong]
         for requirement in {fact.requirement, *(one.requirement for one in told)}:
@@ -68,7 +71,7 @@ def compare(
             for one in second_opinion(files).problems
         ]
     seen = {option: frozenset(values) for option, values in vendor.met.items()}
-    return Comparison(exercised, tuple(dict.fromkeys(differences)), seen)
+    return Comparison(exercised, tuple(dict.fromkeys(differences)), seen, unjudged)
 
 
 def _difference(fact: Expected, wrong: Wrong) -> Difference:

@@ -74,7 +74,7 @@ def declares(vendor: Vendor, fact: Declares) -> list[Wrong]:
 def _missing(vendor: Vendor, fact: Declares) -> list[Wrong]:
     around = here(vendor, fact.path[:-1]) if len(fact.path) > 1 else None
     if not fact.needed or vendor.unreadable:
-        return []
+        raise NotExercised
     expected = f"{show_kind(fact.kind)} {'::'.join(fact.path)}"
     if fact.kind in ("operation", "attribute"):
         return [Wrong(expected, "no such thing", nearest(around))]
@@ -106,8 +106,8 @@ def means(vendor: Vendor, fact: Means) -> list[Wrong]:
                 declaration.place,
             )
         ]
-    if not vendor.known(found, hit.entry.scope):
-        return []
+    if not vendor.known(found, hit.entry.scope) or vendor.is_open(fact.type):
+        raise NotExercised
     right = vendor.same(found, hit.entry.scope, fact.type)
     if fact.requirement == ULONGLONG:
         right = _unsigned_long_long(vendor, found, hit.entry.scope)
@@ -142,7 +142,9 @@ def selects(vendor: Vendor, fact: Selects) -> list[Wrong]:
     hit = here(vendor, fact.path, Union)
     union = hit.entry.declaration
     assert isinstance(union, Union)
-    if not vendor.known(union.selector, hit.entry.scope) or vendor.same(union.selector, hit.entry.scope, fact.type):
+    if not vendor.known(union.selector, hit.entry.scope) or vendor.is_open(fact.type):
+        raise NotExercised
+    if vendor.same(union.selector, hit.entry.scope, fact.type):
         return []
     return [Wrong(f"switch ({show(fact.type)})", f"switch ({show(union.selector)})", union.place)]
 
@@ -188,7 +190,7 @@ def labelled(vendor: Vendor, fact: Labelled) -> list[Wrong]:
     wanted = {spelled(path[-1]).lower() for path in fact.labels}
     found = _chosen(case, union)
     if found is None:
-        return []
+        raise NotExercised
     default = None in case.labels
     right = found == wanted and not default
     if fact.default:
@@ -232,7 +234,9 @@ def valued(vendor: Vendor, fact: Valued) -> list[Wrong]:
     assert isinstance(constant, Constant)
     wanted = model_worth(fact.value, vendor.value_kind(fact.type), hit.entry.scope)
     found = worth(constant.value, hit.entry.scope)
-    if wanted is None or equal(found, wanted):
+    if wanted is None:
+        raise NotExercised
+    if equal(found, wanted):
         return []
     return [Wrong(f"{constant.name} = {show_worth(wanted)}", show_worth(found), constant.place)]
 
@@ -282,9 +286,9 @@ def parametrized(vendor: Vendor, fact: Parametrized) -> list[Wrong]:
 
 def undeclared(vendor: Vendor, fact: Undeclared) -> list[Wrong]:
     """Whether nothing has been made of what has no mapping."""
-    around = here(vendor, fact.path[:1])
+    here(vendor, fact.path[:1])
     hit = vendor.at(fact.path)
-    if hit is None or around is None:
+    if hit is None:
         return []
     declaration = hit.entry.declaration
     kind = kind_of(declaration)

@@ -52,10 +52,12 @@ def raises(vendor: Vendor, fact: Raises) -> list[Wrong]:
     assert isinstance(operation, Operation)
     found = [(name, resolve(name, hit.entry.scope)) for name in operation.raises]
     if any(one is None for _, one in found):
-        return []
+        raise NotExercised
     entries = {id(one.entry) for _, one in found if one is not None}
     wanted = [vendor.at(path) for path in fact.exceptions]
-    if any(one is None for one in wanted) or entries == {id(one.entry) for one in wanted if one is not None}:
+    if any(one is None for one in wanted):
+        raise NotExercised
+    if entries == {id(one.entry) for one in wanted if one is not None}:
         return []
     expected = ", ".join("::".join(path) for path in fact.exceptions) or "nothing"
     observed = ", ".join(operation.raises) or "nothing"
@@ -143,10 +145,10 @@ def getter(vendor: Vendor, fact: Getter) -> list[Wrong]:
     found = _getters(vendor, holder, fact.names)
     place = holder.entry.declaration.place
     if fact.aspect == "presence":
-        if found or not fact.needed:
+        if found:
             return []
         missing = vendor.missing and any(resolve(n, holder.entry.scope) is None for n in _base_list(holder))
-        if vendor.unreadable or missing:
+        if not fact.needed or vendor.unreadable or missing:
             raise NotExercised
         return [
             Wrong(f"operation {spelled(fact.names[0])} of {holder.entry.declaration.name}", "no such operation", place)
@@ -159,7 +161,9 @@ def getter(vendor: Vendor, fact: Getter) -> list[Wrong]:
     if fact.aspect == "arguments":
         parameters = [(p.direction, p.name) for p in operation.parameters]
         return [Wrong(f"{operation.name}()", f"({_shown(parameters)})", operation.place)] if parameters else []
-    if not vendor.known(operation.returns, hit.entry.scope, hit.bound) or _returns(vendor, hit, operation, fact):
+    if not vendor.known(operation.returns, hit.entry.scope, hit.bound) or vendor.is_open(fact.returns):
+        raise NotExercised
+    if _returns(vendor, hit, operation, fact):
         return []
     return [Wrong(f"{operation.name} to return {show(fact.returns)}", show(operation.returns), operation.place)]
 

@@ -132,7 +132,7 @@ class Vendor:
 
     def same(self, found: Type, scope: Scope, expected: Type, bound: Bound = NOTHING) -> bool:
         """Whether a vendor's type means the expected one. Nobody is held to what the model leaves open."""
-        if expected == Basic("") or self._open(expected) or self._standard(found, expected):
+        if expected == Basic("") or self.is_open(expected) or self._standard(found, expected):
             return True
         if isinstance(found, Annotated) and not isinstance(expected, Annotated):
             found = found.type
@@ -157,7 +157,7 @@ class Vendor:
             return self.same(found.element, scope, expected.element, bound)
         return self.meaning(found, scope, bound) == self.expected_meaning(expected)
 
-    def _open(self, expected: Type) -> bool:
+    def is_open(self, expected: Type) -> bool:
         """Whether it cannot be told what ``expected`` is in the IDL; that it is not there is told elsewhere."""
         path = tuple(expected.name.split("::")[1:]) if isinstance(expected, Named) else ()
         if not path or path in self.expected.abstract:
