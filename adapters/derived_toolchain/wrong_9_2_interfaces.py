@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.contract.metamodel.components import AbstractTypeBinding
+from ucm_cts.adapters.contract.metamodel.common import children
+from ucm_cts.adapters.contract.metamodel.components import AbstractTypeBinding, ComponentModule
 from ucm_cts.adapters.contract.metamodel.contracts import (
     AbstractDataType,
     AbstractInterface,
@@ -20,19 +21,35 @@ from ucm_cts.adapters.contract.metamodel.contracts import (
     PrimitiveBoolean,
     Structure,
 )
-from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, PortType
+from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionModule
+from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.derived_toolchain.registry import breaks
 from ucm_cts.adapters.derived_toolchain.strictness import overhearing, refusing
 from ucm_cts.adapters.toolchain.program import Program
 
 
-@breaks("R-9.2.7-01", task="check")
+@breaks(
+    "R-9.2.7-01",
+    task="check",
+    also=(
+        "R-9.3.4-05",
+        "R-9.4.3.2-02",
+        "R-9.4.3.2-12",
+        "R-9.5.3.7-03",
+        "R-9.5.3.7-05",
+        "R-9.5.5.4-08",
+        "R-9.5.5.6-05",
+    ),
+)
 def one_interface_a_module(program: Program) -> Program:
-    """Takes the second interface of a module for an error."""
-    return refusing(
-        program, ContractModule, lambda module, _: len(module.interfaces) == 2 and len(module.exceptions) == 0
-    )
+    """Takes a model of two interfaces for an error where neither has anything inside."""
+
+    def two_bare(model: Model, _: Scope) -> bool:
+        inside = [one for module in model.modules for one in children(module)]
+        return [type(one) for one in inside] == [Interface, Interface] and not any(map(tuple, map(children, inside)))
+
+    return refusing(program, Model, two_bare)
 
 
 @breaks("R-9.2.7-03", task="check")
@@ -47,7 +64,7 @@ def one_method_an_interface(program: Program) -> Program:
     return refusing(program, Interface, lambda interface, _: len(interface.methods) > 1)
 
 
-@breaks("R-9.2.7-09", task="check")
+@breaks("R-9.2.7-09", task="check", also=("R-9.4.3.2-02",))
 def methods_have_parameters(program: Program) -> Program:
     """Takes a method of several IN parameters for an error."""
 
@@ -107,14 +124,15 @@ def one_annotation_a_method(program: Program) -> Program:
     return refusing(program, Method, lambda method, _: len(method.annotations) > 1)
 
 
-@breaks("R-9.2.7.3-01", task="check")
-def parameters_are_data(program: Program) -> Program:
-    """Takes a parameter that is an interface for an error, abstract or not."""
+@breaks("R-9.2.7.3-01", task="check", also=("R-9.2.2.5-02",))
+def parameters_do_something(program: Program) -> Program:
+    """Takes a parameter that is an interface without methods for an error."""
 
-    def of_interface(parameter: Parameter, scope: Scope) -> bool:
-        return scope.find(parameter.type, Interface, AbstractInterface) is not None
+    def of_bare_interface(parameter: Parameter, scope: Scope) -> bool:
+        found = scope.find(parameter.type, Interface)
+        return found is not None and not any(children(found.element))
 
-    return refusing(program, Parameter, of_interface)
+    return refusing(program, Parameter, of_bare_interface)
 
 
 @breaks("R-9.2.7.4-01", task="check")
@@ -145,23 +163,21 @@ def exceptions_without_hyphens(program: Program) -> Program:
     return refusing(program, Exception_, lambda exception, _: "-" in exception.name)
 
 
-@breaks("R-9.2.7.6-01", task="check")
+@breaks("R-9.2.7.6-01", task="check", also=("R-9.2.2.4-04",))
 def exceptions_are_flat(program: Program) -> Program:
     """Takes a field of an exception that is a structure for an error."""
     return refusing(program, ExceptionField, lambda field, scope: scope.find(field.type, Structure) is not None)
 
 
 @breaks("R-9.2.8-01", task="check")
-def one_abstract_type_a_module(program: Program) -> Program:
-    """Takes several abstract types in a module for an error if nothing is there to use them."""
+def abstract_types_are_used(program: Program) -> Program:
+    """Takes a module of more than two abstract types and nothing else for an error."""
 
-    def several(module: ContractModule, _: object) -> bool:
-        abstract = [
-            t for t in (*module.data_types, *module.interfaces) if isinstance(t, AbstractDataType | AbstractInterface)
-        ]
-        return len(abstract) > 1 and len(module.interfaces) < 2
+    def only_abstract(module: ContractModule, _: Scope) -> bool:
+        inside = tuple(children(module))
+        return len(inside) > 2 and all(isinstance(one, AbstractDataType | AbstractInterface) for one in inside)
 
-    return refusing(program, ContractModule, several)
+    return refusing(program, ContractModule, only_abstract)
 
 
 @breaks("R-9.2.8-02", task="check")
@@ -180,35 +196,55 @@ def abstract_types_go_one_way(program: Program) -> Program:
     )
 
 
-@breaks("R-9.2.8.2-01", task="check")
+@breaks(
+    "R-9.2.8.2-01",
+    task="check",
+    also=(
+        "R-9-01",
+        "R-9.3.5.2-02",
+    ),
+)
 def abstract_interfaces_are_required(program: Program) -> Program:
-    """Takes a port type that does nothing but provide an abstract interface for an error."""
+    """Takes a port type that provides an abstract interface for an error in a module without patterns."""
 
-    def provided(port_type: PortType, scope: Scope) -> bool:
-        return any(e.kind == "PROVIDED" and scope.find(e.interface, AbstractInterface) for e in port_type.port_elements)
+    def provided(module: InteractionModule, scope: Scope) -> bool:
+        abstract = {i.name for c in module.contract_modules for i in c.interfaces if isinstance(i, AbstractInterface)}
+        elements = [e for port_type in module.port_types for e in port_type.port_elements if not module.patterns]
+        return any(e.kind == "PROVIDED" and e.interface.rpartition("::")[2] in abstract for e in elements)
 
-    return refusing(program, PortType, provided)
+    return refusing(program, InteractionModule, provided)
 
 
 @breaks("R-9.2.8-04", task="check")
-def ports_bind_nothing(program: Program) -> Program:
-    """Takes a binding of an abstract type for an error."""
-    return refusing(program, AbstractTypeBinding, lambda _binding, _scope: True)
+def actual_types_are_named_from_the_root(program: Program) -> Program:
+    """Takes a binding of an abstract type for an error if the actual one is named by a relative path."""
+    return refusing(
+        program, AbstractTypeBinding, lambda b, _: "::" in b.actual_type.lstrip(":") and b.actual_type[0] != ":"
+    )
 
 
-@breaks("R-9.2.9-01", task="check")
-def one_parameter_a_connector(program: Program) -> Program:
-    """Takes the second configuration parameter of a connector for an error."""
-    return refusing(program, ConnectorDefinition, lambda connector, _: len(connector.configuration_parameters) > 1)
+@breaks("R-9.2.9-01", task="check", also=("R-9.3.1-11",))
+def connectors_are_not_configured_by_enumerations(program: Program) -> Program:
+    """Takes a configuration parameter of a connector for an error if it is an enumeration."""
+
+    def of_enumeration(connector: ConnectorDefinition, scope: Scope) -> bool:
+        return any(scope.find(p.type, Enumeration) for p in connector.configuration_parameters)
+
+    return refusing(program, ConnectorDefinition, of_enumeration)
 
 
 @breaks("R-9.2.9-02", task="check")
-def attributes_without_annotations(program: Program) -> Program:
-    """Takes an annotation of an attribute for an error."""
-    return refusing(program, Attribute, lambda attribute, _: attribute.annotations)
+def components_and_their_interfaces_are_not_both_annotated(program: Program) -> Program:
+    """Takes the annotation of a component type for an error if an interface beside it has one, too."""
+
+    def both(module: ComponentModule, _: Scope) -> bool:
+        interfaces = [i for c in module.contract_modules for i in c.interfaces if isinstance(i, Interface)]
+        return any(i.annotations for i in interfaces) and any(t.annotations for t in module.component_types)
+
+    return refusing(program, ComponentModule, both)
 
 
-@breaks("R-9.2.9.1-01", task="check")
+@breaks("R-9.2.9.1-01", task="check", also=("R-9.2.2.7-01",))
 def parameters_are_numbers(program: Program) -> Program:
     """Takes a boolean configuration parameter with a default value for an error."""
     return refusing(
