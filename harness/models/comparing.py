@@ -41,10 +41,10 @@ _CHILDREN: Mapping[str, tuple[str, ...]] = {
     "Structure": ("StructureField",),
     "Enumeration": ("Enumerator",),
     "TechnicalPolicyDefinition": ("PortElement", "ConfigurationParameter"),
-    "TemplatedPort": ("PortElement",),
+    "PortType": ("PortElement",),
     "InteractionPattern": ("InteractionRole", "InteractionItem"),
     "InteractionRole": ("InvolvedItem",),
-    "ConnectorDefinition": ("ConnectorPortDefinition", "ItemBinding", "ConfigurationParameter"),
+    "ConnectorDefinition": ("ConnectorPort", "ItemBinding", "ConfigurationParameter"),
     "ContractModule": ("NativeType",),
 }
 """Children that count: one more than 10.1 has is too many. All others are free."""

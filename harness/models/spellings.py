@@ -12,29 +12,12 @@ from pathlib import Path
 
 from lxml import etree
 
+from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
+from ucm_cts.adapters.contract.metamodel.spelling import LITERALS, SPELLINGS, TAGS
 from ucm_cts.harness.documents import DocumentError, read_text
 
 MODULES = ("ContractModule", "InteractionModule", "NonfunctionalAspectModule")
 
-_SAME_TAG = {
-    "PortType": "TemplatedPort",
-    "ConnectorPort": "ConnectorPortDefinition",
-    "AbstractInterface": "InterfaceTypeTemplateParameter",
-    "InterfaceTemplateParameter": "InterfaceTypeTemplateParameter",
-    "AbstractDataType": "DataTypeTemplateParameter",
-    "PrimitiveType": "PrimitiveInteger",
-    "InteractionDefinitionModule": "InteractionModule",
-    "TechnicalPolicyModule": "NonfunctionalAspectModule",
-    "String8": "StringType",
-    "String32": "StringType",
-}
-_SAME_ATTRIBUTE = {
-    "aliasedPrimitive": "kind",
-    "indexValue": "value",
-    "intf": "interface",
-    "baseChar": "charBase",
-    "size": "maxSize",
-}
 _IMPLIED = {
     "String8": {"charBase": "CHAR8", "maxSize": "-1"},
     "String32": {"charBase": "CHAR32", "maxSize": "-1"},
@@ -47,37 +30,25 @@ def words(text: str) -> tuple[str, ...]:
     return tuple(text.split())
 
 
-KNOWN_TAGS = frozenset(
-    words("""
-    Alias Annotation AnnotationDefinition ApplicationModule Array ArrayDimension ArrayType Attribute ComponentModule
-    ConfigurationParameter ConfigurationParameterValue ConnectorDefinition ConnectorPortDefinition Constant
-    ContractModule DataTypeTemplateParameter Enumeration Enumerator Exception ExceptionField InteractionItem
-    InteractionModule InteractionPattern InteractionRole Interface InterfaceTypeTemplateParameter InvolvedItem
-    ItemBinding Language Method NativeType NonfunctionalAspectModule Parameter PlatformModule PortElement
-    PrimitiveBoolean PrimitiveChar PrimitiveFloat PrimitiveInteger ProgrammingLanguages PropertyDefinition
-    RaisedException Sequence SequenceType SimpleComment StringType Structure StructureField TechnicalAspect
-    TechnicalPolicyDefinition TemplatedPort Union UnionCase
-    """)
-)
+KNOWN_TAGS = frozenset(spelling.tag for spelling in SPELLINGS.values())
 """Spellings that the text prints or that follow from its meta-model, after those that mean the same were made one."""
 
-KNOWN_ATTRIBUTES = frozenset(
-    words("""
-    api applicability charBase connectorItem defaultValue direction extends indexType inheritedInterface interactionItem
-    interface item kind language lowerMultiplicity maxSize mode multiplicity name nature pattern portRole size
-    technicalAspect type upperMultiplicity value
-    """)
-)
+KNOWN_ATTRIBUTES = frozenset(a for spelling in SPELLINGS.values() for a in spelling.attributes) | {"inheritedInterface"}
 
-INTEGERS = words("BYTE SHORT LONG LONGLONG UBYTE USHORT ULONG ULONGLONG")
-_WORDS = {
-    "kind": (*INTEGERS, *words("FLOAT DOUBLE LONGDOUBLE CHAR8 CHAR32 PROVIDED REQUIRED")),
-    "direction": words("IN OUT INOUT RETURN"),
-    "nature": words("DATA INTERFACE"),
-    "charBase": words("CHAR8 CHAR32"),
-    "applicability": words("onComponent onPort onBoth"),
-    "multiplicity": words("anyNumber atMostOne exactlyOne atLeastOne"),
-}
+INTEGERS = tuple(INTEGER_RANGES)
+
+
+def _words() -> dict[str, tuple[str, ...]]:
+    """What may stand in attributes that hold words, in canonical spelling."""
+    found: dict[str, tuple[str, ...]] = {}
+    for cls, fields in LITERALS.items():
+        for held, meanings in fields.items():
+            attribute = SPELLINGS[cls].attribute(held)
+            found[attribute] = tuple(dict.fromkeys((*found.get(attribute, ()), *meanings.values())))
+    return found
+
+
+_WORDS = _words()
 _NUMBERS = words("value lowerMultiplicity upperMultiplicity maxSize")
 _NUMBER = re.compile("[-+]?[0-9]{1,18}")
 _SAME_WORD = {"anynumer": "anyNumber"} | {word.lower(): word for printed in _WORDS.values() for word in printed}
@@ -148,7 +119,7 @@ def _add(parent: Element, source: etree._Element, path: Path) -> None:
     attributes = dict(_IMPLIED.get(_local(source), {}))
     for key, value in source.attrib.items():
         if not str(key).startswith("{"):
-            name = _SAME_ATTRIBUTE.get(str(key), str(key))
+            name = _attribute(tag, str(key))
             attributes[name] = _value(name, str(value).strip())
     if _name(source):
         attributes["name"] = _name(source)
@@ -175,7 +146,15 @@ def _name(element: etree._Element) -> str:
 
 
 def _tag(element: etree._Element) -> str:
-    return _SAME_TAG.get(_local(element), _local(element))
+    cls = TAGS.get(_local(element))
+    return SPELLINGS[cls].tag if cls is not None else _local(element)
+
+
+def _attribute(tag: str, key: str) -> str:
+    """The canonical name of an attribute of elements with a canonical ``tag``."""
+    spelling = SPELLINGS[TAGS[tag]] if tag in TAGS else None
+    field = spelling.other_attributes.get(key) if spelling is not None else None
+    return spelling.attribute(field) if spelling is not None and field is not None else key
 
 
 def _local(element: etree._Element) -> str:
