@@ -29,6 +29,8 @@ PRINTED = Dialect(
     },
     attributes={"PrimitiveInteger.kind": "aliasedPrimitive", "maxSize": "size", "charBase": "baseChar"},
     literals={"anyNumber": "anyNumer", "PROVIDED": "provided", "REQUIRED": "required", "DATA": "data"},
+    short_strings=True,
+    delegation_attributes=True,
 )
 
 
@@ -68,6 +70,20 @@ def test_references_follow_their_names() -> None:
     assert first.type == f"::{module.name}::{enumeration.name}"
     assert first.value == enumeration.enumerators[0].name  # type: ignore[union-attr]
     assert second.value == first.name
+
+
+def test_strings_and_delegations_are_written_in_either_printed_way() -> None:
+    text = (
+        '<Model><StringType name="s" charBase="CHAR32" maxSize="4"/><StringType name="t" charBase="C"/>'
+        '<PortDelegation port="p"><ConnectionEnd name="e" part="a" port="q"/></PortDelegation>'
+        '<PortDelegation port="p"><ConnectionEnd part="a"/><ConnectionEnd part="b"/></PortDelegation></Model>'
+    )
+    other = Dress(None, Dialect(short_strings=True, delegation_attributes=True)).of(text)
+    assert other == (
+        '<Model><String32 name="s" maxSize="4"/><StringType name="t" charBase="C"/>'
+        '<PortDelegation port="p" internalPart="a" internalPort="q"/>'
+        '<PortDelegation port="p"><ConnectionEnd part="a"/><ConnectionEnd part="b"/></PortDelegation></Model>'
+    )
 
 
 def test_what_is_no_xml_is_left_alone() -> None:

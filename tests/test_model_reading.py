@@ -261,6 +261,20 @@ def test_core_in_another_dialect_is_the_same() -> None:
         assert (again.problems, without_lines(again.model)) == ((), model)
 
 
+def test_a_delegation_is_written_in_either_printed_way() -> None:
+    delegations = (
+        components.PortDelegation(port="p", ends=(components.ConnectionEnd(name="e", part="a", port="q"),)),
+        components.PortDelegation(port="p"),
+    )
+    composite = components.CompositeComponentImplementation(name="c", type="t", delegations=delegations)
+    model = Model(modules=(components.ComponentModule(name="m", implementations=(composite,)),))
+    written = write_model(model, Dialect(delegation_attributes=True))
+    assert b'<PortDelegation port="p" internalPart="a" internalPort="q"/>' in written
+    assert b'<PortDelegation port="p"/>' in written
+    assert b"ConnectionEnd" not in written
+    assert b'<ConnectionEnd name="e" part="a" port="q"/>' in write_model(model)
+
+
 def test_whatever_a_value_holds_is_written_so_that_it_is_read_again() -> None:
     value = "a<b>&\"'\t\n\r é\u2028\U0001f600"
     model = Model(

@@ -16,6 +16,7 @@ from pathlib import Path
 from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.contracts import CHAR_KINDS, FLOAT_KINDS, INTEGER_RANGES
+from ucm_cts.adapters.contract.metamodel.spelling import SHORT_STRINGS
 from ucm_cts.adapters.contract.metamodel.writing import CANONICAL, Dialect
 from ucm_cts.harness.catalogue import SUITE
 
@@ -79,9 +80,11 @@ class Dress:
             root = etree.fromstring(text.encode())
         except (etree.XMLSyntaxError, UnicodeEncodeError):
             return text
-        for element in root.iter(etree.Element):
-            if self.seed is not None:
+        elements = list(root.iter(etree.Element))
+        if self.seed is not None:
+            for element in elements:
                 _rename(element, self.seed)
+        for element in elements:
             _respell(element, self.dialect)
         return etree.tostring(root, encoding="unicode")
 
@@ -119,9 +122,34 @@ def _in_value(token: str, seed: int) -> str:
 
 def _respell(element: etree._Element, dialect: Dialect) -> None:
     tag = str(element.tag)
+    if dialect.delegation_attributes and tag == "PortDelegation":
+        _take_end_out(element)
+    elif dialect.short_strings and tag == "StringType":
+        tag = _shorten(element)
     attributes: Mapping[str, str] = {str(a): str(v) for a, v in element.attrib.items()}
     element.attrib.clear()
     for attribute, value in attributes.items():
         name = dialect.attributes.get(f"{tag}.{attribute}", dialect.attributes.get(attribute, attribute))
         element.set(name, dialect.literals.get(value, value))
     element.tag = dialect.tags.get(tag, tag)
+
+
+def _take_end_out(delegation: etree._Element) -> None:
+    """Let ``delegation`` name its one inner port in attributes; several ends, or none, can only be written as they are."""
+    ends = delegation.findall("ConnectionEnd")
+    if len(ends) != 1:
+        return
+    for attribute, internal in (("part", "internalPart"), ("port", "internalPort")):
+        if attribute in ends[0].attrib:
+            delegation.set(internal, str(ends[0].get(attribute)))
+    delegation.remove(ends[0])
+
+
+def _shorten(string: etree._Element) -> str:
+    """The tag that says the characters of ``string`` by itself, and its own where no tag does."""
+    chars = str(string.get("charBase", ""))
+    for tag, its_chars in SHORT_STRINGS.items():
+        if chars == its_chars:
+            del string.attrib["charBase"]
+            return tag
+    return str(string.tag)

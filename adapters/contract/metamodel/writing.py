@@ -8,6 +8,7 @@ from xml.sax.saxutils import quoteattr
 import msgspec
 
 from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.components import PortDelegation
 from ucm_cts.adapters.contract.metamodel.contracts import StringType
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.spelling import SHORT_STRINGS, SPELLINGS
@@ -18,20 +19,24 @@ class Dialect(msgspec.Struct, frozen=True, kw_only=True):
 
     ``tags`` maps canonical tags to others, ``attributes`` canonical ``Tag.attribute`` or, for all tags, ``attribute``,
     and ``literals`` words of enumerations. With ``short_strings`` a string type without annotations about its
-    characters is a String8 or String32.
+    characters is a String8 or String32. With ``delegation_attributes`` a delegation names its inner port in attributes of its
+    own, not in a ConnectionEnd (9.5.5.8).
     """
 
     tags: Mapping[str, str] = {}
     attributes: Mapping[str, str] = {}
     literals: Mapping[str, str] = {}
     short_strings: bool = False
+    delegation_attributes: bool = False
 
 
 CANONICAL = Dialect()
 
 
 def write_model(model: Model, dialect: Dialect = CANONICAL) -> bytes:
-    """``model`` as a file; reading it gives an equal model, but for lines. A model of one module has no root around it."""
+    """``model`` as a file; reading it gives an equal model, but for lines and ``delegation_attributes``. A model of one module has
+    no root around it.
+    """
     roots: tuple[Element, ...] = model.modules if len(model.modules) == 1 else (model,)
     lines = ['<?xml version="1.0" encoding="UTF-8"?>']
     for root in roots:
@@ -47,12 +52,22 @@ def _written(outermost: Element, dialect: Dialect) -> Iterator[str]:
         if element is None:
             yield text
             continue
+        if dialect.delegation_attributes and isinstance(element, PortDelegation):
+            element = _without_end(element)
         tag, attributes = _begun(element, dialect)
         inside = [child for field in SPELLINGS[type(element)].contained for child in getattr(element, field)]
         yield f"{text}<{tag}{attributes}{'' if inside else '/'}>"
         if inside:
             waiting.append((f"{text}</{tag}>", None))
             waiting.extend((text + "  ", child) for child in reversed(inside))
+
+
+def _without_end(delegation: PortDelegation) -> PortDelegation:
+    """``delegation`` with its one inner port in attributes; as it is if it does not have just one."""
+    if len(delegation.ends) != 1:
+        return delegation
+    (end,) = delegation.ends
+    return msgspec.structs.replace(delegation, internal_part=end.part, internal_port=end.port, ends=())
 
 
 def _begun(element: Element, dialect: Dialect) -> tuple[str, str]:
