@@ -28,7 +28,7 @@ TASKS: dict[str, Task] = {"pim": "check", "idl": "idl", "cpp11": "cpp11", "cpp03
 
 
 class Fact(msgspec.Struct, frozen=True):
-    """One thing that what was made of a model says of a requirement.
+    """One thing that what was made of a model says of a requirement, or, where that is empty, a remark to be counted.
 
     ``finding`` is None where it was kept. ``unclear`` says why it says nothing, and then counts for nothing. ``asked`` are the
     names of the models whose processing it rests on, the last one being that which shows it.
@@ -130,6 +130,8 @@ class ToolChainCampaign:
         self._facts = list(self._examination.judge(self._made, self._looked))
         for fact in self._facts:
             self._measures[fact.measure or "facts"] += 1
+            if not fact.requirement:
+                continue
             if fact.unclear:
                 self._tally.settle(fact.requirement, "inconclusive", f"{fact.asked[-1]}: {fact.unclear}")
                 continue

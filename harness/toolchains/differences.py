@@ -31,10 +31,11 @@ class Difference:
 @dataclass(frozen=True)
 class Comparison:
     """How often each requirement was looked at, and what broke it. ``readings`` are the values of options that were met,
-    ``unjudged`` says of requirements why they were not looked at, or not everywhere.
+    ``unjudged`` says of requirements why they were not looked at, or not everywhere. ``remarks`` are for the report's effort.
     """
 
     exercised: Mapping[str, int]
     differences: tuple[Difference, ...]
     readings: Mapping[str, frozenset[str]] = field(default_factory=dict)
     unjudged: Mapping[str, str] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()

@@ -22,6 +22,7 @@ from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.generation import Generation
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS
 from ucm_cts.harness.toolchains.idl.comparing import compare as compare_idl
+from ucm_cts.harness.toolchains.idl.omniidl import opinion
 from ucm_cts.reference_models.cpp.expected import Standard
 from ucm_cts.reference_models.idl.expectations import STANDS_FOR
 from ucm_cts.reference_models.idl.mapping import expected_idl
@@ -68,7 +69,7 @@ def examination_for(
 
 
 def _compare_idl(readings: Mapping[str, str], model: Model, files: Mapping[str, str]) -> Comparison:
-    return compare_idl(expected_idl(model), files, readings)
+    return compare_idl(expected_idl(model), files, readings, opinion)
 
 
 def _compare_cpp(

@@ -99,6 +99,7 @@ class Generation:
         for requirement, times in comparison.exercised.items():
             for _ in range(times - len(broken.get(requirement, ()))):
                 yield Fact(requirement, (name,), measure="declarations as they should be")
+        yield from (Fact("", (name,), measure=remark) for remark in comparison.remarks)
         for requirement, why in comparison.unjudged.items():
             yield Fact(requirement, (name,), unclear=why)
         for requirement, differences in broken.items():

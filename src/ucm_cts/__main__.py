@@ -11,8 +11,11 @@ def main() -> None:
     if sys.argv[1:] == ["--cmakedir"]:
         print(Path(__file__).parent / "share" / "cmake" / "ucm_cts")
         return
-    from ucm_cts.harness.commands import main as command_line
-
+    try:
+        from ucm_cts.harness.commands import main as command_line
+    except KeyboardInterrupt:
+        sys.stderr.write("ucm-cts: interrupted\n")
+        sys.exit(3)
     command_line()
 
 

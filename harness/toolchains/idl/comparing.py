@@ -65,13 +65,16 @@ def compare(
         for requirement in {fact.requirement, *(one.requirement for one in told)}:
             exercised[requirement] = exercised.get(requirement, 0) + 1
         differences += told
+    remarks: tuple[str, ...] = ()
     if second_opinion is not None and not any(d.rule == "idl_syntax" for d in differences):
+        second = second_opinion(files)
         differences += [
             _about_files("R-12.1-03", Wrong("IDL", f"omniidl: {one.text}", Place(one.file, one.line)))
-            for one in second_opinion(files).problems
+            for one in second.problems
         ]
+        remarks = ("models that omniidl judged, too" if second.verdict != "none" else "models without omniidl's opinion",)
     seen = {option: frozenset(values) for option, values in vendor.met.items()}
-    return Comparison(exercised, tuple(dict.fromkeys(differences)), seen, unjudged)
+    return Comparison(exercised, tuple(dict.fromkeys(differences)), seen, unjudged, remarks)
 
 
 def _difference(fact: Expected, wrong: Wrong) -> Difference:
