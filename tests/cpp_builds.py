@@ -31,6 +31,7 @@ PACKAGE = Path(ucm_cts.__file__).parent
 
 STRICT = ["-std=c++11", "-pedantic-errors", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
 ADAPTER = ROOT / "adapters" / "reference_cpp" / "adapter.cpp"
+TYPED_BODIES = ROOT / "adapters" / "reference_cpp" / "typed" / "bodies.cpp"
 FRAMEWORK_SOURCES = sorted((FRAMEWORK / "src").glob("*.cpp"))
 
 RUDE = """
@@ -133,7 +134,7 @@ class Builds:
             (folder / f"{name}.cpp").write_text(text)
         framework = folder / "framework.cpp"  # compiled at once: most of the time goes into headers
         framework.write_text("".join(f'#include "{source}"\n' for source in FRAMEWORK_SOURCES))
-        reference = [ADAPTER, framework]
+        reference = [ADAPTER, TYPED_BODIES, framework]
         tsan = ["-fsanitize=thread", "-g1"]
         asan = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g1"]
         self._programs: dict[str, Future[Path]] = {

@@ -263,7 +263,8 @@ def test_run_is_a_hook_like_any_other(builds: Builds) -> None:
 
 
 @pytest.mark.parametrize("sanitizer", ["asan", "tsan"])
-def test_sanitizers_have_nothing_to_say(builds: Builds, sanitizer: str) -> None:
+def test_sanitizers_have_nothing_to_say(builds: Builds, sanitizer: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("UCM_CTS_LWUCM_BODIES", "generic")
     runs = [m.Run(n, scenario, stream=n % 2 == 0) for n in range(10) for scenario in concurrent_scenarios()]
     answers, err, status = talk(builds.program(sanitizer), *runs, b"junk\n")
     assert (err, status) == ("", 0)

@@ -9,3 +9,9 @@ COMMAND = Path(__file__).parent.parent / "bin" / "reference-cpp"
 
 STATEMENT = Path(__file__).parent / "ics.toml"
 """What is stated of the framework."""
+
+TYPED_COMMAND = COMMAND.with_name("reference-cpp-typed")
+"""The same with typed component bodies (13.9)."""
+
+TYPED_STATEMENT = STATEMENT.with_name("ics_typed.toml")
+"""What is stated of that."""

@@ -1,66 +1,17 @@
-// Binds the C++ reference framework: the only place that knows both it and the SDK (with values.hpp).
+// Binds the C++ reference framework: the only place that knows both it and the SDK (with hosting.hpp and values.hpp).
 #include <cstdlib>
 
-#include <lwucm/runtime.hpp>
 #include <ucm_cts/main.hpp>
-#include <ucm_cts/shaped.hpp>
 
+#include "hosting.hpp"
 #include "values.hpp"
 
 namespace {
 
+using reference_cpp::Lwucm;
 using reference_cpp::lwucm_interface;
 using reference_cpp::to_data;
 using reference_cpp::to_values;
-
-struct Lwucm {
-    typedef lwucm::PortElementObject PortElementObject;
-    typedef lwucm::ComponentObject ComponentObject;
-    typedef lwucm::FragmentObject FragmentObject;
-    typedef lwucm::Connectable Connectable;
-    typedef lwucm::Container Container;
-    typedef lwucm::Runtime ContainerManager;
-    typedef lwucm::component_execution_intf ComponentExecution;
-    typedef lwucm::NOT_FOUND NOT_FOUND;
-    typedef lwucm::BAD_PARAMETER BAD_PARAMETER;
-    typedef lwucm::UCM_ERROR UCM_ERROR;
-
-    static std::shared_ptr<ContainerManager> create_runtime(
-        const std::vector<ucm_cts::ShapedImplementation<Lwucm>>& implementations);
-
-    static lwucm::Properties configuration(const std::string& implementation, const ucm_cts::Attributes& attributes) {
-        return ucm_cts::properties<lwucm::Properties>("implementation", implementation, attributes);
-    }
-
-    static std::shared_ptr<PortElementObject> typed(const ucm_cts::Reference& own,
-                                                    const ucm_cts::SharedInterface& interface);
-    static ucm_cts::Data call(PortElementObject& element, const std::string& method, const ucm_cts::Data& arguments);
-};
-
-// What a code generator would make of the probes' interface, to stand before port elements of protected components.
-class InterceptedExchange final : public ucm_cts::ShapedExchange<Lwucm> {
-    typedef ucm_cts::ShapedExchange<Lwucm> Exchange;
-
-  public:
-    InterceptedExchange(const std::shared_ptr<lwucm::PortElementObject>& target,
-                        std::shared_ptr<lwucm::Interceptor> interceptor)
-        : target_(std::dynamic_pointer_cast<Exchange>(target)), interceptor_(std::move(interceptor)) {}
-
-    std::int32_t exchange(std::int32_t value) override {
-        std::int32_t result = 0;
-        interceptor_->call("exchange", [&] { result = target_->exchange(value); });
-        return result;
-    }
-
-    static std::shared_ptr<lwucm::PortElementObject> make(const std::shared_ptr<lwucm::PortElementObject>& target,
-                                                          const std::shared_ptr<lwucm::Interceptor>& interceptor) {
-        return std::make_shared<InterceptedExchange>(target, interceptor);
-    }
-
-  private:
-    const std::shared_ptr<Exchange> target_;
-    const std::shared_ptr<lwucm::Interceptor> interceptor_;
-};
 
 const lwucm::Type* find_exception(const lwucm::Method& method, const std::string& name) {
     for (const lwucm::TypePtr& exception : method.raises()) {
@@ -96,6 +47,38 @@ class ProbeElement final : public lwucm::DynamicPortElement, public ucm_cts::Pro
     const lwucm::InterfacePtr interface_;
 };
 
+std::string product() {
+    return lwucm::product() + std::string(reference_cpp::typed_bodies() ? ", typed bodies" : "");
+}
+
+// How conformant variants are asked for, see framework/README.md.
+lwucm::Options options() {
+    const char* const chosen = std::getenv("UCM_CTS_LWUCM_OPTIONS");
+    return lwucm::parse_options(chosen != nullptr ? chosen : "");
+}
+
+std::shared_ptr<lwucm::PortElementObject> stand_in(const std::string&,
+                                                   const std::shared_ptr<lwucm::PortElementObject>& target,
+                                                   const std::shared_ptr<lwucm::Interceptor>& interceptor) {
+    return lwucm::stand_in<Lwucm::Exchange>(target, interceptor);
+}
+
+lwucm::Implementation implementation(const ucm_cts::ShapedImplementation<Lwucm>& one) {
+    lwucm::Policies policies = {{}, one.get_policy_element, stand_in};
+    for (const ucm_cts::Policy& policy : one.policies) {
+        policies.applied.push_back({policy.definition, policy.port, policy.parameters, policy.element});
+    }
+    std::map<std::string, lwucm::InterfacePtr> interfaces;
+    for (const auto& interface : one.interfaces) {
+        interfaces.emplace(interface.first, lwucm_interface(*interface.second));
+    }
+    return {one.name, one.provided, one.required, one.attributes, one.create, one.set_attribute, policies, interfaces};
+}
+
+}  // namespace
+
+namespace reference_cpp {
+
 std::shared_ptr<lwucm::PortElementObject> Lwucm::typed(const ucm_cts::Reference& own,
                                                        const ucm_cts::SharedInterface& interface) {
     return std::make_shared<ProbeElement>(own, lwucm_interface(*interface));
@@ -111,29 +94,27 @@ ucm_cts::Data Lwucm::call(PortElementObject& element, const std::string& name, c
     }
 }
 
-// How conformant variants are asked for, see framework/README.md.
-lwucm::Options options() {
-    const char* const chosen = std::getenv("UCM_CTS_LWUCM_OPTIONS");
-    return lwucm::parse_options(chosen != nullptr ? chosen : "");
-}
-
 std::shared_ptr<lwucm::Runtime> Lwucm::create_runtime(
     const std::vector<ucm_cts::ShapedImplementation<Lwucm>>& implementations) {
     lwucm::Repository repository;
     for (const auto& one : implementations) {
-        lwucm::Policies policies = {{}, one.get_policy_element, InterceptedExchange::make};
-        for (const ucm_cts::Policy& policy : one.policies) {
-            policies.applied.push_back({policy.definition, policy.port, policy.parameters, policy.element});
+        lwucm::Implementation made = implementation(one);
+        if (typed_bodies()) {
+            typed_bodies()(one, made);
         }
-        std::map<std::string, lwucm::InterfacePtr> interfaces;
-        for (const auto& interface : one.interfaces) {
-            interfaces.emplace(interface.first, lwucm_interface(*interface.second));
-        }
-        repository.add({one.name, one.provided, one.required, one.attributes, one.create, one.set_attribute, policies,
-                        interfaces});
+        repository.add(std::move(made));
     }
     return lwucm::create_runtime(repository, options());
 }
+
+TypedBodies& typed_bodies() {
+    static TypedBodies linked;
+    return linked;
+}
+
+}  // namespace reference_cpp
+
+namespace {
 
 class LwucmAdapter final : public ucm_cts::ShapedAdapter<Lwucm> {
     typedef ucm_cts::ContainerHandle Handle;
@@ -190,4 +171,4 @@ class LwucmAdapter final : public ucm_cts::ShapedAdapter<Lwucm> {
 
 }  // namespace
 
-UCM_CTS_ADAPTER(LwucmAdapter, lwucm::product(), "0.1.0");
+UCM_CTS_ADAPTER(LwucmAdapter, product(), "0.1.0");

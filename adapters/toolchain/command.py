@@ -17,6 +17,12 @@ LARGEST = 1 << 30
 """Bytes a model may have."""
 
 _model = click.argument("model", type=click.Path(dir_okay=False, path_type=Path))
+_GENERATED = {
+    "idl": "IDL",
+    "cpp11": "C++11 headers",
+    "cpp03": "C++03 headers",
+    "lwucm": "what lwucm needs to host typed bodies beside the C++11 headers",
+}
 _out = click.option("--out", type=click.Path(file_okay=False, path_type=Path), required=True, help="Where files go.")
 
 
@@ -38,7 +44,7 @@ def command_line(program: Program) -> click.Group:
         """Say what is wrong with each MODEL for itself, a line each: FILE:LINE: error: MESSAGE [REQUIREMENT, clause]."""
         _tell([diagnostic for model in models for diagnostic in program.check(_read(model), str(model))[1]])
 
-    for task, what in (("idl", "IDL"), ("cpp11", "C++11 headers"), ("cpp03", "C++03 headers")):
+    for task, what in _GENERATED.items():
         group.add_command(_generating(program, task, what))
     return group
 

@@ -74,14 +74,14 @@ class Generation:
 
     def files(self) -> Mapping[str, str]:
         """All files, by their paths."""
-        bodies = [body_of(d) for d in self._declared if _is_ours(d.element)]
+        bodies = [body_of(d) for d in self._declared if is_ours(d.element)]
         self._want_interfaces(bodies)
         for declared in self._declared:
             self._enter(declared)
         for interface, bindings in self._wanted.values():
             self._enter_interface(interface, bindings)
         self._enter_bodies(bodies)
-        name = identifier(self._model.modules[-1].name) if self._model.modules else "model"
+        name = header_name(self._model)
         made = {SUPPORT_FILE: support(self._standard.modern), f"{name}.hpp": self._header(name)}
         sources = [piece for piece in self._pieces.values() if piece.source]
         if sources:
@@ -237,7 +237,13 @@ def _in_namespace(place: tuple[str, ...], text: str) -> str:
     return f"{opened}\n{text}" + "}" * len(place) + "\n" if text else f"{opened} {'}' * len(place)}\n"
 
 
-def _is_ours(element: Element) -> bool:
+def header_name(model: Model) -> str:
+    """What the header with all declarations is called, without its ending."""
+    return identifier(model.modules[-1].name) if model.modules else "model"
+
+
+def is_ours(element: Element) -> bool:
+    """Whether bodies of ``element`` are written in C++, as far as its language says."""
     if not isinstance(element, components.AtomicComponentImplementation):
         return False
     language = element.language.rpartition("::")[2].lower()

@@ -23,9 +23,11 @@ from ucm_cts.adapters.toolchain.cpp_types import DATA, INTERFACES, Standard, fin
 class Used:
     """A port element of a port or of a technical policy of a component, and the interface that it has there.
 
-    ``name`` is that of the port or policy and the element's, joined. ``interface`` is None if no binding says which.
+    ``called`` is the name of the port or policy and the element's, joined; ``name`` is the same as a part of identifiers.
+    ``interface`` is None if no binding says which.
     """
 
+    called: str
     name: str
     kind: str
     of_policy: bool
@@ -51,8 +53,9 @@ def _uses(
     owner: str, elements: tuple[interactions.PortElement, ...], scope: Scope, bound: Bindings, of_policy: bool
 ) -> Iterator[Used]:
     for element in elements:
-        name = f"{identifier(owner)}_{identifier(element.name)}"
-        yield Used(name, element.kind, of_policy, element_interface(element, scope, bound), bound)
+        called = f"{owner}_{element.name}"
+        interface = element_interface(element, scope, bound)
+        yield Used(called, called.replace("-", "_"), element.kind, of_policy, interface, bound)
 
 
 def ports_used(component_type: Declared) -> Iterator[Used]:
@@ -129,7 +132,7 @@ def body_definition(body: Body, own_names: frozenset[str], standard: Standard) -
     typedefs = {
         f"{u.name}_Connection": f"typedef {connection(u, standard)} {u.name}_Connection;" for u in body.required
     }
-    taken = ", ".join(f"const {u.name}_Connection& {u.name}" for u in body.required)
+    taken = ", ".join(f"const {u.name}_Connection& {identifier(u.name)}" for u in body.required)
     lines = [text for alias, text in typedefs.items() if alias not in own_names]
     lines += [f"class {name} {{", "  public:"]
     lines += [f"    {text}" for alias, text in typedefs.items() if alias in own_names]

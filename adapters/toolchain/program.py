@@ -52,7 +52,12 @@ def reference() -> Program:
     return Program(read_model, all_rules(), {task: _loaded_when_used(*place) for task, place in _GENERATORS.items()})
 
 
-_GENERATORS = {"idl": ("idl", "generate"), "cpp11": ("cpp", "generate_cpp11"), "cpp03": ("cpp", "generate_cpp03")}
+_GENERATORS = {
+    "idl": ("idl", "generate"),
+    "cpp11": ("cpp", "generate_cpp11"),
+    "cpp03": ("cpp", "generate_cpp03"),
+    "lwucm": ("lwucm_glue", "generate_lwucm"),
+}
 
 
 def _loaded_when_used(module: str, function: str) -> Generator:

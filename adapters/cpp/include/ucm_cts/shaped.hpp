@@ -35,6 +35,9 @@ Properties properties(const std::string& name, const std::string& implementation
 ///   - `static std::shared_ptr<ContainerManager> create_runtime(const std::vector<ShapedImplementation<Traits>>&)`;
 ///   - `static Properties configuration(const std::string& implementation, const Attributes&)`, what add_component takes.
 ///
+/// Where port elements are typed (13.8), `typedef ... Exchange` is the abstract class that was generated from the probe models
+/// for exchange_intf; it derives from PortElementObject.
+///
 /// For port elements with interfaces (profile core) it also has
 ///   - `static std::shared_ptr<PortElementObject> typed(const Reference& own, const SharedInterface&)`: a port element of
 ///     the framework, each method of which is `own->call(method, arguments)`; what that throws as DeclaredException, it

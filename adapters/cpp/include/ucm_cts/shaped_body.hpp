@@ -112,35 +112,42 @@ ComponentExecution* execution_of(long);
 
 }  // namespace detail
 
-/// The probes' interface as a port element of the framework: what a code generator would have made of the model.
+/// The probes' interface as a port element of the framework: what a code generator would have made of the model. Traits that
+/// name what their generator did make of it, as Exchange, are served with that.
 template <class Traits>
 class ShapedExchange : public Traits::PortElementObject {
   public:
     virtual std::int32_t exchange(std::int32_t value) = 0;
-
-    /// Whose port element it is; null if it is not a probe's own.
-    virtual const Identity* identity() const { return nullptr; }
 };
 
-/// A probe's port element as the framework sees it.
+namespace detail {
+
+/// Traits::Exchange if the Traits name it, else the SDK's.
 template <class Traits>
-class ShapedPort final : public ShapedExchange<Traits> {
-  public:
-    explicit ShapedPort(Reference port) : port_(std::move(port)) {}
-    std::int32_t exchange(std::int32_t value) override { return port_->exchange(value); }
-    const Identity* identity() const override { return port_->identity(); }
+typename Traits::Exchange* exchange_of(int);
+template <class Traits>
+ShapedExchange<Traits>* exchange_of(long);
 
-  private:
-    const Reference port_;
-};
+template <class Traits>
+using ExchangeOf = typename std::remove_pointer<decltype(exchange_of<Traits>(0))>::type;
 
-/// For what Traits::typed makes: a second base class, by which the SDK recognises the probe's own port element.
+}  // namespace detail
+
+/// A second base class of the probe's own port elements, by which the SDK recognises them.
 class ProbesOwn {
   public:
     explicit ProbesOwn(Reference its_element) : element(std::move(its_element)) {}
     virtual ~ProbesOwn() = default;
 
     const Reference element;
+};
+
+/// A probe's port element as the framework sees it.
+template <class Traits>
+class ShapedPort final : public detail::ExchangeOf<Traits>, public ProbesOwn {
+  public:
+    explicit ShapedPort(Reference port) : ProbesOwn(std::move(port)) {}
+    std::int32_t exchange(std::int32_t value) override { return element->exchange(value); }
 };
 
 /// A reference of the framework as the SDK sees it.
@@ -150,7 +157,7 @@ class ShapedReference final : public PortElement {
     typedef std::shared_ptr<typename Traits::PortElementObject> Pointer;
 
     explicit ShapedReference(Pointer pointer)
-        : pointer_(std::move(pointer)), exchange_(dynamic_cast<ShapedExchange<Traits>*>(pointer_.get())) {}
+        : pointer_(std::move(pointer)), exchange_(dynamic_cast<detail::ExchangeOf<Traits>*>(pointer_.get())) {}
 
     static Reference wrap(const Pointer& pointer) {
         return pointer ? std::make_shared<ShapedReference>(pointer) : nullptr;
@@ -173,16 +180,13 @@ class ShapedReference final : public PortElement {
     }
 
     const Identity* identity() const override {
-        if (exchange_ != nullptr) {
-            return exchange_->identity();
-        }
         const ProbesOwn* const own = dynamic_cast<const ProbesOwn*>(pointer_.get());
         return own != nullptr ? own->element->identity() : nullptr;
     }
 
   private:
     const Pointer pointer_;
-    ShapedExchange<Traits>* const exchange_;
+    detail::ExchangeOf<Traits>* const exchange_;
 };
 
 /// What a self-executing probe provides, in the framework's own interface.
@@ -348,6 +352,9 @@ struct ShapedImplementation {
     std::function<std::shared_ptr<ComponentObject>()> create;
     std::function<void(ComponentObject&, const std::string&, const std::string&)> set_attribute;
 
+    /// For bodies in classes of the adapter's own, such as typed ones (13.9): what these hand their callbacks on to.
+    std::function<std::shared_ptr<Body>()> create_body;
+
     /// For frameworks that apply technical policies: those of the implementation, and what stands for the operation
     /// get_tp_<policy>_<element> of a body (12.8.5), which gives null if the body has no such port element.
     std::vector<Policy> policies;
@@ -368,6 +375,7 @@ struct ShapedImplementation {
           set_attribute([](ComponentObject& body, const std::string& attribute, const std::string& value) {
               dynamic_cast<NamedFeatures&>(body).set_attribute(attribute, value);
           }),
+          create_body(from.create),
           policies(from.policies),
           get_policy_element([](ComponentObject& body, const std::string& policy, const std::string& element) {
               const auto execution = dynamic_cast<NamedFeatures&>(body).get_policy_element(policy, element);

@@ -60,7 +60,7 @@ std::shared_ptr<PortElementObject> Execution::provided(const std::string& port,
     if (way.element != element) {
         const std::shared_ptr<Guard>& guard = demands_.active_ports.count(port) != 0 ? active_guard_ : guard_;
         const auto interceptor = std::make_shared<Interception>(traces_of(port), guard);
-        way.seen = intercepted(element, interceptor, implementation_->policies);
+        way.seen = intercepted(port, element, interceptor, implementation_->policies);
         way.element = element;
     }
     return way.seen;
@@ -72,7 +72,7 @@ std::shared_ptr<PortElementObject> Execution::required(const std::string& port,
     if (!element || !traces) {
         return element;
     }
-    return intercepted(element, std::make_shared<Interception>(traces, nullptr), implementation_->policies);
+    return intercepted(port, element, std::make_shared<Interception>(traces, nullptr), implementation_->policies);
 }
 
 PortConnections Execution::services() const {

@@ -65,7 +65,8 @@ void Interception::call(const std::string& method, const std::function<void()>& 
     }
 }
 
-std::shared_ptr<PortElementObject> intercepted(const std::shared_ptr<PortElementObject>& target,
+std::shared_ptr<PortElementObject> intercepted(const std::string& port,
+                                               const std::shared_ptr<PortElementObject>& target,
                                                const std::shared_ptr<Interceptor>& interceptor,
                                                const Policies& generated) {
     if (const auto dynamic = std::dynamic_pointer_cast<DynamicPortElement>(target)) {
@@ -74,7 +75,7 @@ std::shared_ptr<PortElementObject> intercepted(const std::shared_ptr<PortElement
     if (!generated.intercept) {
         throw UCM_ERROR("nothing was generated to stand before a port element");
     }
-    return generated.intercept(target, interceptor);
+    return generated.intercept(port, target, interceptor);
 }
 
 }  // namespace lwucm

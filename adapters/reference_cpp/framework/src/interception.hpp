@@ -42,8 +42,9 @@ class Interception final : public Interceptor {
     const std::shared_ptr<Guard> guard_;
 };
 
-/// What others get to see instead of `target`.
-std::shared_ptr<PortElementObject> intercepted(const std::shared_ptr<PortElementObject>& target,
+/// What others get to see instead of `target`, the port element of that name.
+std::shared_ptr<PortElementObject> intercepted(const std::string& port,
+                                               const std::shared_ptr<PortElementObject>& target,
                                                const std::shared_ptr<Interceptor>& interceptor,
                                                const Policies& generated);
 

@@ -6,15 +6,14 @@
 #include <string>
 #include <vector>
 
+#include <ucm_support.hpp>
+
 namespace lwucm {
 
 class Container;
 
-/// A provided port element; the interface of the port element derives from it (13.8).
-class PortElementObject {
-  public:
-    virtual ~PortElementObject() = default;
-};
+/// A provided port element; the interface of the port element derives from it (13.8). Generated ones do, too.
+typedef ::ucm::PortElementObject PortElementObject;
 
 typedef std::vector<std::shared_ptr<PortElementObject>> PortElementObjects;
 

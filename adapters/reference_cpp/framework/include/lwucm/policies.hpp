@@ -48,9 +48,10 @@ struct Policies {
                                                             const std::string& element)>
         get_policy_element;
 
-    /// A port element with the interface of `target`, each operation of which is an `interceptor->call` of that of
-    /// `target`. Not needed for port elements that are DynamicPortElements.
-    std::function<std::shared_ptr<PortElementObject>(const std::shared_ptr<PortElementObject>& target,
+    /// A port element with the interface of port element `port`, each operation of which is an `interceptor->call` of that
+    /// of `target`. Not needed for port elements that are DynamicPortElements.
+    std::function<std::shared_ptr<PortElementObject>(const std::string& port,
+                                                     const std::shared_ptr<PortElementObject>& target,
                                                      const std::shared_ptr<Interceptor>& interceptor)>
         intercept;
 };

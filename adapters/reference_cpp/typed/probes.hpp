@@ -1,0 +1,272 @@
+// The probes as typed bodies (13.9): written against the abstract classes that are generated from the probe models, as a
+// developer of components writes them. What they do in there is up to the SDK's probe.
+#ifndef REFERENCE_CPP_TYPED_PROBES_HPP
+#define REFERENCE_CPP_TYPED_PROBES_HPP
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../hosting.hpp"
+
+namespace reference_cpp {
+
+typedef ucm_cts::ShapedImplementation<Lwucm> Shaped;
+typedef ::probe_api::Abstract_exchange_intf Exchange;
+typedef std::shared_ptr<Exchange> ExchangePointer;
+typedef ::ucm::PortConnection<Exchange> ExchangeConnection;
+
+/// A typed reference as the SDK's probe calls it.
+class TypedReference final : public ucm_cts::PortElement {
+  public:
+    explicit TypedReference(ExchangePointer callee) : callee_(std::move(callee)) {}
+
+    std::int32_t exchange(std::int32_t value) override { return callee_->exchange(value); }
+
+    const ucm_cts::Identity* identity() const override {
+        const ucm_cts::ProbesOwn* const own = dynamic_cast<const ucm_cts::ProbesOwn*>(callee_.get());
+        return own != nullptr ? own->element->identity() : nullptr;
+    }
+
+  private:
+    const ExchangePointer callee_;
+};
+
+/// The SDK's probe in a typed body. Its port elements and attributes have the names that the scenario gives them.
+class Core {
+  public:
+    explicit Core(const Shaped& from) : body(from.create_body()), attributes_(from.attributes) {
+        for (const std::string& port : from.provided) {
+            elements_.push_back(std::make_shared<ucm_cts::ShapedPort<Lwucm>>(body->get_portElement(port)));
+        }
+    }
+
+    void start(const std::vector<ExchangeConnection>& connections) {
+        std::vector<ucm_cts::PortConnection> dependencies;
+        for (const ExchangeConnection& one : connections) {
+            dependencies.push_back({one.port_name, {one.ref ? std::make_shared<TypedReference>(one.ref) : nullptr}});
+        }
+        body->on_startup(dependencies);
+    }
+
+    void configure(std::size_t n, const std::string& value) { body->set_attribute(attributes_.at(n), value); }
+    const ExchangePointer& element(std::size_t n) const { return elements_.at(n); }
+
+    const std::shared_ptr<ucm_cts::Body> body;
+
+  private:
+    const std::vector<std::string> attributes_;
+    std::vector<ExchangePointer> elements_;
+};
+
+/// What all typed probes have in common.
+template <class Implemented>
+class TypedProbe : public Implemented {
+  public:
+    typedef Implemented Abstract;
+
+    explicit TypedProbe(const Shaped& from) : core(from) {}
+
+    void on_init() override { core.body->on_init(); }
+    void on_shutdown() override { core.body->on_shutdown(); }
+    void on_remove() override { core.body->on_remove(); }
+
+  protected:
+    typedef TypedProbe Base;
+
+    Core core;
+};
+
+/// What all probes with attributes have in common.
+template <class Implemented>
+class LabelledProbe : public TypedProbe<Implemented> {
+  public:
+    using TypedProbe<Implemented>::TypedProbe;
+
+    ::probe_api::label_t label() override { return label_; }
+    ::probe_api::label_t level() override { return level_; }
+
+    void label(const ::probe_api::label_t& value) override {
+        label_ = value;
+        this->core.configure(0, value);
+    }
+
+    void level(const ::probe_api::label_t& value) override {
+        level_ = value;
+        this->core.configure(1, value);
+    }
+
+  protected:
+    typedef LabelledProbe Base;
+
+  private:
+    ::probe_api::label_t label_;
+    ::probe_api::label_t level_;
+};
+
+class Hermit : public TypedProbe< ::probes::Abstract_hermit_body> {
+  public:
+    using Base::Base;
+    void on_startup() override { core.start({}); }
+};
+
+class Source : public TypedProbe< ::probes::Abstract_source_body> {
+  public:
+    using Base::Base;
+    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
+};
+
+class Sink : public TypedProbe< ::probes::Abstract_sink_body> {
+  public:
+    using Base::Base;
+    void on_startup() override { core.start({}); }
+    ExchangePointer get_in_api() override { return core.element(0); }
+};
+
+class Relay : public TypedProbe< ::probes::Abstract_relay_body> {
+  public:
+    using Base::Base;
+    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
+    ExchangePointer get_in_api() override { return core.element(0); }
+};
+
+class Junction : public TypedProbe< ::probes::Abstract_junction_body> {
+  public:
+    using Base::Base;
+    void on_startup(const ::probes::left_api_Connection& left_api,
+                    const ::probes::right_api_Connection& right_api) override {
+        core.start({left_api, right_api});
+    }
+};
+
+class Twin : public TypedProbe< ::probes::Abstract_twin_body> {
+  public:
+    using Base::Base;
+    void on_startup() override { core.start({}); }
+    ExchangePointer get_in_api() override { return core.element(0); }
+    ExchangePointer get_aux_api() override { return core.element(1); }
+};
+
+class Labelled : public LabelledProbe< ::probes::Abstract_labelled_body> {
+  public:
+    using Base::Base;
+    void on_startup() override { core.start({}); }
+    ExchangePointer get_in_api() override { return core.element(0); }
+};
+
+class LabelledRelay : public LabelledProbe< ::probes::Abstract_labelled_relay_body> {
+  public:
+    using Base::Base;
+    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
+    ExchangePointer get_in_api() override { return core.element(0); }
+};
+
+class Fork : public LabelledProbe< ::probes::Abstract_fork_body> {
+  public:
+    using Base::Base;
+    void on_startup(const ::probes::left_api_Connection& left_api,
+                    const ::probes::right_api_Connection& right_api) override {
+        core.start({left_api, right_api});
+    }
+    ExchangePointer get_in_api() override { return core.element(0); }
+};
+
+class LabelledTwin : public LabelledProbe< ::probes::Abstract_labelled_twin_body> {
+  public:
+    using Base::Base;
+    void on_startup() override { core.start({}); }
+    ExchangePointer get_in_api() override { return core.element(0); }
+    ExchangePointer get_aux_api() override { return core.element(1); }
+};
+
+class Merger : public LabelledProbe< ::probes::Abstract_merger_body> {
+  public:
+    using Base::Base;
+    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
+    ExchangePointer get_in_api() override { return core.element(0); }
+    ExchangePointer get_aux_api() override { return core.element(1); }
+};
+
+class Exchanger : public LabelledProbe< ::probes::Abstract_exchanger_body> {
+  public:
+    using Base::Base;
+    void on_startup(const ::probes::left_api_Connection& left_api,
+                    const ::probes::right_api_Connection& right_api) override {
+        core.start({left_api, right_api});
+    }
+    ExchangePointer get_in_api() override { return core.element(0); }
+    ExchangePointer get_aux_api() override { return core.element(1); }
+};
+
+class Triplet : public LabelledProbe< ::probes::Abstract_triplet_body> {
+  public:
+    using Base::Base;
+    void on_startup() override { core.start({}); }
+    ExchangePointer get_in_api() override { return core.element(0); }
+    ExchangePointer get_aux_api() override { return core.element(1); }
+    ExchangePointer get_extra_api() override { return core.element(2); }
+};
+
+class Funnel : public LabelledProbe< ::probes::Abstract_funnel_body> {
+  public:
+    using Base::Base;
+    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
+    ExchangePointer get_in_api() override { return core.element(0); }
+    ExchangePointer get_aux_api() override { return core.element(1); }
+    ExchangePointer get_extra_api() override { return core.element(2); }
+};
+
+class Hub : public LabelledProbe< ::probes::Abstract_hub_body> {
+  public:
+    using Base::Base;
+    void on_startup(const ::probes::left_api_Connection& left_api,
+                    const ::probes::right_api_Connection& right_api) override {
+        core.start({left_api, right_api});
+    }
+    ExchangePointer get_in_api() override { return core.element(0); }
+    ExchangePointer get_aux_api() override { return core.element(1); }
+    ExchangePointer get_extra_api() override { return core.element(2); }
+};
+
+/// A probe that hears of each connection (11.2.1.3).
+template <class Probe>
+class ConnectableProbe final : public Probe, public lwucm::Connectable {
+  public:
+    using Probe::Probe;
+
+    void on_connect(const std::string& port_name, std::shared_ptr<lwucm::PortElementObject> required) override {
+        this->core.body->on_connect(port_name, ucm_cts::ShapedReference<Lwucm>::wrap(required));
+    }
+
+    void on_disconnect(const std::string& port_name) override { this->core.body->on_disconnect(port_name); }
+};
+
+/// What a fragment's probe sees of its container.
+class Membership final : public ucm_cts::ContainerInterface {
+  public:
+    explicit Membership(std::shared_ptr<lwucm::Container> container) : container_(std::move(container)) {}
+
+    std::vector<ucm_cts::Id> get_components() override {
+        const lwucm::componentIds ids = container_->get_components();
+        return std::vector<ucm_cts::Id>(ids.begin(), ids.end());
+    }
+
+  private:
+    const std::shared_ptr<lwucm::Container> container_;
+};
+
+/// A probe that is a fragment (11.2.1.4).
+template <class Probe>
+class FragmentProbe : public Probe, public lwucm::FragmentObject {
+  public:
+    using Probe::Probe;
+
+    void set_container_interface(std::shared_ptr<lwucm::Container> container) override {
+        this->core.body->set_container_interface(container ? std::make_shared<Membership>(std::move(container)) : nullptr);
+    }
+};
+
+}  // namespace reference_cpp
+
+#endif
