@@ -70,7 +70,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-_INCLUDED = ["-I", FRAMEWORK / "include"]
+_INCLUDED: list[str | Path] = ["-I", FRAMEWORK / "include"]
 
 
 def generate(model: Path, folder: Path) -> None:
@@ -83,7 +83,7 @@ def generate(model: Path, folder: Path) -> None:
 
 
 def build(source: Path, folder: Path, program: Path, *headers: Path) -> Path:
-    included = [option for header in headers for option in ("-I", header)]
+    included: list[str | Path] = [option for header in headers for option in ("-I", header)]
     run(["c++", *STRICT, *included, *_INCLUDED, source, folder / "framework.o", "-pthread", "-o", program])
     return program
 
