@@ -12,10 +12,12 @@ from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.contract.metamodel.spelling import IGNORED, SPELLINGS, Spelling, contained
 from ucm_cts.adapters.contract.metamodel.writing import write_model
+from ucm_cts.harness.catalogue import SUITE
 from ucm_cts.harness.models.core_models import CORE
 from ucm_cts.harness.toolchains.corpus import questions
 from ucm_cts.harness.toolchains.schema import SCHEMA, second_opinion, violations
 
+MAPPING = SUITE / "models" / "mapping"
 XS = "{http://www.w3.org/2001/XMLSchema}"
 
 
@@ -31,6 +33,11 @@ def judged(text: str) -> tuple[bool, bool, bool]:
 @pytest.mark.parametrize("path", sorted(CORE.glob("*.xml")), ids=lambda path: path.stem)
 def test_core_models_fit(path: Path) -> None:
     assert judged(write_model(read_model(path.read_bytes(), path.name).model).decode()) == (True, True, True)
+
+
+@pytest.mark.parametrize("path", sorted(MAPPING.glob("*.xml")), ids=lambda path: path.stem)
+def test_models_of_the_mappings_fit(path: Path) -> None:
+    assert judged(path.read_text()) == (True, True, True)
 
 
 def test_all_agree_about_the_models_of_the_suite() -> None:
