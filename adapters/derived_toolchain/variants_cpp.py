@@ -101,14 +101,21 @@ def _many_files(files: Files) -> Files:
 _STRUCTURE = re.compile(r"class (\w+) \{\n  public:\n    \1\(\)([^\n]*) \{\}\n.*?\n  private:\n(.*?)\};\n", re.DOTALL)
 
 
-def _plain_members(files: Files) -> Files:
-    """Fields of structures and unions are members."""
+_EXCEPTION = re.compile(r"class \w+ : public ::UCM::UserException \{\n.*?\n\};\n", re.DOTALL)
+_ACCESSOR = re.compile(r"    [^\n]*\{ (?:return stored_|stored_)[^\n]*\n")
 
-    def plain(match: re.Match[str]) -> str:
+
+def _plain_members(files: Files) -> Files:
+    """Fields of structures, unions and exceptions are members."""
+
+    def structure(match: re.Match[str]) -> str:
         name, initial, stored = (match[i].replace("stored_", "") for i in (1, 2, 3))
         return f"struct {name} {{\n    {name}(){initial} {{}}\n{stored}}};\n"
 
-    return {name: _STRUCTURE.sub(plain, text) for name, text in files.items()}
+    def exception(match: re.Match[str]) -> str:
+        return _ACCESSOR.sub("", match[0]).replace("  private:\n", "").replace("stored_", "")
+
+    return {name: _EXCEPTION.sub(exception, _STRUCTURE.sub(structure, text)) for name, text in files.items()}
 
 
 _BOUNDED = """
