@@ -44,9 +44,12 @@ def aspect_of(policy: Declared) -> Declared | None:
     return definition.scope.find(definition.element.technical_aspect, TechnicalAspect)
 
 
-@functools.lru_cache(maxsize=1)
 def uses(root: Scope) -> tuple[Use, ...]:
     """All atomic implementations below ``root`` with their policies."""
+    return root.remembered("uses of policies", functools.partial(_uses, root))
+
+
+def _uses(root: Scope) -> tuple[Use, ...]:
     found: dict[int, Use] = {}
     for declared in declared_in(root, AtomicComponentImplementation):
         implementation = declared.element
