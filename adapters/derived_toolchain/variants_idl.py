@@ -57,18 +57,16 @@ RELAXED: dict[str, tuple[str, Replacement]] = {
     "parameters_with_one_capital": (r"MESSAGE_TYPE_T", "Message_type_t"),
     "other_attributes_besides": (r"(interface unrelated \{\n)", r"\1/* nothing */\n"),
     "helpful_typedefs": (r"(\n *)(interface unrelated \{)", r"\1typedef sequence<octet> bytes_t;\1\2"),
-    "default_values_of_attributes": (
-        r"(readonly attribute \S+ called;)",
-        r'@DefaultValue(val="Jack") \1',
-    ),
-    "default_values_by_the_annotation_of_idl": (r"(attribute \S+ years_at_sea;)", r"@default(16) \1"),
+    "default_values_left_out": (r'@DefaultValue\(val="(?:[^"\\]|\\.)*"\) (?=readonly|attribute)', ""),
+    "default_values_by_the_annotation_of_idl": (r'@DefaultValue\(val="0x10"\)', "@default(16)"),
+    "default_values_without_quotes": (r'val="\\"Jack\\""', 'val="Jack"'),
     "another_character_for_hyphens": (r"\b(with|signed|two|self|last|run|how)_(?=[a-z])", r"\1_x_"),
     "unsigned_long_as_the_table_prints_it": (r"typedef unsigned long long ", "typedef unsigned long "),
     "bool_as_the_table_prints_it": (r"typedef boolean ", "typedef bool "),
     "policy_getters_after_definitions": (r"get_tp_Drive_", "get_tp_self_executing_"),
     "policy_getters_as_in_the_example": (r"get_tp_(Drive|Night|Day_Duty|Meter)_", r"get_tp_My\1_"),
     "policies_provided_without_base": (r"(interface execution_intf) : ::PortElementObject", r"\1"),
-    "attributes_of_interfaces_left_out": (r"(interface painter \{\n)(?: *(?:readonly )?attribute .*\n)+", r"\1"),
+    "attributes_of_interfaces_left_out": (r"(interface painter \{\n)(?: *.*attribute .*\n)+", r"\1"),
     "cases_out_of_order": (
         r"( *case ::data_types::triangle:\n.*\n)( *case ::data_types::square:\n.*\n)",
         r"\2\1",
@@ -97,6 +95,17 @@ def _definition(match: re.Match[str]) -> str:
 
 _SAME = replaced("", GUARD, f"\n{GUARD}")
 
+for _reading in (
+    "native-types=supported",
+    "idl-attribute-defaults=annotated",
+    "idl-interface-attributes=attributes",
+    "idl-standard-files=generated",
+    "standard-idl=printed",
+    "standard-idl=printed-with-timers",
+    "standard-idl=model",
+    "idl-enumerator-values=default-value",
+):
+    _variant(f"declared_{_reading.replace('-', '_').replace('=', '_as_')}", _SAME, _reading)
 _variant("hyphens_are_underscores", _SAME, "idl-hyphens=underscore")
 _variant("all_index_types_declared", _SAME, "index-annotations=always")
 _variant("capitals_declared", _SAME, "idl-template-names=upper")

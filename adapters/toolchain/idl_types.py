@@ -157,9 +157,13 @@ def exception(element: Exception_, scope: Scope) -> Lines:
 
 
 def attribute(element: Attribute, scope: Scope) -> Lines:
-    """An attribute of an interface or of a component type."""
+    """An attribute of an interface or of a component type, with its default value if it has one."""
     readonly = "readonly " if element.mode == "READ" else ""
-    return [f"{readonly}attribute {type_name(element.type, scope)} {identifier(element.name)};"]
+    default = ""
+    if element.default_value is not None:
+        escaped = element.default_value.replace("\\", "\\\\").replace('"', '\\"')
+        default = f'@DefaultValue(val="{escaped}") '
+    return [f"{default}{readonly}attribute {type_name(element.type, scope)} {identifier(element.name)};"]
 
 
 def method(element: Method, scope: Scope) -> Lines:

@@ -16,13 +16,14 @@ from ucm_cts.harness.toolchains.cpp import standing
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler
 from ucm_cts.harness.toolchains.cpp.probes import CHECKS, GENERATED
-from ucm_cts.harness.toolchains.description import Command
+from ucm_cts.harness.toolchains.description import Command, Task
 from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.harness.toolchains.dressing import Dress
-from ucm_cts.harness.toolchains.generation import Generation
+from ucm_cts.harness.toolchains.generation import Generation, mapping_models
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS
 from ucm_cts.harness.toolchains.idl.comparing import compare as compare_idl
 from ucm_cts.harness.toolchains.idl.omniidl import opinion
+from ucm_cts.harness.toolchains.idl.promises import not_asked
 from ucm_cts.reference_models.cpp.expected import Standard
 from ucm_cts.reference_models.idl.expectations import STANDS_FOR
 from ucm_cts.reference_models.idl.mapping import expected_idl
@@ -55,17 +56,27 @@ def examination_for(
     if unfinished:
         raise WrongUse(unfinished)
     task = TASKS[profile]
+    models = _asked(task, statement, models)
     if task == "check":
         return Acceptance(statement, dress, expression)
     if task == "idl":
-        return Generation(
-            functools.partial(_compare_idl, statement.readings), ("R-12-01", "idl_generated"), dress, expression, models
-        )
+        compare = functools.partial(_compare_idl, statement.readings)
+        return Generation(compare, ("R-12-01", "idl_generated"), dress, expression, models, not_asked(statement))
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
     how = command or Command(command=())
     return Generation(
         functools.partial(_compare_cpp, standard, statement.readings, how), GENERATED, dress, expression, models
     )
+
+
+WITH_NATIVES = frozenset({"idl_natives"})
+"""Models with native types, which the core leaves out (interpretation idl-native-sizes)."""
+
+
+def _asked(task: Task, statement: Statement, models: Collection[str] | None) -> Collection[str]:
+    """The models that code is generated from, by name."""
+    names = frozenset(mapping_models() if models is None else models)
+    return names if task == "idl" and statement.meets("native-types=supported") else names - WITH_NATIVES
 
 
 def _compare_idl(readings: Mapping[str, str], model: Model, files: Mapping[str, str]) -> Comparison:

@@ -38,11 +38,13 @@ class Generation:
         dress: Dress,
         expression: str = "",
         only: Collection[str] | None = None,
+        not_asked: Mapping[str, str] = {},
     ) -> None:
         """``generates`` are the requirement, and its rule, that files can be had of a legal model at all. Of the models
         only those of ``only``, if there is such a list, whose name holds a word of ``expression``, or all if none does: then
-        only what is said of requirements that hold one of the words.
+        only what is said of requirements that hold one of the words. ``not_asked`` are requirements that do not apply, and why.
         """
+        self.not_asked = not_asked
         self._compare = compare
         self._generates = generates
         chosen = {name: text for name, text in mapping_models().items() if only is None or name in only}
@@ -56,11 +58,6 @@ class Generation:
     def models(self) -> Sequence[tuple[str, str]]:
         """Name and text of each model."""
         return tuple(self._texts.items())
-
-    @property
-    def not_asked(self) -> Mapping[str, str]:
-        """None: every model is asked of everybody, and what is expected of it follows the readings."""
-        return {}
 
     def look(self, name: str, made: Made) -> tuple[Fact, ...]:
         """What the files of one model say."""

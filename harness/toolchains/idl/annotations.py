@@ -201,7 +201,9 @@ def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
     hit = here(vendor, fact.path, Enum)
     enum = hit.entry.declaration
     assert isinstance(enum, Enum)
-    shown = {one.name.lower(): (_number_of(one, hit.entry.scope), one) for one in enum.enumerators}
+    declared = vendor.reading("idl-enumerator-values") == "default-value"
+    ways = {"defaultvalue"} if declared else {"defaultvalue", *STANDARD_VALUES}
+    shown = {one.name.lower(): (_number_of(one, hit.entry.scope, ways), one) for one in enum.enumerators}
     position = {one.name.lower(): n for n, one in enumerate(enum.enumerators)}
     previous = {
         one.name.lower(): before for before, one in zip((None, *enum.enumerators), enum.enumerators, strict=False)
@@ -220,16 +222,17 @@ def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
         if before is not None:
             told = [v for n, v in wanted.items() if n.lower() == before.name.lower()]
             next_ |= {v + 1 for v in told if annotated}
+        next_ = set() if declared else next_
         if value not in ({number} if number is not None else next_):
             observed = "nothing that tells it" if number is None else str(number)
             wrong.append(Wrong(f"value {value} of {name}", observed, enumerator.place))
     return wrong
 
 
-def _number_of(declaration: Declaration, scope: Scope) -> int | None:
+def _number_of(declaration: Declaration, scope: Scope, ways: set[str]) -> int | None:
     """The number that an annotation gives; one whose value is no number gives none that could be right."""
     for annotation in annotations_of(declaration):
-        if last(annotation.name) in {"defaultvalue", *STANDARD_VALUES}:
+        if last(annotation.name) in ways:
             value = _value(annotation, scope)
             if isinstance(value, str):
                 value = _parsed(value, scope)
@@ -251,8 +254,10 @@ def defaulted(vendor: Vendor, fact: Defaulted) -> list[Wrong]:
     found: Sequence[Annotation] = [
         a for a in annotations_of(declaration) if last(a.name) in {"defaultvalue", "default"}
     ]
-    if not found:
+    if not found and vendor.reading("idl-attribute-defaults") != "annotated":
         raise NotExercised
+    if not found:
+        return [Wrong(f"@DefaultValue on {declaration.name}", "no such annotation", declaration.place)]
     kind = vendor.value_kind(fact.type)
     wanted = model_worth(fact.value, kind, hit.entry.scope)
     value = _value(found[0], hit.entry.scope)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.idl.annotations import applied
-from ucm_cts.harness.toolchains.idl.facts import FACTS
+from ucm_cts.harness.toolchains.idl.facts import FACTS, MISPLACED
 from ucm_cts.harness.toolchains.idl.omniidl import Opinion
 from ucm_cts.harness.toolchains.idl.reading import Files, read_files
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
@@ -18,7 +18,7 @@ from ucm_cts.harness.toolchains.idl.standard import standard_differences
 from ucm_cts.harness.toolchains.idl.validity import building_blocks, invalid
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
 from ucm_cts.reference_models.idl.declarations import Place
-from ucm_cts.reference_models.idl.expectations import RULE_OF, Expected, ExpectedIdl
+from ucm_cts.reference_models.idl.expectations import RULE_OF, Declares, Expected, ExpectedIdl
 
 CHECKS = {
     "idl_generated": "Files of IDL are generated for each legal model.",
@@ -62,7 +62,8 @@ def compare(
                 unjudged[fact.requirement] = f"not all files can be read: {read.problems[0]}"
             continue
         told = [_difference(fact, one) for one in wrong]
-        for requirement in {fact.requirement, *(one.requirement for one in told)}:
+        placed = {MISPLACED} if isinstance(fact, Declares) and len(fact.path) > 1 else set()
+        for requirement in {fact.requirement, *placed, *(one.requirement for one in told)}:
             exercised[requirement] = exercised.get(requirement, 0) + 1
         differences += told
     remarks: tuple[str, ...] = ()
@@ -72,7 +73,9 @@ def compare(
             _about_files("R-12.1-03", Wrong("IDL", f"omniidl: {one.text}", Place(one.file, one.line)))
             for one in second.problems
         ]
-        remarks = ("models that omniidl judged, too" if second.verdict != "none" else "models without omniidl's opinion",)
+        remarks = (
+            "models that omniidl judged, too" if second.verdict != "none" else "models without omniidl's opinion",
+        )
     seen = {option: frozenset(values) for option, values in vendor.met.items()}
     return Comparison(exercised, tuple(dict.fromkeys(differences)), seen, unjudged, remarks)
 

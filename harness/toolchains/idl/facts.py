@@ -55,6 +55,7 @@ from ucm_cts.reference_models.idl.expectations import (
 )
 
 MISPLACED = "R-12.7-07"
+INTERFACE_ATTRIBUTES = "R-12.6-10"
 
 TYPES = (Typedef, Struct, Union, Enum, Native)
 
@@ -73,7 +74,10 @@ def declares(vendor: Vendor, fact: Declares) -> list[Wrong]:
 
 def _missing(vendor: Vendor, fact: Declares) -> list[Wrong]:
     around = here(vendor, fact.path[:-1]) if len(fact.path) > 1 else None
-    if not fact.needed or vendor.unreadable:
+    needed = fact.needed or (
+        fact.requirement == INTERFACE_ATTRIBUTES and vendor.reading("idl-interface-attributes") == "attributes"
+    )
+    if not needed or vendor.unreadable:
         raise NotExercised
     expected = f"{show_kind(fact.kind)} {'::'.join(fact.path)}"
     if fact.kind in ("operation", "attribute"):

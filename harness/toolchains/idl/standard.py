@@ -28,6 +28,7 @@ from ucm_cts.reference_models.idl.declarations import (
     Module,
     Named,
     Operation,
+    Place,
     SequenceOf,
     Struct,
     Type,
@@ -56,8 +57,22 @@ def standard_differences(vendor: Vendor) -> Iterator[tuple[str, list[Wrong]]]:
     """Of each printed declaration that the vendor has: its requirement, and what is different."""
     ours = Vendor(printed()[0][1].scope, _NOTHING, {}, False, False)
     for requirement, entry in printed():
-        for theirs in _counterparts(vendor, entry):
+        counterparts = _counterparts(vendor, entry)
+        for theirs in counterparts:
             yield requirement, list(_different(ours, entry, vendor, theirs))
+        if not counterparts and _is_promised(vendor, entry.path):
+            name = "::".join(entry.path)
+            yield requirement, [Wrong(f"{kind_of(entry.declaration)} {name}", "no such declaration", Place())]
+
+
+def _is_promised(vendor: Vendor, path: tuple[str, ...]) -> bool:
+    """Whether the vendor declares that the files hold what is printed under ``path``."""
+    if vendor.unreadable or vendor.missing:
+        return False
+    if len(path) == 1:
+        return vendor.reading("idl-standard-files") == "generated"
+    promises = ("printed-with-timers",) if path[0] == "timer_service" else ("printed", "printed-with-timers")
+    return vendor.reading("standard-idl") in promises
 
 
 _NOTHING = ExpectedIdl((), {}, {})

@@ -76,7 +76,9 @@ class Vendor:
         reading = self.reading("standard-idl")
         if not path or path[0] not in PRINTED or reading == "model":
             return False
-        return reading == "printed" or (self.root.own(path[0]) is None and self.root.own(PRINTED[path[0]]) is not None)
+        if reading == "printed-with-timers" or (reading == "printed" and path[0] != "timer"):
+            return True
+        return reading != "printed" and (self.root.own(path[0]) is None and self.root.own(PRINTED[path[0]]) is not None)
 
     # Places
     def at(self, path: Path) -> Hit | None:
