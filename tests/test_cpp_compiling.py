@@ -73,6 +73,17 @@ def test_a_compiler_that_does_not_end_is_stopped(tmp_path: Path) -> None:
     assert "no end" in compiled.problem
 
 
+def test_compilers_without_json_are_understood(tmp_path: Path) -> None:
+    other = tmp_path / "clang"
+    other.write_text(
+        '#!/bin/sh\ncase "$*" in\n*-fmax-errors*) echo "clang: error: unknown argument: \'-fmax-errors=0\'" >&2; exit 1;;\n'
+        "*-ferror-limit=0*) echo 'R-13.1-01#3:1:1: error: no' >&2; exit 1;;\nesac\n"
+    )
+    other.chmod(0o755)
+    compiled = compile_text("", tmp_path, HERE, "cpp11", Compiler((str(other),)))
+    assert compiled.errors == (Error("R-13.1-01#3", 1, "no"),)
+
+
 def test_a_missing_compiler_is_told(tmp_path: Path) -> None:
     with pytest.raises(NoCompiler, match="no program 'no-such-compiler'"):
         compile_text("", tmp_path, HERE, "cpp11", Compiler(("no-such-compiler",)))

@@ -187,12 +187,12 @@ def _field(claim: claims.Field) -> Text:
     owner, field, sample = claim.owner, claim.field, claim.sample
     look = {}
     for form, write, read in (
-        ("accessors", f"object.{field}(value);", f"constant.{field}()"),
-        ("plain", f"object.{field} = value;", f"constant.{field}"),
+        ("accessors", f"object.{field}(value);", f"object.{field}()"),
+        ("plain", f"object.{field} = value;", f"object.{field}"),
     ):
         exact = f"typedef typename ::ucts::one_of<typename ::ucts::bare<UCTS_TYPE({read})>::type, V>::yes checked;"
         kept = _same(sample, read, "value", "it does not keep what is written to it")
-        look[form] = f"{write} const T& constant = object; {exact} {kept}"
+        look[form] = f"{write} {exact} {kept}"
     declared, arguments = _dispatch(field, sample, claim.forms, look)
     run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; look_at({arguments});"
     return Text(f"{owner} has a field {field} of type {sample.type} that is written and read", declared, run)
@@ -206,9 +206,9 @@ def _discriminator(claim: claims.Discriminator) -> Text:
     found = "template <int Position> struct reader;"
     for position, candidate in enumerate(candidates):
         found += (
-            f" template <class T> ::ucts::yes_type has_{position}(char (*)[sizeof(::ucts::make<const T>().{candidate})]);"
+            f" template <class T> ::ucts::yes_type has_{position}(char (*)[sizeof(::ucts::make<T>().{candidate})]);"
             f" template <class T> ::ucts::no_type has_{position}(...); template <> struct reader<{position}>"
-            f" {{ template <class T> static {selector} read(const T& object) {{ return object.{candidate}; }} }};"
+            f" {{ template <class T> static {selector} read(T& object) {{ return object.{candidate}; }} }};"
         )
     index = str(len(candidates) - 1)
     for position in range(len(candidates) - 2, -1, -1):

@@ -29,7 +29,7 @@ class Compiler(Value, frozen=True):
     """
 
     command: tuple[str, ...] = ("g++",)
-    seconds: float = 120.0
+    seconds: float = 60.0
     memory: int = 4096
 
 
@@ -145,7 +145,8 @@ def compile_text(
     ended = run(structured, folder, compiler)
     found = _read_json(ended.errors)
     if ended.status not in (0, None) and (not found or not all(is_own(e.file) for e in found)):
-        ended = run(words, folder, compiler)
+        all_of_them = ["-ferror-limit=0"] if "clang" in ended.errors.partition(":")[0] else []
+        ended = run([*words, *all_of_them], folder, compiler)
         found = _read_text(ended.errors)
     if ended.problem:
         return Compiled(tuple(found or ()), ended.problem)

@@ -227,9 +227,11 @@ class _Comparing:
             elif word == "kept":
                 self._seen.kept.add(number)
             begun = number if word == "begin" else None
+        status = ended.status or 0
+        how = ended.problem or (f"signal {-status}" if status < 0 else f"status {status}")
+        if ended.status != 0:
+            self._seen.problem = f"the program of probes ended early: {how}"
         if begun is not None:
-            status = ended.status or 0
-            how = ended.problem or (f"signal {-status}" if status < 0 else f"status {status}")
             self._seen.failed[begun] = (f"the program ended here: {how}", ())
         self._seen.kept |= {c.number for c in left if not c.text.run}
 
