@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from ucm_cts.adapters.contract.metamodel.common import children
 from ucm_cts.adapters.contract.metamodel.components import AbstractTypeBinding, ComponentModule
 from ucm_cts.adapters.contract.metamodel.contracts import (
@@ -90,6 +92,24 @@ def direction_left_out(program: Program) -> Program:
 def single_inheritance(program: Program) -> Program:
     """Takes a second ancestor of an interface for an error, diamond or not."""
     return refusing(program, Interface, lambda interface, _: len(interface.inherited_interfaces) > 1)
+
+
+@breaks("R-9.2.7-14", task="check")
+def no_diamonds(program: Program) -> Program:
+    """Takes an ancestor that is reached by two ways for an error."""
+
+    def reached_twice(interface: Interface, scope: Scope) -> bool:
+        ways = [set(_lineage(i.interface, scope)) for i in interface.inherited_interfaces]
+        return sum(map(len, ways)) > len(set().union(*ways))
+
+    return refusing(program, Interface, reached_twice)
+
+
+def _lineage(name: str, scope: Scope, depth: int = 20) -> Iterator[str]:
+    yield name
+    found = _named(name, scope) if depth else None
+    for inherited in found.inherited_interfaces if found is not None else ():
+        yield from _lineage(inherited.interface, scope, depth - 1)
 
 
 @breaks("R-9.2.7-17", task="check")
