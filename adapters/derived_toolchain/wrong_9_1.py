@@ -69,7 +69,7 @@ def names_may_be_missing(program: Program) -> Program:
     return without(program, "names_are_not_empty", "modules_have_names", "fields_have_names", "cases_have_names")
 
 
-@breaks("R-9.1.4.1-03", task="check")
+@breaks("R-9.1.4.1-03", task="check", also=("R-9.4.2.1-02",))
 def one_name_for_all_kinds(program: Program) -> Program:
     """Takes it for an error that a port element is called like a contract module beside its policy."""
 
