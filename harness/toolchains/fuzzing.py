@@ -81,12 +81,14 @@ def main(seconds: float, first: int | None) -> None:
     tried: Counter[str] = Counter()
     slowest: Counter[str] = Counter()
     end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        for holds, inputs in PROPERTIES.items():
-            _round(holds, inputs, number, tried, slowest)
-        number += 1
-    for name, times in tried.items():
-        click.echo(f"{name}: {times} cases, the slowest took {slowest[name] / 1e6:.1f} ms")
+    try:
+        while time.monotonic() < end:
+            for holds, inputs in PROPERTIES.items():
+                _round(holds, inputs, number, tried, slowest)
+            number += 1
+    finally:
+        for name, times in tried.items():
+            click.echo(f"{name}: {times} cases, the slowest took {slowest[name] / 1e3:.1f} ms")
 
 
 def _round(

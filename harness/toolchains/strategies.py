@@ -14,7 +14,7 @@ from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
-from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS, Spelling, contained
+from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS, TAGS, Spelling, contained
 
 _TEXTS = st.text(st.sampled_from("aZ_9 -:.\t\n\r&<>\"'é\u0661\u2028\U0001f600"), max_size=6)
 _NUMBERS = st.integers(-(2**63), 2**64 - 1)
@@ -90,7 +90,16 @@ def spoilt(draw: st.DrawFn, legal: st.SearchStrategy[bytes]) -> bytes:
         elements = [element for element in root.iter() if isinstance(element.tag, str)]
         element = elements[draw(st.integers(0, len(elements) - 1))]
         draw(st.sampled_from(_EDITS))(draw, element)
+    for element in root.iter(etree.Element):
+        _drop_other_spellings(element)
     return etree.tostring(root, encoding="UTF-8", xml_declaration=True)
+
+
+def _drop_other_spellings(element: Any) -> None:
+    """Take out attributes that are canonical elsewhere and another spelling here, as ``size`` is of strings."""
+    if element.tag in TAGS:
+        for attribute in SPELLINGS[TAGS[element.tag]].other_attributes:
+            element.attrib.pop(attribute, None)
 
 
 def _retag(draw: st.DrawFn, element: Any) -> None:
