@@ -35,6 +35,7 @@ from ucm_cts.harness.running.integrity import contradiction
 from ucm_cts.harness.scenarios.probes import load_probe_types
 from ucm_cts.harness.scenarios.scripts import read_scripts, to_scenario
 from ucm_cts.harness.selftest.matrix import Matrix
+from ucm_cts.harness.toolchains.description import Command, ToolChain
 from ucm_cts.reference_models.judgement import Judge
 
 ROOT = Path(__file__).parent.parent
@@ -275,6 +276,26 @@ def test_statement(here: Path) -> None:
     assert ucm_cts(*shlex.split(writes)[1:], "--force").status == 0
     keys = {key for row in column("docs/statement.md", r"(`.+?`) \| .+ \| .+") for key in re.findall(r"[\w]+", row)}
     assert keys == tomllib.loads((here / "my-ics.toml").read_text()).keys()
+
+
+def test_toolchain_guide(here: Path) -> None:
+    write_files("docs/toolchains.md")
+    (command,) = [c for c in commands("ucm-cts run") if "--out pim-report" in c]
+    outcome = ucm_cts(*shlex.split(command)[1:], "-k", "R-9.2.4.3-02")
+    assert (outcome.err, report_of(here / "pim-report")["product"]) == ("", "My tool chain")
+    (result,) = [r for r in report_of(here / "pim-report")["requirements"] if r["id"] == "R-9.2.4.3-02"]
+    assert result["verdict"] == "pass"
+    (written,) = [c for c in commands("ucm-cts ics") if "my-toolchain.toml" in c]
+    assert ucm_cts(*shlex.split(written)[1:]).status == 0
+    assert 'product = "My tool chain"' in (here / "ucm-cts-ics.toml").read_text()
+    described = {
+        key
+        for row in column("docs/toolchains.md", r"(`.+?`.*?) \| .+ \| .+")
+        for key in re.findall(r"`\[?([a-z0-9]+)", row)
+    }
+    assert described - {"pim"} == {f.name for f in msgspec.structs.fields(ToolChain)} - {"folder", "source"} | {
+        f.name for f in msgspec.structs.fields(Command)
+    }
 
 
 def test_python_guide(here: Path) -> None:
