@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from lxml import etree
 
 from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.harness.catalogue import SUITE, load_requirements
 from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.harness.toolchains.corpus import Question, load_operators, questions
 
@@ -49,3 +50,15 @@ def test_every_requirement_has_the_models_that_its_rules_promise() -> None:
 def test_every_operator_finds_a_place() -> None:
     used = {q.name.partition("/")[0] for q in questions()}
     assert not load_operators().keys() - used
+
+
+def test_the_suite_s_own_models_are_legal() -> None:
+    """What running frameworks are certified with: the probes, and the core definitions in the spelling of clause 10."""
+    core = etree.Element("Model")
+    for path in sorted((SUITE / "models" / "core").glob("*.xml")):
+        core.append(etree.parse(path).getroot())
+    probes = (SUITE / "models" / "probes" / "probes.xml").read_bytes()
+    for text in (probes, etree.tostring(core)):
+        model, told = PROGRAM.check(text, "model.xml")
+        assert model is not None
+        assert not told, "\n".join(map(str, told))
