@@ -82,6 +82,16 @@ def _ports_of_component(reference: str, scope: Scope) -> Mapping[str, Declared]:
     return _ports_by_name(owner) if owner is not None else {}
 
 
+def meanings_of_component(reference: str, scope: Scope) -> Mapping[str, Specified]:
+    """What the ports of the component that ``reference`` means are specified as, by their names; only those that are."""
+    return scope.remembered(("meanings of", reference), functools.partial(_meanings_of_component, reference, scope))
+
+
+def _meanings_of_component(reference: str, scope: Scope) -> Mapping[str, Specified]:
+    ports = ports_of_component(reference, scope).items()
+    return {name: meaning for name, port in ports if (meaning := specified(port)) is not None}
+
+
 def port_of(owner: Declared, name: str) -> Declared | None:
     """The port of a component type, its own or inherited, by its name."""
     return _ports_by_name(owner).get(name)

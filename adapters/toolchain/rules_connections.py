@@ -21,7 +21,13 @@ from ucm_cts.adapters.contract.metamodel.interactions import (
 )
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
 from ucm_cts.adapters.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.toolchain.part_ports import Specified, component_type, part_called, port_of_end, specified
+from ucm_cts.adapters.toolchain.part_ports import (
+    Specified,
+    component_type,
+    meanings_of_component,
+    part_called,
+    port_of_end,
+)
 
 DEFINITIONS = (ConnectorDefinition, InteractionPattern)
 """What a connection may be an instance of (9.3.3.1)."""
@@ -90,11 +96,11 @@ def _joints(composite: Composite, scope: Scope) -> list[Joint]:
 
 def _find_joints(composite: Composite, scope: Scope) -> list[Joint]:
     found = []
+    meanings = {part.name: meanings_of_component(part.instance_of, scope) for part in reversed(composite.parts)}
     for connection in composite.connections:
         joined = []
         for end in connection.ends:
-            port = port_of_end(composite, end, scope)
-            meaning = specified(port) if port is not None else None
+            meaning = meanings.get(end.part, {}).get(end.port)
             if meaning is not None:
                 joined.append(Joined(end, meaning))
         found.append(Joint(connection, _definition(connection.definition, scope), joined))
