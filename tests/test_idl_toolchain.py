@@ -62,7 +62,7 @@ def test_mutants_are_killed_for_the_right_reason(mutant: Mutant) -> None:
         if not subject.files:
             assert mutant.breaks == ("R-12-01",)
             return
-        broken |= {d.requirement for d in compare(subject.expected, subject.files, readings).differences}
+        broken |= {d.requirement for d in compare(subject.expected, subject.files, readings, opinion).differences}
         assert broken <= {*mutant.breaks, *mutant.also}
         if broken >= set(mutant.breaks):
             return

@@ -237,6 +237,7 @@ REPLACED |= {
     "name_of_nothing": ("R-12.1-03", r"::data_types::label_t label;", "::data_types::tag_t label;"),
     "enumerators_end_with_a_comma": ("R-12.1-03", r"(\n *circle)\n", r"\1,\n"),
     "dimension_before_its_name": ("R-12.1-03", r"corners_t\[3\];", "[3] corners_t;"),
+    "declared_after_its_use": ("R-12.1-03", r"( *typedef double double_t;\n)((?:.*\n)*?)(?=\};\n\n#endif)", r"\2\1"),
     "declared_twice": ("R-12.1-03", r"( *typedef double double_t;\n)", r"\1\1"),
     "operations_are_oneway": ("R-12.1-02", r"void nothing\(\)", "oneway void nothing()"),
 }
