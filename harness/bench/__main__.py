@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rich.console import Console
 
-from ucm_cts.harness.bench import doors, judging
+from ucm_cts.harness.bench import doors, judging, models
 
 EVENTS = 1_000_000
 
@@ -25,6 +25,8 @@ def main() -> None:
     with console.status("going through the doors ..."):
         for table in doors.tables():
             console.print(table)
+    with console.status("reading and checking a million elements ..."):
+        console.print(models.of_a_large_model())
 
 
 if __name__ == "__main__":

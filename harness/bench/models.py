@@ -65,6 +65,12 @@ WAYS: dict[str, Callable[[Path], None]] = {
 }
 
 
+def _alone(*arguments: str) -> Any:
+    """What this module answers in a process of its own."""
+    command = [sys.executable, "-m", __spec__.name, *arguments]
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+
+
 def costs(path: Path) -> dict[str, tuple[float, float]]:
     """Median seconds of processor time and most megabytes of each way with the model at ``path``, all taken in turn."""
     taken: dict[str, list[tuple[float, float]]] = {way: [] for way in WAYS}
@@ -90,6 +96,14 @@ def table(elements: int, size: int, measured: dict[str, tuple[float, float]]) ->
     return shown
 
 
+def of_a_large_model(elements: int = ELEMENTS) -> Table:
+    """What each way costs with a model of about so many elements."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "large.xml"
+        count = _alone("--make", "--elements", str(elements), str(path))
+        return table(count, path.stat().st_size, costs(path))
+
+
 @click.command()
 @click.option("--make", is_flag=True, help="Only write the model to PATH.")
 @click.option("--way", type=click.Choice(list(WAYS)), help="Only measure this, with the model at PATH.")
@@ -98,22 +112,13 @@ def table(elements: int, size: int, measured: dict[str, tuple[float, float]]) ->
 def main(make: bool, way: str | None, elements: int, path: Path | None) -> None:
     """Make a large model and print what each way costs. This process stays small: others begin with its memory."""
     if path is None:
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "large.xml"
-            count = _alone("--make", "--elements", str(elements), str(path))
-            Console(width=100).print(table(count, path.stat().st_size, costs(path)))
+        Console(width=100).print(of_a_large_model(elements))
     elif make:
         made = large_model(elements)
         path.write_bytes(write_model(made))
         click.echo(json.dumps(sum(1 for _ in walk(made)) - 1))
     elif way is not None:
         click.echo(json.dumps(_measured(WAYS[way], path)))
-
-
-def _alone(*arguments: str) -> Any:
-    """What this module answers in a process of its own."""
-    command = [sys.executable, "-m", __spec__.name, *arguments]
-    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
 
 
 def _measured(way: Callable[[Path], None], path: Path) -> tuple[float, float]:
