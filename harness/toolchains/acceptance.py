@@ -55,6 +55,7 @@ class Judgement:
     outcome: Outcome
     expected: str = ""
     observed: str = ""
+    elsewhere: bool = False
 
 
 class Acceptance:
@@ -92,7 +93,8 @@ class Acceptance:
         asked = (q.twin, q.name) if q.twin else (q.name,)
         measure = f"models to {q.due}"
         if judgement.outcome == "unclear":
-            return Fact(q.requirement, asked, unclear=judgement.observed, measure=measure)
+            told = judgement.observed
+            return Fact(q.requirement, asked, unclear=told, elsewhere=judgement.elsewhere, measure=measure)
         if judgement.outcome == "kept":
             return Fact(q.requirement, asked, measure=measure)
         finding = Finding(q.requirement, judgement.rule, q.name, judgement.expected, judgement.observed)
@@ -160,7 +162,7 @@ def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame) -> Judgeme
     if answer.accepted is None:
         return Judgement(q, rule, "unclear", observed=f"no answer: {answer.told}")
     if not _stands(q, answers):
-        return Judgement(q, rule, "unclear", observed=f"its legal twin {q.twin} was not accepted")
+        return Judgement(q, rule, "unclear", "", f"its legal twin {q.twin} was not accepted", elsewhere=True)
     if q.due == "accept":
         return _of_legal(q, answer, rule, blame)
     if answer.accepted:
@@ -177,6 +179,6 @@ def _of_legal(q: Question, answer: Answer, rule: str, blame: Blame) -> Judgement
         return Judgement(q, rule, "kept")
     instead = blame.instead_of(q.name)
     if instead:
-        return Judgement(q, rule, "unclear", observed=f"the simpler model {instead} was refused, too")
+        return Judgement(q, rule, "unclear", "", f"the simpler model {instead} was refused, too", elsewhere=True)
     expected = f"the model is accepted{f': {q.because}' if q.because else ''}"
     return Judgement(q, rule, "broken", expected, f"it was refused: {answer.told or 'without a word'}")

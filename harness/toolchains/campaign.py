@@ -30,7 +30,8 @@ TASKS: dict[str, Task] = {"pim": "check", "idl": "idl", "cpp11": "cpp11", "cpp03
 class Fact(msgspec.Struct, frozen=True):
     """One thing that what was made of a model says of a requirement, or, where that is empty, a remark to be counted.
 
-    ``finding`` is None where it was kept. ``unclear`` says why it says nothing, and then counts for nothing. ``asked`` are the
+    ``finding`` is None where it was kept. ``unclear`` says why it says nothing, and then counts for nothing; with ``elsewhere`` because of what another requirement is held
+    to account for, so that what else is known of this one stands. ``asked`` are the
     names of the models whose processing it rests on, the last one being that which shows it.
     """
 
@@ -38,6 +39,7 @@ class Fact(msgspec.Struct, frozen=True):
     asked: tuple[str, ...]
     finding: Finding | None = None
     unclear: str = ""
+    elsewhere: bool = False
     processed: Processed | None = None
     measure: str = ""
 
@@ -132,12 +134,14 @@ class ToolChainCampaign:
             self._measures[fact.measure or "facts"] += 1
             if not fact.requirement:
                 continue
-            if fact.unclear:
+            if fact.unclear and fact.elsewhere:
+                self._tally.explain(fact.requirement, f"{fact.asked[-1]}: {fact.unclear}")
+            elif fact.unclear:
                 self._tally.settle(fact.requirement, "inconclusive", f"{fact.asked[-1]}: {fact.unclear}")
-                continue
-            self._tally.exercised[fact.requirement] += 1
-            if fact.finding is not None:
-                self._tally.add_failure(fact.finding, None, fact.processed)
+            else:
+                self._tally.exercised[fact.requirement] += 1
+                if fact.finding is not None:
+                    self._tally.add_failure(fact.finding, None, fact.processed)
 
     def look_again(self) -> Iterator[str]:
         """Have what broke a requirement processed once more: what does not show again is unstable, and no verdict.
