@@ -10,6 +10,7 @@ from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS
 from ucm_cts.adapters.contract.metamodel.writing import write_model
 from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.harness.bench.large_model import large_model
 from ucm_cts.harness.toolchains.legal_models import legal_models
 from ucm_cts.harness.toolchains.schema import violations
 
@@ -47,3 +48,12 @@ def test_every_class_is_in_legal_models() -> None:
 
     look()
     assert drawn == set(SPELLINGS)
+
+
+def test_the_large_model_is_legal_and_as_large_as_wanted() -> None:
+    model = large_model(12_000)
+    assert 9_000 < sum(1 for _ in walk(model)) < 15_000
+    written = write_model(model)
+    assert violations(written) == []
+    _, told = reference().check(written, "m.xml")
+    assert told == []
