@@ -145,10 +145,14 @@ INTERFACES: Mapping[str, Wrong] = {
         [(r"class Abstract_right : public virtual ::interfaces::Abstract_root \{", "class Abstract_right {")],
     ),
     "operation_has_a_body": Wrong(
-        "interfaces", "R-13.6.1-01", [(r"virtual void nothing\(\) = 0;", "virtual void nothing() {}")]
+        "interfaces",
+        "R-13.6.1-01",
+        [(r"virtual void nothing\(\) = 0;(\n    virtual ::interfaces)", r"virtual void nothing() {}\1")],
     ),
     "operation_is_not_virtual": Wrong(
-        "interfaces", "R-13.6-03", [(r"virtual void nothing\(\) = 0;", "void nothing() {}")]
+        "interfaces",
+        "R-13.6-03",
+        [(r"virtual void nothing\(\) = 0;(\n    virtual ::interfaces)", r"void nothing() {}\1")],
     ),
     "one_parameter_more": Wrong(
         "interfaces", "R-13.6.1-02", [(r"(renamed\(::interfaces::distance_t given)\)", r"\1, int more)")]

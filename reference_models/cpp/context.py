@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 
 from ucm_cts.adapters.contract.metamodel import contracts
@@ -23,6 +24,9 @@ xor xor_eq"""
 RESERVED = frozenset(_RESERVED.split())
 
 OBSERVED = "observed"
+
+LARGE = 1 << 18
+"""Bytes from which on no value of a type is made: programs have little room for such values where functions keep theirs."""
 
 
 class Context:
@@ -85,6 +89,27 @@ class Context:
                 named = [f"{type_}({spelled(declared)}::{plain(e.name)})" for e in enumeration.enumerators]
                 return named[-1], named[0]
         return f"{type_}()", f"{type_}()"
+
+
+def footprint(declared: Declared, depth: int = 50) -> int:
+    """About how many bytes a value takes; what can grow counts as if it were empty."""
+    element = actual(declared).element
+    scope = actual(declared).scope
+
+    def of(reference: str) -> int:
+        found = scope.find(reference, *DATA)
+        return footprint(found, depth - 1) if found is not None and depth > 0 else 8
+
+    match element:
+        case contracts.Structure():
+            return sum(of(field.type) for field in element.fields)
+        case contracts.Union():
+            return 8 + sum(of(case.type) for case in element.cases)
+        case contracts.Array():
+            return of(element.type) * math.prod(max(0, d.size or 0) for d in element.dimensions)
+        case contracts.Sequence() if element.max_size is not None and element.max_size > 0:
+            return of(element.type) * element.max_size
+    return 32
 
 
 def plain(name: str) -> str:

@@ -8,7 +8,18 @@ from collections.abc import Iterator
 from ucm_cts.adapters.contract.metamodel import contracts
 from ucm_cts.adapters.contract.metamodel.modules import MODULES
 from ucm_cts.adapters.contract.metamodel.names import Declared
-from ucm_cts.reference_models.cpp.context import ABSTRACT, DATA, OBSERVED, Context, actual, expect, plain, spelled
+from ucm_cts.reference_models.cpp.context import (
+    ABSTRACT,
+    DATA,
+    LARGE,
+    OBSERVED,
+    Context,
+    actual,
+    expect,
+    footprint,
+    plain,
+    spelled,
+)
 from ucm_cts.reference_models.cpp.expected import (
     ArrayOf,
     BoundedSequence,
@@ -134,6 +145,12 @@ def struct_forms(context: Context) -> tuple[StructForm, ...]:
     return ("accessors", "plain")
 
 
+def _is_large(declared: Declared) -> bool:
+    """Whether a program of probes makes no values of the structure, union or exception."""
+    parts = (declared.scope.find(getattr(p, "type", ""), *DATA) for p in _parts(declared) if getattr(p, "type", ""))
+    return sum(footprint(part) for part in parts if part is not None) > LARGE
+
+
 def _field(
     requirement: str,
     declared: Declared,
@@ -142,6 +159,8 @@ def _field(
 ) -> Iterator[Expected]:
     found = context.data(field.type, declared.scope)
     nameable = context.is_sayable(field.name) and plain(field.name) != plain(declared.element.name)
+    if _is_large(declared):
+        return
     if found is not None and nameable and context.is_sayable(found.path):
         claim = Field(spelled(declared), plain(field.name), context.sample(found), struct_forms(context))
         yield expect(requirement, declared, claim, field)
@@ -150,7 +169,8 @@ def _field(
 def _structure(declared: Declared, structure: contracts.Structure, context: Context) -> Iterator[Expected]:
     name = spelled(declared)
     yield expect("R-13.2.1-01", declared, IsClass(name))
-    yield expect("R-13.2.1-02", declared, Regular(name))
+    if not _is_large(declared):
+        yield expect("R-13.2.1-02", declared, Regular(name))
     for field in structure.fields:
         yield from _field("R-13.2.1-03", declared, field, context)
 
@@ -158,7 +178,8 @@ def _structure(declared: Declared, structure: contracts.Structure, context: Cont
 def _union(declared: Declared, union: contracts.Union, context: Context) -> Iterator[Expected]:
     name = spelled(declared)
     yield expect("R-13.2.2-01", declared, IsClass(name))
-    yield expect("R-13.2.2-02", declared, Regular(name))
+    if not _is_large(declared):
+        yield expect("R-13.2.2-02", declared, Regular(name))
     for case in union.cases:
         yield from _field("R-13.2.2-03", declared, case, context)
         yield from _discriminator(declared, union, case, context)
@@ -168,7 +189,7 @@ def _discriminator(
     declared: Declared, union: contracts.Union, case: contracts.UnionCase, context: Context
 ) -> Iterator[Expected]:
     selector, type_ = (context.data(t, declared.scope) for t in (union.selector_type, case.type))
-    if selector is None or type_ is None or plain(case.name) == plain(declared.element.name):
+    if _is_large(declared) or selector is None or type_ is None or plain(case.name) == plain(declared.element.name):
         return
     enumeration = actual(selector)
     if not isinstance(enumeration.element, contracts.Enumeration):
@@ -266,6 +287,8 @@ def _sequence(declared: Declared, sequence: contracts.Sequence, context: Context
     element = context.data(sequence.type, declared.scope)
     if element is None or not context.is_sayable(element.path) or sequence.max_size == 0:
         return
+    if footprint(declared) > LARGE:
+        return
     name = spelled(declared)
     if sequence.max_size is None or sequence.max_size < 0:
         yield expect("R-13.2.5-02", declared, Is(name, (f"::std::vector< {spelled(element)} >",)))
@@ -343,12 +366,14 @@ def exceptions(context: Context) -> Iterator[Expected]:
         name = spelled(declared)
         yield expect("R-13.3-02", declared, Declares(name))
         yield expect("R-13.4-01", declared, IsClass(name))
-        yield expect("R-13.4-01", declared, Regular(name))
+        if not _is_large(declared):
+            yield expect("R-13.4-01", declared, Regular(name))
         yield expect("R-13.4-04", declared, Derives(Named(name), "::UCM::UserException"))
         yield expect("R-13.4-03", declared, NoMember(Named(name), "rep_id"))
         yield expect("R-13.4-03", declared, NoMember(Named(name), "_rep_id"))
         yield expect("R-13.4-06", declared, NotCorba(Named(name)))
-        yield expect("R-13.4-08", declared, Thrown(name, "::UCM::Exception"))
+        if not _is_large(declared):
+            yield expect("R-13.4-08", declared, Thrown(name, "::UCM::Exception"))
         for field in element.fields:
             yield from _field("R-13.4-07", declared, field, context)
 

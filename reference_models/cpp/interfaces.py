@@ -11,9 +11,11 @@ from ucm_cts.reference_models.cpp.context import (
     ABSTRACT,
     DATA,
     INTERFACES,
+    LARGE,
     Context,
     actual,
     expect,
+    footprint,
     plain,
     spelled,
 )
@@ -119,7 +121,7 @@ class Members:
                 raise Unsayable(found.path)
             type_ = self._context.reference(interface_class(found))
             return Sample(type_, f"{type_}()", f"{type_}()", False)
-        if not self._context.is_sayable(found.path) or is_abstract(found):
+        if not self._context.is_sayable(found.path) or is_abstract(found) or footprint(found) > LARGE:
             raise Unsayable(found.path)
         return self._context.sample(found)
 

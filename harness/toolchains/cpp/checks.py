@@ -108,7 +108,7 @@ def _of_types(claim: claims.Claim) -> Text | None:
             nested = " of ".join([template] * depth)
             return Text(f"{name} is {nested} of {element}", _one_of(inner, [element]))
         case claims.Sizes(name, sizes):
-            return Text(f"{name} has {' times '.join(map(str, sizes))} elements", run=_sizes(name, sizes))
+            return Text(f"{name} has {' times '.join(map(str, sizes))} elements", _sizes(name, sizes))
         case claims.BoundedSequence():
             return _bounded_sequence(claim)
         case claims.IsClass(name):
@@ -129,11 +129,12 @@ def _of_types(claim: claims.Claim) -> Text | None:
 
 
 def _sizes(name: str, sizes: tuple[int, ...]) -> str:
-    lines = [f"const {name} value = {name}();"]
-    for depth, size in enumerate(sizes):
-        message = f"its dimension {depth + 1} has another size"
-        lines.append(f'::ucts::require(value{"[0]" * depth}.size() == {size}, "{message}");')
-    return " ".join(lines)
+    inner, conditions = name, []
+    for size in sizes:
+        array = f"::ucts::array_of<{inner}>"
+        conditions.append(f"{array}::size == {size}")
+        inner = f"{array}::element"
+    return _holds(" && ".join(conditions))
 
 
 def _bounded_sequence(claim: claims.BoundedSequence) -> Text:

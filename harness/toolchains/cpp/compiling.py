@@ -19,7 +19,7 @@ from ucm_cts.adapters.contract.value import Value
 STANDARDS = {"cpp11": "-std=c++11", "cpp03": "-std=c++03"}
 
 _OUTPUT = 16 << 20
-_LIMITED = 'ulimit -v "$0"; ulimit -f "$1"; ulimit -c 0; shift; exec "$@"'
+_LIMITED = 'ulimit -v "$0"; ulimit -f "$1"; ulimit -c 0; ulimit -s "$(ulimit -H -s)"; shift; exec "$@"'
 
 
 class Compiler(Value, frozen=True):

@@ -169,8 +169,9 @@ class _Comparing:
                 self._unit(left), folder, self._headers, self._expected.standard, self._compiler, made
             )
             if not compiled.errors and not compiled.problem:
-                self._ran(run([str(made)], folder, self._compiler), left)
-                return
+                if self._ran(run([str(made)], folder, self._compiler), left):
+                    return
+                continue
             if not self._sort(compiled):
                 return
 
@@ -218,7 +219,8 @@ class _Comparing:
             return False
         return len(self._seen.failed) + len(self._seen.bodies) + len(self._seen.support) > before
 
-    def _ran(self, ended: Ended, left: Iterable[Check]) -> None:
+    def _ran(self, ended: Ended, left: Iterable[Check]) -> bool:
+        """Take note of what the program found out; False if it died in a check and may go on without it."""
         begun: int | None = None
         for match in _BEGUN.finditer(ended.output):
             word, number = match[1], int(match[2])
@@ -229,11 +231,11 @@ class _Comparing:
             begun = number if word == "begin" else None
         status = ended.status or 0
         how = ended.problem or (f"signal {-status}" if status < 0 else f"status {status}")
-        if ended.status != 0:
-            self._seen.problem = f"the program of probes ended early: {how}"
+        self._seen.problem = f"the program of probes ended early: {how}" if ended.status != 0 else ""
         if begun is not None:
             self._seen.failed[begun] = (f"the program ended here: {how}", ())
         self._seen.kept |= {c.number for c in left if not c.text.run}
+        return begun is None
 
     def _unit(self, left: list[Check]) -> str:
         modern = self._expected.standard == "cpp11"
@@ -355,7 +357,7 @@ class _Comparing:
 
 def _needs(claim: claims.Claim) -> str:
     match claim:
-        case claims.ArrayOf():
+        case claims.ArrayOf() | claims.Sizes():
             return "array"
         case claims.SafeEnum() | claims.SafeEnumInner():
             return "safe_enum"
