@@ -11,8 +11,10 @@ from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS
 from ucm_cts.adapters.contract.metamodel.writing import write_model
 from ucm_cts.adapters.toolchain.program import reference
 from ucm_cts.harness.bench.large_model import large_model
+from ucm_cts.harness.toolchains.idl.comparing import compare
 from ucm_cts.harness.toolchains.legal_models import legal_models
 from ucm_cts.harness.toolchains.schema import violations
+from ucm_cts.reference_models.idl.mapping import expected_idl
 
 some = settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
 
@@ -36,6 +38,9 @@ def test_legal_models_can_be_mapped(model: Model) -> None:
         files, told = program.generate(task, write_model(model), "m.xml")
         assert told == []
         assert files
+        if task == "idl":
+            expected = expected_idl(read_model(write_model(model), "m.xml").model)
+            assert [str(difference) for difference in compare(expected, files).differences] == []
 
 
 def test_every_class_is_in_legal_models() -> None:

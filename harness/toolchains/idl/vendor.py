@@ -145,7 +145,7 @@ class Vendor:
             actual = hit.bound.get(hit.entry.declaration.name.lower()) if is_parameter(hit) else None
             if actual is not None:
                 return self.same(actual.type, actual.scope, expected, actual.bound)
-            if hit.entry is self.entry(expected) and not hit.bound:
+            if hit.entry is self.entry(expected) and (not hit.bound or self._means_itself(hit, expected)):
                 return True
         if isinstance(found, SequenceOf) and isinstance(expected, SequenceOf):
             return self.same(found.element, scope, expected.element, bound) and self._size(
@@ -238,6 +238,10 @@ class Vendor:
                 found = hit.entry.path if hit is not None else tuple(map(spelled, path))
                 return ("declared", tuple(part.lower() for part in found))
         return self.meaning(type_, self.root)
+
+    def _means_itself(self, hit: Hit, expected: Type) -> bool:
+        """Whether the expected type is none but the declaration of ``hit``: nothing is known of what it is made of."""
+        return self.expected_meaning(expected) == ("declared", tuple(part.lower() for part in hit.entry.path))
 
     def value_kind(self, type_: Type) -> str:
         """How values of an expected type are written: text, character, truth, enumerator or number."""
