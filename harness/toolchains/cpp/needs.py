@@ -1,6 +1,8 @@
-"""Which probes say nothing any more once another one has failed, so that each defect is told once."""
+"""What a claim is about: where headers speak of it, and whether it says nothing any more once another one has failed."""
 
 from __future__ import annotations
+
+import re
 
 from ucm_cts.reference_models.cpp import expected as claims
 from ucm_cts.reference_models.cpp.expected import Claim, Connected, Named, Returned
@@ -32,9 +34,28 @@ def lacks(claim: Claim, failed: Claim) -> str:
     return ""
 
 
+def line_of(claim: Claim, text: str) -> int:
+    """The line of a header's ``text`` that declares what ``claim`` is about, counted from 1; 0 if there is none."""
+    types = claim.types if isinstance(claim, claims.Works) else ("",)
+    name = (_owner(claim) or getattr(claim, "name", "") or types[0]).rpartition("::")[2]
+    if not name:
+        return 0
+    whole = rf"\b{re.escape(name)}\b"
+    found = re.search(rf"\b(?:class|struct|enum|namespace)\s+(?:class\s+)?{whole}(?!\s*;)", text)
+    found = found or re.search(rf"{whole}(?=\s*(?:;|=))", text)
+    if found is None:
+        return 0
+    at = found.start()
+    members = (getattr(claim, field, "") for field in ("method", "field", "case", "enumerator", "getter", "connection"))
+    for member in filter(None, members):
+        inside = re.search(rf"\b{re.escape(member)}\b", text[at:])
+        at += inside.start() if inside else 0
+    return text.count("\n", 0, at) + 1
+
+
 def _owner(claim: Claim) -> str | None:
     """The class that the model's element became."""
-    owner = getattr(claim, "owner", None)
+    owner = getattr(claim, "owner", getattr(claim, "derived", None))
     if isinstance(owner, Named):
         return owner.name
     if isinstance(owner, Returned | Connected):

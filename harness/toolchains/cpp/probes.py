@@ -23,7 +23,7 @@ from ucm_cts.harness.toolchains.cpp.compiling import (
     run,
 )
 from ucm_cts.harness.toolchains.cpp.listing import LISTED, RULE, Listed, listed
-from ucm_cts.harness.toolchains.cpp.needs import lacks
+from ucm_cts.harness.toolchains.cpp.needs import lacks, line_of
 from ucm_cts.harness.toolchains.cpp.prelude import ARRAY, SAFE_ENUM, SHARED, prelude
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.reference_models.cpp import expected as claims
@@ -345,13 +345,11 @@ class _Comparing:
 
     def _found(self, one: Check) -> tuple[str, int]:
         """Where the headers speak of what the check is about."""
-        names = re.findall(r"::(\w+)", one.text.says) + re.findall(r"\b(\w+)\b", one.expected.element)
-        for name in reversed(names[:3]):
-            for header in self._headers.names:
-                text = (self._headers.folder / header).read_text(encoding="utf-8", errors="replace")
-                match = re.search(rf"\b{re.escape(name)}\b", text)
-                if match:
-                    return header, text.count("\n", 0, match.start()) + 1
+        for header in self._headers.names:
+            text = (self._headers.folder / header).read_text(encoding="utf-8", errors="replace")
+            line = line_of(one.expected.claim, text)
+            if line:
+                return header, line
         return "", 0
 
 
