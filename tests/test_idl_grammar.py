@@ -53,6 +53,7 @@ ACCEPTED = [
     '@IndexType(typeid="unsigned long") typedef sequence<short, 64> s;',
     "@Annotation IndexType { attribute String typeid; }",
     "@annotation range { long min default 0; long max; };",
+    "@annotation how { enum kinds { A, B }; const long c = 1; kinds value default A; };",
     "@MemoryFootPrint(1024) native n;",
     'enum e { @DefaultValue(val="0xFF0000") RED, @value(3) GREEN };',
     "enum e { A, B }; union u switch (e) { case A: case ::B: long x; default: string y; };",

@@ -67,6 +67,10 @@ RELAXED: dict[str, tuple[str, Replacement]] = {
     "policy_getters_as_in_the_example": (r"get_tp_(Drive|Night|Day_Duty|Meter)_", r"get_tp_My\1_"),
     "policies_provided_without_base": (r"(interface execution_intf) : ::PortElementObject", r"\1"),
     "attributes_of_interfaces_left_out": (r"(interface painter \{\n)(?: *.*attribute .*\n)+", r"\1"),
+    "attributes_of_interfaces_are_operations": (
+        r"(interface painter \{\n) *.*attribute (\S+) colour;\n *.*attribute (\S+) width;\n",
+        r"\1\2 get_colour();\n\3 width();\nvoid set_width(in \3 value);\n",
+    ),
     "cases_out_of_order": (
         r"( *case ::data_types::triangle:\n.*\n)( *case ::data_types::square:\n.*\n)",
         r"\2\1",

@@ -108,10 +108,11 @@ class Raises(Expected, frozen=True, kw_only=True):
 
 
 class Only(Expected, frozen=True, kw_only=True):
-    """The interface has no ``kind`` (operation, attribute) of its own beyond these names."""
+    """The interface has no ``kind`` (operation, attribute) of its own beyond these names, and those that end with ``tolerated``."""
 
     kind: str
     names: tuple[str, ...]
+    tolerated: tuple[str, ...] = ()
 
 
 class Inherits(Expected, frozen=True, kw_only=True):

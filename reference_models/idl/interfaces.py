@@ -60,7 +60,14 @@ def interface_facts(subject: Subject) -> Iterator[Expected]:
             yield Inherits(**subject.about("R-12.6-09"), base=path_of(base))
     for method in interface.methods:
         yield from _method(subject, method)
-    yield Only(**subject.about("R-12.6-04"), kind="operation", names=tuple(m.name for m in interface.methods))
+    yield Only(
+        **subject.about("R-12.6-04"),
+        kind="operation",
+        names=tuple(method.name for method in interface.methods),
+        tolerated=tuple(
+            attribute.name for attribute in interface.attributes
+        ),  # they stand for access methods (9.2.7.1)
+    )
     for attribute in interface.attributes:
         yield from attribute_facts(subject, attribute, "R-12.6-10", needed=False)
 

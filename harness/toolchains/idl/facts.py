@@ -6,6 +6,8 @@ import itertools
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import msgspec
+
 from ucm_cts.harness.toolchains.idl.annotations import defaulted, indexed, numbered, tagged
 from ucm_cts.harness.toolchains.idl.facts_of_interfaces import access, getter, inherits, no_getter, only, raises, takes
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
@@ -15,6 +17,7 @@ from ucm_cts.harness.toolchains.idl.subject import here, nearest
 from ucm_cts.harness.toolchains.idl.values import Chosen, equal, model_worth, worth
 from ucm_cts.harness.toolchains.idl.vendor import Vendor, spelled
 from ucm_cts.reference_models.idl.declarations import (
+    Attribute,
     Case,
     Constant,
     Declaration,
@@ -67,6 +70,8 @@ def declares(vendor: Vendor, fact: Declares) -> list[Wrong]:
         return _missing(vendor, fact)
     declaration = hit.entry.declaration
     kind = kind_of(declaration)
+    if fact.requirement == INTERFACE_ATTRIBUTES and vendor.reading("idl-interface-attributes") != "attributes":
+        fact = msgspec.structs.replace(fact, kind=kind)  # an operation may stand for it
     if fact.kind in ("", kind):  # of which kind data types are is a matter of their own
         return []
     return [Wrong(f"{show_kind(fact.kind)} {fact.path[-1]}", f"{show_kind(kind)} of that name", declaration.place)]
@@ -102,6 +107,8 @@ def means(vendor: Vendor, fact: Means) -> list[Wrong]:
     hit = here(vendor, fact.path)
     declaration = hit.entry.declaration
     found = type_of(declaration)
+    if fact.requirement == INTERFACE_ATTRIBUTES and not isinstance(declaration, Attribute):
+        raise NotExercised
     if found is None:
         return [
             Wrong(

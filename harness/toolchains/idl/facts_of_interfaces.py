@@ -70,12 +70,14 @@ def only(vendor: Vendor, fact: Only) -> list[Wrong]:
     interface = hit.entry.declaration
     assert isinstance(interface, Interface)
     wanted = {id(found.entry) for name in fact.names if (found := vendor.inside(hit, name)) is not None}
-    assert hit.entry.inner is not None or not interface.body
+    tolerated = tuple(spelled(name) for name in fact.tolerated)
     entries = hit.entry.inner.entries if hit.entry.inner is not None else ()
     return [
         Wrong(f"no {fact.kind} of the name in {fact.path[-1]}", entry.declaration.name, entry.declaration.place)
         for entry in entries
-        if kind_of(entry.declaration) == fact.kind and id(entry) not in wanted
+        if kind_of(entry.declaration) == fact.kind
+        and id(entry) not in wanted
+        and not entry.declaration.name.endswith(tolerated)
     ]
 
 
