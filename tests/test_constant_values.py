@@ -12,7 +12,8 @@ from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Names, Scope
 from ucm_cts.adapters.contract.metamodel.reading import read_model
-from ucm_cts.adapters.toolchain.constant_values import LONGEST, NotAConstant, NoValueOfType, fit, parsed
+from ucm_cts.adapters.toolchain.constant_syntax import LONGEST, NotAConstant, parsed
+from ucm_cts.adapters.toolchain.constant_values import NoValueOfType, fit
 
 TYPES = """
 <ContractModule name="m">
@@ -23,7 +24,7 @@ TYPES = """
   <PrimitiveChar name="char_t" kind="CHAR8"/>
   <StringType name="five_t" charBase="CHAR8" maxSize="5"/>
   <StringType name="text_t" charBase="CHAR32" maxSize="-1"/>
-  <Enumeration name="colour_t" indexType="BYTE"><Enumerator name="red" value="0"/></Enumeration>
+  <Enumeration name="colour_t" indexType="BYTE"><Enumerator name="red" value="0"/><Enumerator name="light-red" value="1"/></Enumeration>
   <Structure name="open_t"><StructureField name="f" type="long_t"/></Structure>
   <Constant name="seven" type="octet_t" value="7"/>
   <Constant name="chosen" type="colour_t" value="red"/>
@@ -50,7 +51,19 @@ HERE = scope()
     [
         (
             "octet_t",
-            ["0", "255", "0xff", "0377", "-0", "seven", "::m::seven", "seven * (seven - 5)", "~-256", "1 << 7"],
+            [
+                "0",
+                "255",
+                "0xff",
+                "0377",
+                "-0",
+                "seven",
+                "::m::seven",
+                "seven * (seven - 5)",
+                "~-256",
+                "1 << 7",
+                "seven-6",
+            ],
         ),
         ("long_t", ["-2147483648", "-7 / 2 + 3", "-7 % 2 + 1", "6 ^ 3", "6 | 1 & 3", " 12 ", "+5", "--5"]),
         ("float_t", ["1.5", "1e3", ".5", "5.", "-1.5E-3", "7", "half * 3.0", "1.0 / 4.0", "1 + half"]),
@@ -58,7 +71,7 @@ HERE = scope()
         ("char_t", ["'a'", r"'\n'", r"'\''", r"'\x41'", r"'\101'", "L'a'"]),
         ("five_t", ['""', '"hello"', '"he" "llo"', r'"hi \"x"', r'"\x41bcde"']),
         ("text_t", ['"a string as long as one likes"', 'L"wide"']),
-        ("colour_t", ["red", "chosen"]),
+        ("colour_t", ["red", "light-red", "chosen"]),
         ("open_t", ["anything", "{1, 2}", ""]),
         ("nothing_t", ["anything"]),
     ],

@@ -12,7 +12,8 @@ from ucm_cts.adapters.derived_toolchain.strictness import refusing
 from ucm_cts.adapters.derived_toolchain.tolerance import deaf, lacks, without
 from ucm_cts.adapters.toolchain.actual_types import actual_type
 from ucm_cts.adapters.toolchain.checking import Complaint
-from ucm_cts.adapters.toolchain.constant_values import NotAConstant, NoValueOfType, Ranges, fit
+from ucm_cts.adapters.toolchain.constant_syntax import NotAConstant
+from ucm_cts.adapters.toolchain.constant_values import NoValueOfType, Ranges, fit
 from ucm_cts.adapters.toolchain.program import Program
 
 Fits = Callable[[Constant, Scope], None]

@@ -13,7 +13,8 @@ from ucm_cts.adapters.contract.metamodel.contracts import (
 )
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.toolchain.constant_values import NotAConstant, NoValueOfType, fit
+from ucm_cts.adapters.toolchain.constant_syntax import NotAConstant
+from ucm_cts.adapters.toolchain.constant_values import NoValueOfType, fit
 
 
 @rule("R-9.2.9.4-01", Annotation)

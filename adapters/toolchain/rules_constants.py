@@ -12,7 +12,8 @@ from ucm_cts.adapters.contract.metamodel.contracts import (
 )
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.toolchain.constant_values import NotAConstant, NoValueOfType, fit
+from ucm_cts.adapters.toolchain.constant_syntax import NotAConstant
+from ucm_cts.adapters.toolchain.constant_values import NoValueOfType, fit
 
 _FITTING = (
     *(f"R-9.2.3.2-{number:02}" for number in range(3, 11)),
