@@ -10,8 +10,10 @@ from typing import Any
 import msgspec
 
 from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading
+from ucm_cts.adapters.derived_toolchain.tolerance import deaf
 from ucm_cts.adapters.toolchain.checking import Complaint, Rule
 from ucm_cts.adapters.toolchain.program import Program
 
@@ -40,14 +42,10 @@ def refusing_text(program: Program, pattern: bytes) -> Program:
 def overhearing(program: Program, kind: str, tag: str, attribute: str) -> Program:
     """``program``, but problems of ``kind`` with ``attribute`` of elements of ``tag`` do not count when models are read."""
 
-    def read(text: bytes, file: str) -> Reading:
-        reading = program.read(text, file)
-        told = (
-            p for p in reading.problems if (p.kind, p.element) != (kind, tag) or not _tells_of(attribute, p.message)
-        )
-        return msgspec.structs.replace(reading, problems=tuple(told))
+    def overheard(problem: Problem, _: Model) -> bool:
+        return (problem.kind, problem.element) == (kind, tag) and _tells_of(attribute, problem.message)
 
-    return replace(program, read=read)
+    return deaf(program, overheard)
 
 
 def _tells_of(attribute: str, message: str) -> bool:
