@@ -145,7 +145,7 @@ class Vendor:
             actual = hit.bound.get(hit.entry.declaration.name.lower()) if is_parameter(hit) else None
             if actual is not None:
                 return self.same(actual.type, actual.scope, expected, actual.bound)
-            if hit.entry is self.entry(expected) and (not hit.bound or self._means_itself(hit, expected)):
+            if hit.entry is self.entry(expected) and not hit.bound:
                 return True
         if isinstance(found, SequenceOf) and isinstance(expected, SequenceOf):
             return self.same(found.element, scope, expected.element, bound) and self._size(
@@ -235,13 +235,14 @@ class Vendor:
                 if path in self.expected.types and steps:
                     return self.expected_meaning(self.expected.types[path], steps - 1)
                 hit = self.at(path)
+                if hit is not None and isinstance(hit.entry.declaration, Typedef) and steps:
+                    inner = self.meaning(hit.entry.declaration.type, hit.entry.scope, NOTHING, steps - 1)
+                    return _tagged(
+                        inner, hit.entry.declaration.annotations
+                    )  # left open, so what the vendor makes of it
                 found = hit.entry.path if hit is not None else tuple(map(spelled, path))
                 return ("declared", tuple(part.lower() for part in found))
         return self.meaning(type_, self.root)
-
-    def _means_itself(self, hit: Hit, expected: Type) -> bool:
-        """Whether the expected type is none but the declaration of ``hit``: nothing is known of what it is made of."""
-        return self.expected_meaning(expected) == ("declared", tuple(part.lower() for part in hit.entry.path))
 
     def value_kind(self, type_: Type) -> str:
         """How values of an expected type are written: text, character, truth, enumerator or number."""
