@@ -5,14 +5,16 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping
 
+import msgspec
 import pytest
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.toolchain.program import reference
 from ucm_cts.harness.catalogue import SUITE, load_interpretations, load_requirements
+from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.harness.toolchains.cpp.probes import CHECKS
-from ucm_cts.harness.toolchains.cpp.standing import stand_for
+from ucm_cts.harness.toolchains.cpp.standing import not_asked, stand_for
 from ucm_cts.reference_models.cpp import expected as claims
 from ucm_cts.reference_models.cpp.expected import Claim, ExpectedCpp, Named, Standard
 from ucm_cts.reference_models.cpp.mapping import expected_cpp
@@ -155,3 +157,19 @@ def test_options_of_clause_13_begin_alike() -> None:
 def test_forward_references_are_generated_in_order(task: str) -> None:
     header = reference().generators[task](model("data_types"))["data_types.hpp"]
     assert header.index("class point_t {") < header.index("path_t;") < header.index("class segment_t {")
+
+
+def test_who_defines_constants_in_headers_is_not_asked_for_sources() -> None:
+    default = default_statement()
+    other = msgspec.structs.replace(default, readings=default.readings | {"cpp03-float-constants": "header"})
+    assert not_asked(default) == {}
+    assert list(not_asked(other)) == ["R-13.10-05"]
+
+
+def test_what_is_too_large_for_a_program_is_not_made() -> None:
+    array = '<PrimitiveFloat name="t" kind="DOUBLE"/><Array name="a" type="t"><ArrayDimension indexType="LONG" size="{}"/></Array>'
+    structure = '<Structure name="s"><StructureField name="f" type="a"/></Structure>'
+    small, large = (contract(array.format(size) + structure) for size in (10, 1_000_000))
+    assert of(small, "R-13.2.1-03")
+    assert not of(large, "R-13.2.1-03")
+    assert of(large, "R-13.2.4-02") == [claims.Sizes("::m::a", (1_000_000,))]

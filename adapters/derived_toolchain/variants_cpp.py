@@ -58,15 +58,6 @@ FREEDOMS: Mapping[str, Freedom] = {
     ),
     "mutators_by_value": Freedom([(r"virtual void remark\(const (::interfaces::text_t)&", r"virtual void remark(\1")]),
     "elements_are_abstract_by_name": Freedom([(r"\bPortElementObject\b", "Abstract_PortElementObject")]),
-    "floating_constants_in_headers": Freedom(
-        [
-            (r"extern const ([^\n;]*) = [^\n]*\n", ""),
-            (r"extern const (::constants::float_t half);", r"const \1 = 0.5;"),
-            (r"extern const (::constants::double_t pi);", r"const \1 = 3.14159;"),
-        ],
-        ("cpp03",),
-        ("cpp03-float-constants=header",),
-    ),
 }
 
 
@@ -116,6 +107,19 @@ def _plain_members(files: Files) -> Files:
         return _ACCESSOR.sub("", match[0]).replace("  private:\n", "").replace("stored_", "")
 
     return {name: _EXCEPTION.sub(exception, _STRUCTURE.sub(structure, text)) for name, text in files.items()}
+
+
+_DEFINED = re.compile(r"extern const ([^;=]*) = ([^;]*);\n")
+
+
+def _floating_constants_in_headers(files: Files) -> Files:
+    """Headers define constants of floating point types, and no source file is needed."""
+    made = {name: text for name, text in files.items() if not name.endswith(".cpp")}
+    for source in files.keys() - made.keys():
+        for named, value in _DEFINED.findall(files[source]):
+            declared = f"extern const {named};"
+            made = {n: text.replace(declared, f"const {named} = {value};") for n, text in made.items()}
+    return made
 
 
 _BOUNDED = """
@@ -178,3 +182,7 @@ def _rewriting(says: str, task: str, rewrite: Callable[[Files], Files]) -> Calla
 for _says, (_rewrite, _declares) in REWRITTEN.items():
     for _task in BOTH:
         variant(task=_task, declares=_declares)(_rewriting(_says, _task, _rewrite))
+
+variant(task="cpp03", declares=("cpp03-float-constants=header",))(
+    _rewriting("floating_constants_in_headers", "cpp03", _floating_constants_in_headers)
+)

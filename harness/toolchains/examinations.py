@@ -64,9 +64,8 @@ def examination_for(
         return Generation(compare, ("R-12-01", "idl_generated"), dress, expression, models, not_asked(statement))
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
     how = command or Command(command=())
-    return Generation(
-        functools.partial(_compare_cpp, standard, statement.readings, how), GENERATED, dress, expression, models
-    )
+    compare = functools.partial(_compare_cpp, standard, statement.readings, how)
+    return Generation(compare, GENERATED, dress, expression, models, standing.not_asked(statement))
 
 
 WITH_NATIVES = frozenset({"idl_natives"})
