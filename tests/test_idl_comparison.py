@@ -152,3 +152,13 @@ LINES = TELLER_IDL.splitlines(keepends=True)
 @given(st.permutations(range(len(LINES))), st.integers(0, len(LINES)))
 def test_no_file_ends_the_comparison(order: list[int], length: int) -> None:
     compare(EXPECTED, {"a.idl": "".join(LINES[n] for n in order[:length])})
+
+
+@pytest.mark.parametrize("name", ["", "::", "a::", "::::b", "unsigned", "float, octet", "\\\\", "t t t"])
+def test_an_index_type_that_is_no_name_is_no_integer(name: str) -> None:
+    model = model_of(
+        '<ContractModule name="m"><Enumeration name="e" indexType="BYTE"><Enumerator name="a" value="0"/></Enumeration></ContractModule>'
+    )
+    text = f'module m {{ @IndexType(typeid="{name}") enum e {{ a }}; }};'
+    (difference,) = compare(expected_idl(model), {"a.idl": text}).differences
+    assert difference.requirement == "R-12.4.1.2-02"

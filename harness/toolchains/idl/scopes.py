@@ -137,8 +137,10 @@ def _inside(declaration: Declaration) -> Sequence[Declaration]:
 
 
 def resolve(name: str, scope: Scope, bound: Bound = NOTHING) -> Hit | None:
-    """What the scoped ``name`` means in ``scope``; None if nothing."""
+    """What the scoped ``name`` means in ``scope``; None if nothing, or if it is no name."""
     parts = name.split("::")
+    if name in ("", "::"):
+        return None
     if not parts[0]:
         around = scope
         while around.around is not None:
