@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.contracts import AbstractInterface, Interface
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern, InteractionRole, PortType
 from ucm_cts.adapters.contract.metamodel.modules import Model
@@ -93,12 +94,12 @@ def roles_involve_items_of_the_pattern(pattern: InteractionPattern, scope: Scope
                 )
 
 
-@rule("R-9.3.5.2-02", PortType)
-def port_elements_have_interfaces(port_type: PortType, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.3.5.2-02", PortType, TechnicalPolicyDefinition)
+def port_elements_have_interfaces(api: PortType | TechnicalPolicyDefinition, scope: Scope) -> Iterator[Complaint]:
     """What a port element provides or requires is an interface that is there."""
-    for element in port_type.port_elements:
+    for element in api.port_elements:
         if scope.find(element.interface, Interface, AbstractInterface) is None:
             yield (
                 element,
-                f"port element {element.name} of {port_type.name} has '{element.interface}', which is no interface; declare it",
+                f"port element {element.name} of {api.name} has '{element.interface}', which is no interface; declare it",
             )
