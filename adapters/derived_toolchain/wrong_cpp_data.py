@@ -134,7 +134,7 @@ ENUMERATIONS: Mapping[str, Wrong] = {
         "interfaces",
         "R-13.2.3-01",
         [(r"enum level_t : uint32_t \{.*?\};", "typedef uint32_t level_t;\nenum { low, high };")],
-        also="R-13.2.3-02 R-13.2.3-03 R-13.2.3-04 R-13.6-03",
+        also="R-13.2.3-02 R-13.2.3-03 R-13.2.3-04 R-13.6-03 R-13.2.7-02 R-13-04",
         tasks=CPP11,
     ),
     "enumeration_with_scope_in_spite_of_the_claim": Wrong(
@@ -170,7 +170,7 @@ ENUMERATIONS: Mapping[str, Wrong] = {
         "R-13.10.2-03",
         [(r"typedef ::ucm::safe_enum< level_t_def, uint32_t > level_t", "typedef level_t_def::type level_t")],
         also="R-13.10.2-04 R-13.10.2-05 R-13.10.2-06 R-13.10.2-07 R-13.10.2-08 R-13.10.2-09 R-13.10.2-10 R-13.10.2-11"
-        " R-13.10.2-12 R-13.10.2-13 R-13.6-03",
+        " R-13.10.2-12 R-13.10.2-13 R-13.6-03 R-13.10-01 R-13.2.7-02 R-13.2.1-03",
         tasks=CPP03,
     ),
     "safe_enumeration_stored_otherwise": Wrong(
@@ -181,14 +181,14 @@ ENUMERATIONS: Mapping[str, Wrong] = {
         "R-13.10.2-05",
         [(r"class safe_enum : public def", "class safe_enum : protected def")],
         also="R-13.10.2-06 R-13.10.2-07 R-13.10.2-08 R-13.10.2-09 R-13.10.2-10 R-13.10.2-11 R-13.10.2-12"
-        " R-13.10.2-13 R-13.6-03",
+        " R-13.10.2-13 R-13.6-03 R-13.10-01 R-13.2.7-02 R-13.2.1-03",
         tasks=CPP03,
     ),
     "enumerators_must_be_cast": Wrong(
         "interfaces",
         "R-13.10.2-06",
         [(r"    safe_enum\(type v\)", "    explicit safe_enum(type v)")],
-        also="R-13.10.2-08 R-13.10.2-09 R-13.10.2-10 R-13.10.2-11 R-13.10.2-12 R-13.10.2-13",
+        also="R-13.10.2-08 R-13.10.2-09 R-13.10.2-10 R-13.10.2-11 R-13.10.2-12 R-13.10.2-13 R-13.10-01 R-13.2.7-02",
         tasks=CPP03,
     ),
     "underlying_forgets_the_value": Wrong(
