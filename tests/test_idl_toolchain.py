@@ -5,16 +5,20 @@ from __future__ import annotations
 import functools
 
 import pytest
+from hypothesis import HealthCheck, given, settings
 from idl_subjects import Subject, subjects
 
+from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.derived_toolchain.registry import Mutant, Variant, mutants, variants
 from ucm_cts.adapters.toolchain.program import reference
 from ucm_cts.harness.catalogue import load_requirements
 from ucm_cts.harness.toolchains.idl.comparing import compare
 from ucm_cts.harness.toolchains.idl.omniidl import opinion
 from ucm_cts.harness.toolchains.idl.reading import read_files
+from ucm_cts.harness.toolchains.legal_models import legal_models
 from ucm_cts.reference_models.idl.declarations import Module
 from ucm_cts.reference_models.idl.expectations import RULE_OF
+from ucm_cts.reference_models.idl.mapping import expected_idl
 
 MUTANTS = {name: mutant for name, mutant in mutants().items() if mutant.task == "idl"}
 VARIANTS = {name: variant for name, variant in variants().items() if variant.task == "idl"}
@@ -44,6 +48,13 @@ def test_omniidl_takes_all_that_has_no_templates(subject: Subject) -> None:
     templates = "TemplateParameter(" in text
     assert opinion(subject.files).verdict == ("none" if templates else "agreed")
     assert Module.__name__ in text
+
+
+@settings(max_examples=8, deadline=None, derandomize=True, database=None, suppress_health_check=list(HealthCheck))
+@given(legal_models())
+def test_what_is_expected_of_models_by_chance_is_generated(model: Model) -> None:
+    """Both are written independently of each other, from the clause."""
+    assert not compare(expected_idl(model), reference().generators["idl"](model)).differences
 
 
 def test_every_requirement_with_a_rule_has_a_mutant_and_a_model() -> None:
