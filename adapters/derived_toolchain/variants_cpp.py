@@ -28,8 +28,7 @@ _SHARED = r"::(?:std|ucm)::shared_ptr< \S+ >"
 FREEDOMS: Mapping[str, Freedom] = {
     "enumerations_with_scope": Freedom([(r"enum (\w+) :", r"enum class \1 :")], ("cpp11",), ("cpp-enum=enum-class",)),
     "enumerations_of_32_bits": Freedom(
-        [(r"enum (\w+) : \w+", r"enum \1 : uint32_t"), (r"(safe_enum< \w+_def), \w+ >", r"\1, uint32_t >")],
-        declares=("cpp-enum-type=uint32_t",),
+        [(r"enum (\w+) : u\w+", r"enum \1 : uint32_t"), (r"(safe_enum< \w+_def), u\w+ >", r"\1, uint32_t >")],
     ),
     "bytes_with_sign": Freedom([(r"typedef uint8_t byte_t;", "typedef int8_t byte_t;")]),
     "interfaces_by_constant_reference": Freedom(
@@ -100,7 +99,7 @@ def _plain_members(files: Files) -> Files:
     """Fields of structures, unions and exceptions are members."""
 
     def structure(match: re.Match[str]) -> str:
-        name, initial, stored = (match[i].replace("stored_", "") for i in (1, 2, 3))
+        name, initial, stored = (match[i].replace("stored_selector", "_d").replace("stored_", "") for i in (1, 2, 3))
         return f"struct {name} {{\n    {name}(){initial} {{}}\n{stored}}};\n"
 
     def exception(match: re.Match[str]) -> str:
