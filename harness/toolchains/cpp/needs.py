@@ -30,14 +30,14 @@ def lacks(claim: Claim, failed: Claim) -> str:
     if isinstance(failed, claims.ReturnsReference) and _uses_result(claim, failed):
         return f"{failed.getter} leads to no class"
     if isinstance(claim, _AT_LAST) and isinstance(failed, _USED):
-        return "what it uses is not as it should be" if _owner(claim) in (_owner(failed), None) else ""
+        return "what it uses is not as it should be" if _owner(claim) == _owner(failed) else ""
     return ""
 
 
 def line_of(claim: Claim, text: str) -> int:
     """The line of a header's ``text`` that declares what ``claim`` is about, counted from 1; 0 if there is none."""
     types = claim.types if isinstance(claim, claims.Works) else ("",)
-    name = (_owner(claim) or getattr(claim, "name", "") or types[0]).rpartition("::")[2]
+    name = (_owner(claim) or _class_name(getattr(claim, "name", "")) or types[0]).rpartition("::")[2]
     if not name:
         return 0
     whole = rf"\b{re.escape(name)}\b"
@@ -53,14 +53,18 @@ def line_of(claim: Claim, text: str) -> int:
     return text.count("\n", 0, at) + 1
 
 
-def _owner(claim: Claim) -> str | None:
+def _owner(claim: Claim) -> str:
     """The class that the model's element became."""
-    owner = getattr(claim, "owner", getattr(claim, "derived", None))
-    if isinstance(owner, Named):
-        return owner.name
-    if isinstance(owner, Returned | Connected):
-        return owner.owner
-    return owner if isinstance(owner, str) else ""
+    return _class_name(getattr(claim, "owner", getattr(claim, "derived", None)))
+
+
+def _class_name(value: object) -> str:
+    """The class that ``value`` names, or in which what it names stands; nothing if it names none."""
+    if isinstance(value, Named):
+        return value.name
+    if isinstance(value, Returned | Connected):
+        return value.owner
+    return value if isinstance(value, str) else ""
 
 
 def _speaks_of(claim: Claim, name: str) -> bool:
