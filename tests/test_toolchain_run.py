@@ -10,6 +10,9 @@ from typing import Any
 import pytest
 from command_line import Outcome, ucm_cts, within
 
+from ucm_cts.harness.toolchains.acceptance import Answer, judge
+from ucm_cts.harness.toolchains.corpus import Question, differing_lines
+
 FAKE = Path(__file__).parent / "toolchains" / "fake.py"
 CASE = "structure"
 """Models of one kind are enough to tell behaviours apart."""
@@ -61,12 +64,18 @@ def test_a_tool_chain_that_refuses_everything_passes_nothing(here: Path) -> None
     assert not verdicts(report, "broken_models_refused")
 
 
-def test_refusing_for_another_reason_is_no_pass(here: Path) -> None:
-    outcome, report = run_fake(here, "refuses_for_another_reason")
-    assert outcome.status == 1
-    assert "fail" not in verdicts(report)
-    told = [r["reason"] for r in report["requirements"] if r["verdict"] == "inconclusive" and "9999" in r["reason"]]
-    assert told
+def test_refusing_for_another_reason_is_no_pass() -> None:
+    lines = ['<ContractModule name="m">', '<PrimitiveBoolean name="b"/>', '<Structure name="s">']
+    legal = "\n".join([*lines, '<StructureField name="f" type="t"/>', "</Structure>", "</ContractModule>"])
+    broken = "\n".join([*lines, "</Structure>", "</ContractModule>"])
+    twin = Question("twin", "R-9.2.4.3-02", "accept", legal)
+    asked = Question("asked", "R-9.2.4.3-02", "refuse", broken, "", "twin", differing_lines(legal, broken))
+    for line, outcome in ((2, "unclear"), (3, "kept"), (4, "kept")):
+        answers = {"twin": Answer(True), "asked": Answer(False, frozenset((line,)), f"model.xml:{line}: no")}
+        _, judgement = judge([twin, asked], answers)
+        assert judgement.outcome == outcome, line
+    _, judgement = judge([twin, asked], {"twin": Answer(True), "asked": Answer(False)})
+    assert judgement.outcome == "kept", "a tool that names no lines is taken at its word"
 
 
 @pytest.mark.parametrize(("behaviour", "told"), [("dies", "SIGABRT"), ("hangs", "no end after")])
@@ -86,10 +95,36 @@ def test_what_gives_no_answer_decides_nothing(here: Path, behaviour: str, told: 
     assert any(told in r["reason"] for r in report["requirements"])
 
 
-@pytest.mark.parametrize("behaviour", ["leaves_a_child", "prints_rubbish"])
+@pytest.mark.parametrize("behaviour", ["leaves_a_child", "prints_rubbish", "tells_the_time", "points_to_ends"])
 def test_odd_manners_do_not_matter(here: Path, behaviour: str) -> None:
     _, report = run_fake(here, behaviour)
     assert verdicts(report) == {"pass"}
+
+
+def test_a_root_that_is_not_printed_fails_nobody(here: Path) -> None:
+    command = [sys.executable, str(FAKE), "refuses_the_root", "check", "{model}"]
+    ucm_cts("run", "--toolchain", describe(here / "fake.toml", command), "-k", "R-9.4.2.1-04", "--out", "out")
+    report = json.loads((here / "out" / "report.json").read_text())
+    assert "fail" not in {r["verdict"] for r in report["requirements"]}
+
+
+def test_memory_is_that_of_all_its_processes(here: Path) -> None:
+    _, report = run_fake(here, "has_a_greedy_child", memory=150)
+    findings = [f for r in report["requirements"] for f in r["findings"]]
+    assert findings
+    assert all("MiB of memory" in f["observed"] for f in findings)
+
+
+def test_warnings_of_a_checker_of_several_models_refuse_nothing(here: Path) -> None:
+    script = here / "warns.sh"
+    script.write_text(
+        "#!/bin/sh\n"
+        f'for m in "$@"; do echo "$m:1: warning: I say so of every model"; done\n'
+        f'exec {sys.executable} -m ucm_cts.adapters.toolchain check "$@"\n'
+    )
+    script.chmod(0o755)
+    ucm_cts("run", "--toolchain", describe(here / "w.toml", ["./warns.sh", "{models}"]), "-k", CASE, "--out", "out")
+    assert verdicts(json.loads((here / "out" / "report.json").read_text())) == {"pass"}
 
 
 def test_a_failure_shows_the_model_and_how_to_try_again(here: Path) -> None:
@@ -111,6 +146,13 @@ def test_a_failure_shows_the_model_and_how_to_try_again(here: Path) -> None:
     ("text", "told"),
     [
         ('version = "1"\n[check]\ncommand = ["true", "{model}"]', "missing required field `product`"),
+        ('product = "p"\nversion = "1"\n[check]\ncommand = "true {model}"', "a command is a list"),
+        (
+            'product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\nrefuse = [2]',
+            "did you mean 'refuses'?",
+        ),
+        ('product = "p"\nversion = "1"\n[dialect.tags]\nStructur = "Struct"', "did you mean 'Structure'?"),
+        ('product = "p"\nversion = "1"\n[dialect.attributes]\n"Structure.nam" = "x"', "did you mean"),
         ('product = "p"\nversion = "1"\n[check]\ncommand = ["true"]', "does not name {model}"),
         ('product = "p"\nversion = "1"\n[check]\ncommand = []', "is empty"),
         ('product = "p"\nversion = "1"\n[idl]\ncommand = ["true", "{model}"]', "does not name {out}"),
@@ -121,7 +163,10 @@ def test_a_failure_shows_the_model_and_how_to_try_again(here: Path) -> None:
         ),
         ('product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\ndiagnostic = "x"', "(?P<line>...)"),
         ('product = "p"\nversion = "1"\n[check]\ncommand = ["no-such-tool", "{model}"]', "no program 'no-such-tool'"),
-        ('product = "p"\nversion = "1"\n[chekc]\ncommand = ["true", "{model}"]', "chekc"),
+        (
+            'product = "p"\nversion = "1"\n[chekc]\ncommand = ["true", "{model}"]',
+            "there is no key 'chekc'; did you mean 'check'?",
+        ),
         ('product = "p"\nversion = "1"\n', "does not say how 'check' is done"),
         ("product = ", "not TOML"),
     ],

@@ -18,7 +18,7 @@ from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.harness.toolchains.blame import Blame
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.corpus import Due, Question, differing_lines, questions
-from ucm_cts.harness.toolchains.dressing import Dress
+from ucm_cts.harness.toolchains.dressing import Dress, has_unprinted_root
 from ucm_cts.harness.toolchains.processing import Made
 from ucm_cts.harness.toolchains.vicinity import vicinity
 from ucm_cts.reference_models.findings import Finding
@@ -62,7 +62,9 @@ class Acceptance:
     """The examination of profile pim: all questions for what the vendor declares."""
 
     def __init__(self, statement: Statement, dress: Dress, expression: str = "") -> None:
-        """All models are dressed. Of the questions only those whose name or requirement holds one of the words of ``expression``, and their twins."""
+        """All models are dressed. Of the questions only those whose name or requirement holds one of the words of ``expression``,
+        and their twins.
+        """
         asked = [q for q in questions() if all(map(statement.meets, q.under))]
         words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
         if words:
@@ -143,7 +145,8 @@ def judge(asked: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judg
     """A judgement for each question that was answered."""
     legal = {q.name: q.text for q in asked if q.due == "accept" and q.name in answers and _stands(q, answers)}
     blame = Blame(legal, {name for name in legal if answers[name].accepted is False})
-    return [_judged(q, answers, blame) for q in asked if q.name in answers]
+    knows_the_root = any(has_unprinted_root(text) and answers[name].accepted for name, text in legal.items())
+    return [_judged(q, answers, blame, knows_the_root) for q in asked if q.name in answers]
 
 
 def _stands(q: Question, answers: Mapping[str, Answer]) -> bool:
@@ -152,7 +155,7 @@ def _stands(q: Question, answers: Mapping[str, Answer]) -> bool:
     return not q.twin or (twin is not None and bool(twin.accepted))
 
 
-def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame) -> Judgement:
+def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame, knows_the_root: bool) -> Judgement:
     answer = answers[q.name]
     rule = RULE_FOR[q.due]
     if answer.died:
@@ -163,6 +166,9 @@ def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame) -> Judgeme
         return Judgement(q, rule, "unclear", observed=f"no answer: {answer.told}")
     if not _stands(q, answers):
         return Judgement(q, rule, "unclear", "", f"its legal twin {q.twin} was not accepted", elsewhere=True)
+    if q.due == "accept" and not answer.accepted and has_unprinted_root(q.text) and not knows_the_root:
+        told = "no model with a root around several outermost modules was accepted, and the text prints no such root"
+        return Judgement(q, rule, "unclear", "", told, elsewhere=True)
     if q.due == "accept":
         return _of_legal(q, answer, rule, blame)
     if answer.accepted:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 import shutil
 import sys
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import msgspec
 
+from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS
 from ucm_cts.adapters.contract.metamodel.writing import CANONICAL, Dialect
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.documents import DocumentError, convert, read_toml
@@ -19,7 +21,7 @@ Task = Literal["check", "idl", "cpp11", "cpp03"]
 
 MODEL, MODELS, OUT = "{model}", "{models}", "{out}"
 
-DIAGNOSTIC = r"^(?:(?P<file>.*?)[:(])?(?P<line>[0-9]+)(?:[:,][0-9]+)?\)?\s*:"
+DIAGNOSTIC = r"^(?P<file>.*?)[:(](?P<line>[0-9]+)(?:[:,][0-9]+)?\)?\s*:"
 """Finds file and line in a diagnostic such as ``model.xml:12: ...``, ``model.xml:12:5: ...`` or ``model.xml(12,5): ...``."""
 
 LARGEST = 256 * 1024
@@ -76,16 +78,58 @@ class ToolChain(Value, frozen=True):
 def read_toolchain(path: Path) -> ToolChain:
     """The tool chain that the file at ``path`` describes. Raises ``DocumentError`` for whatever is wrong with it."""
     document, lines = read_toml(path, LARGEST)
-    document.pop("folder", None)
+    _check_keys(path, document, lines)
     places = {"$": 1} | {f"$.{place}": line for place, line in lines.items()}
     described = convert(path, document, ToolChain, places)
+    _check_dialect(path, described.dialect, lines)
     for task in ("check", "idl", "cpp11", "cpp03"):
         _check(path, task, described.command_for(task), lines)
     if not described.product.strip():
         raise DocumentError(path, lines.get("product"), "product is empty; say what is to be certified")
     if not (described.seconds > 0 and described.memory > 0):
         raise DocumentError(path, lines.get("seconds"), "seconds and memory are greater than 0")
-    return msgspec.structs.replace(described, folder=str(path.parent.resolve()), source=path.name)
+    return msgspec.structs.replace(described, folder=str(path.parent.resolve()), source=str(path))
+
+
+_OURS = ("folder", "source")
+"""Fields that no file gives."""
+
+
+def _check_keys(path: Path, document: dict[str, Any], lines: dict[str, int]) -> None:
+    """Tell keys that mean nothing, and commands that are no lists, before their values are looked at."""
+    tables = {"": (document, ToolChain)} | {
+        f"{task}.": (document[task], Command)
+        for task in ("check", "idl", "cpp11", "cpp03")
+        if isinstance(document.get(task), dict)
+    }
+    for prefix, (table, kind) in tables.items():
+        known = [field.name for field in msgspec.structs.fields(kind) if field.name not in _OURS]
+        for key in table:
+            if key not in known:
+                close = difflib.get_close_matches(str(key), known, 1)
+                hint = f"did you mean '{close[0]}'?" if close else f"there is {', '.join(known)}"
+                raise DocumentError(path, lines.get(f"{prefix}{key}"), f"there is no key '{str(key)[:60]}'; {hint}")
+        if isinstance(table.get("command"), str):
+            told = "a command is a list: write each word in quotes, with commas between them, in brackets"
+            raise DocumentError(path, lines.get(f"{prefix}command"), told)
+
+
+def _check_dialect(path: Path, dialect: Dialect, lines: dict[str, int]) -> None:
+    """Whatever a dialect spells otherwise must be spelled by clause 9 in the first place."""
+    attributes = {name for spelling in SPELLINGS.values() for name in spelling.attributes}
+    tags = {spelling.tag for spelling in SPELLINGS.values()}
+    words = {word for spelling in SPELLINGS.values() for known in spelling.literals.values() for word in known.values()}
+    for table, given, known in (
+        ("tags", dialect.tags, tags),
+        ("attributes", dialect.attributes, attributes | {f"{tag}.{name}" for tag in tags for name in attributes}),
+        ("literals", dialect.literals, words),
+    ):
+        for key in given:
+            if key not in known:
+                close = difflib.get_close_matches(key, known, 1)
+                hint = f"did you mean '{close[0]}'?" if close else "it maps clause 9's spelling to yours"
+                line = lines.get(f"dialect.{table}.{key}") or lines.get(f"dialect.{table}")
+                raise DocumentError(path, line, f"clause 9 spells nothing '{key[:60]}'; {hint}")
 
 
 def _check(path: Path, task: Task, command: Command | None, lines: dict[str, int]) -> None:
@@ -126,5 +170,5 @@ def program(toolchain: ToolChain, command: Command) -> list[str]:
     found = shutil.which(at) or shutil.which(at, path=beside)
     if found is None:
         where = f"{at} cannot be run" if "/" in name else f"no program '{name}' on the path"
-        raise DocumentError(Path(toolchain.folder) / toolchain.source, None, f"{where}; correct the command")
+        raise DocumentError(Path(toolchain.source), None, f"{where}; correct the command")
     return [found, *command.command[1:]]

@@ -14,7 +14,7 @@ from ucm_cts.harness.documents import read_text
 from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Processed
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
-from ucm_cts.harness.toolchains.dressing import Dress
+from ucm_cts.harness.toolchains.dressing import Dress, has_unprinted_root
 from ucm_cts.harness.toolchains.processing import Made
 from ucm_cts.reference_models.findings import Finding
 
@@ -65,8 +65,14 @@ class Generation:
 
     def judge(self, made: Mapping[str, Made], looked: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
         """All that was seen."""
+        rooted = [name for name in made if has_unprinted_root(self._texts[name])]
+        knows_the_root = any(made[name].accepted for name in rooted)
         for name in made:
-            yield from looked[name]
+            if name in rooted and made[name].accepted is False and not knows_the_root:
+                told = "no model with a root around several outermost modules was accepted, and the text prints no such root"
+                yield Fact(self._generates[0], (name,), unclear=told, elsewhere=True)
+            else:
+                yield from looked[name]
 
     def _is_wanted(self, requirement: str) -> bool:
         return not self._words or any(word in requirement.lower() for word in self._words)

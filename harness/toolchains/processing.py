@@ -91,7 +91,11 @@ class CommandLine:
         told: dict[str, list[str]] = {str(file): [] for file in files}
         for line in ended.output.splitlines():
             found = re.match(command.diagnostic, line)
-            if found and (named := str(Path(folder, found["file"] or ""))) in told:
+            if (
+                found
+                and not _REMARK.match(line[found.end() :])
+                and (named := str(Path(folder, found["file"] or ""))) in told
+            ):
                 told[named].append(line.replace(named, MODEL_FILE))
         if (ended.status == 0) == any(told.values()):
             return None
@@ -100,7 +104,7 @@ class CommandLine:
         for (name, text), lines in zip(models, told.values(), strict=True):
             output = "".join(f"{line}\n" for line in lines)
             processed = Processed(name, task, text, shown, ended.status if lines else 0, output)
-            made.append(Made(processed, not lines, named_lines(output, command.diagnostic)))
+            made.append(Made(processed, not lines, named_lines(output, command.diagnostic, text)))
         return made
 
     def process(self, task: Task, name: str, text: str) -> Made:
@@ -118,7 +122,8 @@ class CommandLine:
             if incident is not None:
                 return Made(processed, None)
             accepted = ended.status == 0
-            return Made(processed, accepted, named_lines(output, command.diagnostic), _files(out) if accepted else {})
+            lines = named_lines(output, command.diagnostic, text)
+            return Made(processed, accepted, lines, _files(out) if accepted else {})
 
 
 def _filled(word: str, model: str, out: str) -> str:
@@ -153,10 +158,16 @@ class InProcess:
         return Made(processed, not told, frozenset(diagnostic.line for diagnostic in told), files)
 
 
-def named_lines(output: str, diagnostic: str) -> frozenset[int]:
-    """The lines of the model that ``output`` names."""
-    found = re.finditer(diagnostic, output[:_OUTPUT], re.MULTILINE)
-    return frozenset(int(match["line"]) for match in found if match["line"] and match["line"].isdecimal())
+def named_lines(output: str, diagnostic: str, model: str) -> frozenset[int]:
+    """The lines of ``model`` that ``output`` names; numbers beside the name of another file are of no interest."""
+    last = model.count("\n") + 1
+    lines: set[int] = set()
+    for match in re.finditer(diagnostic, output[:_OUTPUT], re.MULTILINE):
+        file = (match.groupdict().get("file") or MODEL_FILE).strip()
+        number = match["line"] or ""
+        if Path(file).name == MODEL_FILE and number.isdecimal() and len(number) < 10 and 0 < int(number) <= last:
+            lines.add(int(number))
+    return frozenset(lines)
 
 
 def _odd_status(status: int | None, command: Command) -> Incident | None:
@@ -167,6 +178,9 @@ def _odd_status(status: int | None, command: Command) -> Incident | None:
     listed = ", ".join(map(str, command.refuses))
     return Incident("exit", f"exit status {status}, which neither accepts (0) nor refuses ({listed})")
 
+
+_REMARK = re.compile(r"\s*(warning|note|info|information|remark|hint)\b", re.IGNORECASE)
+"""What begins a diagnostic that refuses nothing."""
 
 _DEATHS = re.compile(
     r"^(Traceback \(most recent call last\):|Exception in thread |panic: |thread '.*' panicked at |.*Segmentation fault"
@@ -214,7 +228,8 @@ def _run(words: list[str], folder: str, limits: ToolChain) -> _Ended:
 def _watch(process: subprocess.Popen[bytes], source: int, limits: ToolChain) -> tuple[bytes, Incident | None]:
     """The output of ``process`` until it ends or goes too far."""
     kept, total = bytearray(), 0
-    deadline = time.monotonic() + limits.seconds
+    looked = time.monotonic()
+    deadline = looked + limits.seconds
     poll = select.poll()
     poll.register(source, select.POLLIN)
     while True:
@@ -230,8 +245,10 @@ def _watch(process: subprocess.Popen[bytes], source: int, limits: ToolChain) -> 
             break  # a child that it left behind holds the pipe
         if time.monotonic() > deadline:
             return bytes(kept), Incident("hang", f"no end after {limits.seconds:g} s")
-        used = _resident(process.pid)
-        if used > limits.memory * _MIB:
+        if time.monotonic() < looked + _LOOK_SECONDS:
+            continue
+        looked = time.monotonic()
+        if _resident(process.pid) > limits.memory * _MIB:
             return bytes(kept), Incident("memory", f"more than {limits.memory} MiB of memory")
     try:
         process.wait(max(0.1, deadline - time.monotonic()))
@@ -240,12 +257,17 @@ def _watch(process: subprocess.Popen[bytes], source: int, limits: ToolChain) -> 
     return bytes(kept), None
 
 
-def _resident(pid: int) -> int:
-    try:
-        with open(f"/proc/{pid}/statm", "rb") as stream:
-            return int(stream.read().split()[1]) * _PAGE
-    except (OSError, IndexError, ValueError):
-        return 0
+def _resident(group: int) -> int:
+    """Bytes that all processes of the group hold together, as far as the system tells."""
+    used = 0
+    for entry in os.scandir("/proc"):
+        if entry.name.isdecimal():
+            with suppress(OSError, IndexError, ValueError):
+                with open(f"/proc/{entry.name}/stat", "rb") as stream:
+                    fields = stream.read().rpartition(b") ")[2].split()
+                if int(fields[2]) == group:
+                    used += int(fields[21]) * _PAGE
+    return used
 
 
 def _files(out: Path) -> dict[str, str]:

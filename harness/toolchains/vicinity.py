@@ -50,7 +50,7 @@ def vicinity(text: str, changed: frozenset[int]) -> frozenset[int]:
         named |= one.names
         named.update(name for outer in one.all_around() if not outer.tag.endswith("Module") for name in outer.names)
     related = touched.union(one for one in elements if named & one.names)
-    lines = {line for one in related for e in (one, *one.all_around()) for line in e.head}
+    lines = {line for one in related for e in (one, *one.all_around()) for line in (*e.head, e.last)}
     return frozenset(lines | changed)
 
 

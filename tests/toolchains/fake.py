@@ -20,14 +20,6 @@ def refuses_everything(text: str) -> int:
     return 1
 
 
-def refuses_for_another_reason(text: str) -> int:
-    """Its verdicts are right, and its diagnostics are about a line that has nothing to do with it."""
-    if not reference().check(text.encode(), "model.xml")[1]:
-        return 0
-    print("model.xml:9999: I do not like this")
-    return 1
-
-
 def dies(text: str) -> int:
     """It is killed by a signal where it should refuse."""
     if reference().check(text.encode(), "model.xml")[1]:
@@ -57,6 +49,36 @@ def leaves_a_child(text: str) -> int:
     if os.fork() == 0:
         time.sleep(3600)
     return 1 if reference().check(text.encode(), "model.xml")[1] else 0
+
+
+def tells_the_time(text: str) -> int:
+    """Its diagnostics begin with a time, and name lines of other files."""
+    print("22:46:05: ERROR no good\nother.xml:9999: neither\nerror:1042: a number")
+    return 1 if reference().check(text.encode(), "model.xml")[1] else 0
+
+
+def points_to_ends(text: str) -> int:
+    """It tells what is missing where the element ends, as validators do."""
+    told = reference().check(text.encode(), "model.xml")[1]
+    if told:
+        print(f"model.xml:{text.rstrip().count(chr(10)) + 1}: content is not complete")
+    return 1 if told else 0
+
+
+def refuses_the_root(text: str) -> int:
+    """It knows no root around several outermost modules."""
+    refused = "<Model" in text[:200] or reference().check(text.encode(), "model.xml")[1]
+    return 1 if refused else 0
+
+
+def has_a_greedy_child(text: str) -> int:
+    """A child of it takes the memory."""
+    if os.fork() == 0:
+        kept = bytearray(300 << 20)
+        kept[::4096] = b"x" * len(kept[::4096])
+        time.sleep(3600)
+    os.wait()
+    return 0
 
 
 def prints_rubbish(text: str) -> int:
