@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import HealthCheck, Phase, given, seed, settings
 
 from ucm_cts.adapters.contract.metamodel.common import Element, walk, without_lines
 from ucm_cts.adapters.contract.metamodel.modules import Model
@@ -46,12 +46,15 @@ def test_legal_models_can_be_mapped(model: Model) -> None:
 def test_every_class_is_in_legal_models() -> None:
     drawn: set[type[Element]] = set()
 
-    @settings(some, derandomize=True, database=None, phases=[Phase.generate])
+    @settings(some, database=None, phases=[Phase.generate])
     @given(legal_models())
     def look(model: Model) -> None:
         drawn.update(type(element) for element in walk(model))
 
-    look()
+    for number in range(10):  # some classes are rare
+        seed(number)(look)()
+        if drawn == set(SPELLINGS):
+            break
     assert drawn == set(SPELLINGS)
 
 
