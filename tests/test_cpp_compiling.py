@@ -47,7 +47,7 @@ def test_errors_are_read_as_json() -> None:
     ],
 )
 def test_errors_are_read_as_text(told: str, error: Error) -> None:
-    assert compiling._read_text(told) == [error]
+    assert compiling.read_errors(told) == [error]
 
 
 def test_a_template_s_error_counts_for_the_probe_that_uses_it(tmp_path: Path) -> None:

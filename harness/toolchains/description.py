@@ -33,7 +33,8 @@ class Command(Value, frozen=True):
 
     ``refuses`` are the exit statuses that mean that the model is refused; 0 means that it is accepted, and any other is a failure of
     the tool. ``diagnostic`` is a regular expression with a group ``line`` and, for several models, ``file``. ``compiler``, ``include`` (folders below
-    ``{out}``) and ``headers`` (patterns below ``{out}``) are for C++ only.
+    ``{out}``), ``headers`` and ``sources`` (patterns below ``{out}``; None leaves it to the linker which are needed) and
+    ``libraries`` (words for the linker that follow) are for C++ only.
     """
 
     command: tuple[str, ...]
@@ -42,6 +43,8 @@ class Command(Value, frozen=True):
     compiler: tuple[str, ...] = ()
     include: tuple[str, ...] = (".",)
     headers: tuple[str, ...] = ("**/*.h", "**/*.hh", "**/*.hpp", "**/*.hxx")
+    sources: tuple[str, ...] | None = None
+    libraries: tuple[str, ...] = ()
 
 
 class ToolChain(Value, frozen=True):
@@ -88,7 +91,17 @@ def read_toolchain(path: Path) -> ToolChain:
         raise DocumentError(path, lines.get("product"), "product is empty; say what is to be certified")
     if not (described.seconds > 0 and described.memory > 0):
         raise DocumentError(path, lines.get("seconds"), "seconds and memory are greater than 0")
-    return msgspec.structs.replace(described, folder=str(path.parent.resolve()), source=str(path))
+    folder = path.parent.resolve()
+    beside = {task: _beside(folder, described.command_for(task)) for task in ("cpp11", "cpp03")}
+    return msgspec.structs.replace(described, **beside, folder=str(folder), source=str(path))
+
+
+def _beside(folder: Path, command: Command | None) -> Command | None:
+    """``command`` with libraries that have a slash as files below ``folder``."""
+    if command is None:
+        return None
+    files = (str(folder / w) if "/" in w and not w.startswith("-") else w for w in command.libraries)
+    return msgspec.structs.replace(command, libraries=tuple(files))
 
 
 _OURS = ("folder", "source")

@@ -14,7 +14,7 @@ from ucm_cts.harness.toolchains.campaign import TASKS, Examination
 from ucm_cts.harness.toolchains.corpus import questions
 from ucm_cts.harness.toolchains.cpp import standing
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
-from ucm_cts.harness.toolchains.cpp.compiling import Compiler
+from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout
 from ucm_cts.harness.toolchains.cpp.probes import CHECKS, GENERATED
 from ucm_cts.harness.toolchains.description import Command, Task
 from ucm_cts.harness.toolchains.differences import Comparison
@@ -86,4 +86,5 @@ def _compare_cpp(
     standard: Standard, readings: Mapping[str, str], how: Command, model: Model, files: Mapping[str, str]
 ) -> Comparison:
     compiler = Compiler(how.compiler) if how.compiler else Compiler()
-    return compare_cpp(model, files, standard, readings, compiler, how.include, how.headers)
+    layout = Layout(how.include, how.headers, how.sources, how.libraries)
+    return compare_cpp(model, files, standard, readings, compiler, layout)

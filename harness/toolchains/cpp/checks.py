@@ -15,7 +15,7 @@ Support = str
 
 @dataclass(frozen=True)
 class Text:
-    """``declared`` stands at the outermost level, ``run`` in a function that throws ``ucts::failed``; ``says`` is what must hold.
+    """``declared`` stands at the outermost level, ``run`` in a function that ``ucts::require`` ends; ``says`` is what must hold.
 
     ``key`` names the implementation that it needs, ``of_functions`` is whether a function is looked at, ``judged_last`` that it
     says something only if all functions are as they should be, and ``pure`` that it does so only if the class can be implemented.

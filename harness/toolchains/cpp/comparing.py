@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import fnmatch
 import functools
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
-from ucm_cts.harness.toolchains.cpp.compiling import Compiler
+from ucm_cts.harness.toolchains.cpp.compiling import LAYOUT, Compiler, Layout
+from ucm_cts.harness.toolchains.cpp.linking import matches
 from ucm_cts.harness.toolchains.cpp.probes import check_files
 from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.reference_models.cpp.expected import ExpectedCpp, Standard
 from ucm_cts.reference_models.cpp.mapping import expected_cpp
-
-HEADERS = ("**/*.h", "**/*.hh", "**/*.hpp", "**/*.hxx")
 
 
 def compare(
@@ -22,17 +20,15 @@ def compare(
     standard: Standard,
     readings: Mapping[str, str],
     compiler: Compiler,
-    include: Sequence[str] = (".",),
-    patterns: Sequence[str] = HEADERS,
+    layout: Layout = LAYOUT,
 ) -> Comparison:
     """Hold ``files``, texts by name, against what ``model`` becomes in C++.
 
-    ``patterns`` say which of them are headers, ``include`` in which folders among them headers are looked for. Raises
-    ``NoCompiler``.
+    ``layout`` says which of them are headers, where headers are looked for, and what is linked. Raises ``NoCompiler``.
     """
-    headers = tuple(name for name in sorted(files) if any(_matches(name, pattern) for pattern in patterns))
+    headers = tuple(name for name in sorted(files) if any(matches(name, pattern) for pattern in layout.headers))
     expected = expected_cpp(model, standard, readings)
-    return _compared(expected, tuple(sorted(files.items())), headers, compiler, tuple(include))
+    return _compared(expected, tuple(sorted(files.items())), headers, compiler, layout)
 
 
 @functools.lru_cache(maxsize=64)
@@ -41,11 +37,7 @@ def _compared(
     files: tuple[tuple[str, str], ...],
     headers: tuple[str, ...],
     compiler: Compiler,
-    include: tuple[str, ...],
+    layout: Layout,
 ) -> Comparison:
     """The same files are compiled once: most models come out alike from tool chains that differ in one thing."""
-    return check_files(expected, dict(files), headers, compiler, include)
-
-
-def _matches(name: str, pattern: str) -> bool:
-    return fnmatch.fnmatchcase(name, pattern) or fnmatch.fnmatchcase(name, pattern.removeprefix("**/"))
+    return check_files(expected, dict(files), headers, compiler, layout)

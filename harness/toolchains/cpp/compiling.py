@@ -54,23 +54,34 @@ class Ended:
     problem: str = ""
 
 
+class Layout(Value, frozen=True):
+    """Where generated files are: ``include`` are the folders where headers are looked for, ``headers`` patterns of those that a
+    user includes, and ``sources`` patterns of files that are linked, None for those that are found to be needed. ``libraries``
+    are words for the linker that follow.
+    """
+
+    include: tuple[str, ...] = (".",)
+    headers: tuple[str, ...] = ("**/*.h", "**/*.hh", "**/*.hpp", "**/*.hxx")
+    sources: tuple[str, ...] | None = None
+    libraries: tuple[str, ...] = ()
+
+
+LAYOUT = Layout()
+"""Where files are unless the vendor says otherwise."""
+
+
 @dataclass(frozen=True)
 class Headers:
-    """Generated files: ``names`` of headers below ``folder``, and the folders below it where includes are looked for."""
+    """Generated files: ``names`` of headers below ``folder``, which is laid out as ``layout`` says."""
 
     folder: Path
     names: tuple[str, ...]
-    include: tuple[str, ...] = (".",)
+    layout: Layout = LAYOUT
 
     @property
     def options(self) -> list[str]:
         """What tells the compiler about the folders."""
-        return [word for below in self.include for word in ("-I", str(self.folder / below))]
-
-    @property
-    def sources(self) -> list[str]:
-        """The source files beside the headers."""
-        return sorted(str(p) for p in self.folder.rglob("*") if p.suffix in (".cpp", ".cc", ".cxx"))
+        return [word for below in self.layout.include for word in ("-I", str(self.folder / below))]
 
 
 class NoCompiler(Exception):
@@ -132,22 +143,28 @@ class Compiled:
 
 
 def compile_text(
-    text: str, folder: Path, headers: Headers, standard: str, compiler: Compiler, made: Path | None = None
+    text: str,
+    folder: Path,
+    headers: Headers,
+    standard: str,
+    compiler: Compiler,
+    made: Path | None = None,
+    linked: Sequence[str] = (),
 ) -> Compiled:
-    """Compile ``text``, a translation unit that includes ``headers``; with ``made`` link it with the source files beside them,
+    """Compile ``text``, a translation unit that includes ``headers``; with ``made`` link it with what ``linked`` names,
     too. ``folder`` is where it is written to. Raises ``NoCompiler``.
     """
     source = folder / "probes.cpp"
     source.write_text(text, encoding="utf-8")
     words = [*compiler.command, STANDARDS[standard], "-pedantic-errors", *headers.options]
-    words += ["-O0", str(source), *headers.sources, "-o", str(made)] if made else ["-fsyntax-only", str(source)]
+    words += ["-O0", str(source), *linked, "-o", str(made)] if made else ["-fsyntax-only", str(source)]
     structured = [*words, "-fmax-errors=0", "-fdiagnostics-format=json"]
     ended = run(structured, folder, compiler)
     found = _read_json(ended.errors)
     if ended.status not in (0, None) and (not found or not all(is_own(e.file) for e in found)):
         all_of_them = ["-ferror-limit=0"] if "clang" in ended.errors.partition(":")[0] else []
         ended = run([*words, *all_of_them], folder, compiler)
-        found = _read_text(ended.errors)
+        found = read_errors(ended.errors)
     if ended.problem:
         return Compiled(tuple(found or ()), ended.problem)
     if ended.status != 0 and not found:
@@ -205,7 +222,7 @@ _LINE = re.compile(
 )
 
 
-def _read_text(errors: str) -> list[Error]:
+def read_errors(errors: str) -> list[Error]:
     """Errors as compilers print them; one inside a template counts for the probe that it was instantiated for, which is named
     before the error or in notes after it.
     """

@@ -2,15 +2,30 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
+
+from ucm_cts.harness.toolchains.cpp.keywords import without_macros
+
 MOST_PARAMETERS = 8
 """How many a function may have that probes look at."""
 
 
-def prelude(modern: bool) -> str:
-    """The text that comes after the headers and before the checks."""
+def prelude(modern: bool, names: Iterable[str] = ()) -> str:
+    """The text that comes after the headers and before the checks; neither its names nor ``names`` are macros after it, even if
+    one of the headers is called like a standard one.
+    """
     typed = "decltype(e)" if modern else "__typeof__(e)"
     standard = "#include <cstdint>\n#include <array>\n#include <memory>\n" if modern else "#include <stdint.h>\n"
-    return f"{_INCLUDES}{standard}#define UCTS_TYPE(e) {typed}\n{_TOOLS}{_signatures()}{_RUNNING}"
+    tools = f"{_TOOLS}{_signatures()}{_RUNNING}"
+    words = re.findall(r"[A-Za-z_]\w*", re.sub(r'"(?:\\.|[^"\\])*"|//.*', "", tools))
+    own = {*words, *names, "UCTS_TYPE", "main"} - _NOT_OURS
+    cleared = without_macros("cpp11" if modern else "cpp03", own)
+    return f"{cleared}{_INCLUDES}{standard}{cleared}#define UCTS_TYPE(e) {typed}\n{tools}"
+
+
+_NOT_OURS = {"ref", "PortConnection", "PortElementObject", "Abstract_PortElementObject", "FILE"}
+"""What the headers declare, in whatever way, and what may be a macro of the standard library."""
 
 
 _INCLUDES = """\
@@ -65,12 +80,16 @@ template <class S> struct inner { typedef typename pointee<typename bare<typenam
 template <class M> struct member_type { typedef M member; };
 template <class C, class M> member_type<M> member_of(M C::*);
 
-struct failed : ::std::runtime_error {
-    explicit failed(const ::std::string& what) : ::std::runtime_error(what) {}
-};
+namespace {
+const char* broken = 0;
+const char* token = "";
+::std::FILE* results = 0;
+}
+struct failed {};
 inline void require(bool condition, const char* what) {
     if (!condition) {
-        throw failed(what);
+        broken = broken == 0 ? what : broken;  // decides; the exception only ends the check
+        throw failed();
     }
 }
 template <class C> struct slot { static C* value; };
@@ -104,20 +123,31 @@ template <class S, class E> void bounded(const E& element, ::std::size_t most) {
     }
     require(sequence.size() == most, "it holds more elements than the model says");
 }
+inline bool began(int count, char** words) {
+    results = count == 3 ? ::std::fopen(words[1], "w") : 0;
+    token = count == 3 ? words[2] : "";
+    return results != 0;
+}
 inline void run(int number, void (*check)()) {
-    ::std::printf("ucts begin %d\\n", number);
-    ::std::fflush(stdout);
+    ::std::fprintf(results, "%s begin %d\\n", token, number);
+    ::std::fflush(results);
+    ::std::string came;
+    broken = 0;
     try {
         check();
-        ::std::printf("ucts kept %d\\n", number);
-    } catch (const failed& failure) {
-        ::std::printf("ucts broken %d %s\\n", number, failure.what());
+    } catch (const failed&) {
     } catch (const ::std::exception& exception) {
-        ::std::printf("ucts broken %d an exception came out: %.200s\\n", number, exception.what());
+        came = ::std::string("an exception came out: ") + exception.what();
     } catch (...) {
-        ::std::printf("ucts broken %d an exception came out\\n", number);
+        came = "an exception came out";
     }
-    ::std::fflush(stdout);
+    const char* what = broken == 0 ? came.c_str() : broken;
+    ::std::fprintf(results, "%s %s %d %.200s\\n", token, *what == 0 ? "kept" : "broken", number, what);
+    ::std::fflush(results);
+}
+inline int ended() {
+    ::std::fprintf(results, "%s end 0\\n", token);
+    return ::std::fclose(results);
 }
 }  // namespace ucts
 """

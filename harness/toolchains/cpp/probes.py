@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import secrets
 import tempfile
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
@@ -13,15 +14,19 @@ from pathlib import Path
 from ucm_cts.harness.toolchains.cpp.bodies import implementation, implemented, runs
 from ucm_cts.harness.toolchains.cpp.checks import Text, connection_declared, render
 from ucm_cts.harness.toolchains.cpp.compiling import (
+    LAYOUT,
     Compiled,
     Compiler,
     Ended,
     Error,
     Headers,
+    Layout,
     compile_text,
     is_tag,
     run,
 )
+from ucm_cts.harness.toolchains.cpp.keywords import keyword_of, redefined
+from ucm_cts.harness.toolchains.cpp.linking import Linked, linked
 from ucm_cts.harness.toolchains.cpp.listing import LISTED, RULE, Listed, listed
 from ucm_cts.harness.toolchains.cpp.needs import lacks, line_of
 from ucm_cts.harness.toolchains.cpp.prelude import ARRAY, SAFE_ENUM, SHARED, prelude
@@ -46,7 +51,8 @@ HEADERS = {"cpp11": "R-13-04", "cpp03": "R-13.10-01"}
 
 _ROUNDS = 4
 _THREADS = 2
-_BEGUN = re.compile(r"^ucts (begin|kept|broken) (\d+) ?(.*)$", re.MULTILINE)
+_RESULT = re.compile(r"(begin|kept|broken|end) (\d+) ?(.*)")
+_OURS = re.compile(r"\b(?:ucts|UCTS_|__)\w*")
 _NOT = re.compile(r"holds<false>|holds<\(?false")
 
 
@@ -89,10 +95,10 @@ def check(
     folder: Path,
     headers: tuple[str, ...],
     compiler: Compiler,
-    include: tuple[str, ...] = (".",),
+    layout: Layout = LAYOUT,
 ) -> Comparison:
     """What the headers, whose names are relative to ``folder``, come to. Raises ``NoCompiler``."""
-    return _Comparing(expected, Headers(folder.resolve(), headers, include), compiler).compared()
+    return _Comparing(expected, Headers(folder.resolve(), headers, layout), compiler).compared()
 
 
 def check_files(
@@ -100,7 +106,7 @@ def check_files(
     files: Mapping[str, str],
     headers: tuple[str, ...],
     compiler: Compiler,
-    include: tuple[str, ...] = (".",),
+    layout: Layout = LAYOUT,
 ) -> Comparison:
     """As ``check`` for ``files``, texts by their names. Raises ``NoCompiler``."""
     with tempfile.TemporaryDirectory(prefix="ucm-cts-cpp-") as folder:
@@ -108,7 +114,7 @@ def check_files(
             path = Path(folder) / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
-        return check(expected, Path(folder), headers, compiler, include)
+        return check(expected, Path(folder), headers, compiler, layout)
 
 
 class _Comparing:
@@ -119,11 +125,13 @@ class _Comparing:
         self._abstract = {a.key: a for a in expected.abstract}
         self._checks = list(self._rendered())
         self._seen = Seen()
+        self._linked = Linked()
 
     def compared(self) -> Comparison:
         with tempfile.TemporaryDirectory(prefix="ucm-cts-probes-") as folder, ThreadPoolExecutor(_THREADS) as threads:
             alone = [threads.submit(self._alone, name, Path(folder)) for name in self._headers.names]
             listing = threads.submit(listed, self._expected, self._headers, self._compiler)
+            self._linked = linked(self._headers, self._expected.standard, self._compiler, Path(folder))
             self._probe(Path(folder))
             of_headers = [found for one in alone for found in one.result()]
             return self._told(of_headers, listing.result())
@@ -145,14 +153,14 @@ class _Comparing:
                 yield Check(number, expected, found, rule_of(claim))
 
     def _alone(self, name: str, folder: Path) -> list[Difference]:
-        """Whether a header compiles with nothing before it, and is the same when it is included again."""
+        """Whether a header compiles with nothing before it, is the same when it is included again, and leaves keywords alone."""
         own = folder / f"alone-{self._headers.names.index(name)}"
         own.mkdir()
-        text = f'#include "{name}"\n#include "{name}"\nint main() {{ return 0; }}\n'
+        text = f'#include "{name}"\n#include "{name}"\n{redefined(self._expected.standard)}int main() {{ return 0; }}\n'
         compiled = compile_text(text, own, self._headers, self._expected.standard, self._compiler)
         if compiled.problem:
             return [self._of_header(name, compiled.problem, (name, 0))]
-        return [self._of_header(name, e.message, self._place(e)) for e in compiled.errors[:1]]
+        return [self._of_header(name, _told_by(e), self._place_in(name, e)) for e in compiled.errors[:1]]
 
     def _of_header(self, name: str, observed: str, place: tuple[str, int]) -> Difference:
         standard = {"cpp11": "C++11", "cpp03": "C++03"}[self._expected.standard]
@@ -166,10 +174,18 @@ class _Comparing:
             left = [c for c in self._checks if self._is_left(c)]
             made = folder / f"probes-{attempt}"
             compiled = compile_text(
-                self._unit(left), folder, self._headers, self._expected.standard, self._compiler, made
+                self._unit(left),
+                folder,
+                self._headers,
+                self._expected.standard,
+                self._compiler,
+                made,
+                self._linked.words,
             )
             if not compiled.errors and not compiled.problem:
-                if self._ran(run([str(made)], folder, self._compiler), left):
+                results, token = made.with_suffix(".results"), secrets.token_hex(8)
+                ended = run([str(made), str(results), token], folder, self._compiler)
+                if self._ran(ended, _results(results, token), left):
                     return
                 continue
             if not self._sort(compiled):
@@ -219,19 +235,20 @@ class _Comparing:
             return False
         return len(self._seen.failed) + len(self._seen.bodies) + len(self._seen.support) > before
 
-    def _ran(self, ended: Ended, left: Iterable[Check]) -> bool:
+    def _ran(self, ended: Ended, results: Iterable[tuple[str, int, str]], left: Iterable[Check]) -> bool:
         """Take note of what the program found out; False if it died in a check and may go on without it."""
         begun: int | None = None
-        for match in _BEGUN.finditer(ended.output):
-            word, number = match[1], int(match[2])
+        finished = False
+        for word, number, what in results:
             if word == "broken":
-                self._seen.failed[number] = (match[3], ())
-            elif word == "kept":
+                self._seen.failed[number] = (what, ())
+            elif word == "kept" and number == begun:
                 self._seen.kept.add(number)
             begun = number if word == "begin" else None
+            finished = finished or word == "end"
         status = ended.status or 0
         how = ended.problem or (f"signal {-status}" if status < 0 else f"status {status}")
-        self._seen.problem = f"the program of probes ended early: {how}" if ended.status != 0 else ""
+        self._seen.problem = f"the program of probes ended early: {how}" if status or not finished else ""
         if begun is not None:
             self._seen.failed[begun] = (f"the program ended here: {how}", ())
         self._seen.kept |= {c.number for c in left if not c.text.run}
@@ -240,7 +257,12 @@ class _Comparing:
     def _unit(self, left: list[Check]) -> str:
         modern = self._expected.standard == "cpp11"
         lines = [f'#include "{name}"' for name in self._headers.names]
-        lines += ['#line 1 "prelude#0"', prelude(modern)]
+        probes = self._probes(left, modern)
+        lines += ['#line 1 "prelude#0"', prelude(modern, _OURS.findall(probes)), probes]
+        return "\n".join(lines).replace("<::", "< ::")  # <: is [ in C++03
+
+    def _probes(self, left: list[Check], modern: bool) -> str:
+        lines = []
         for name, text in self._support(modern).items():
             if name not in self._seen.support:
                 lines += [f'#line 1 "support#{name}"', text]
@@ -252,11 +274,15 @@ class _Comparing:
             if abstract.key in wanted and abstract.key not in broken:
                 lines += [f'#line 1 "body#{abstract.key}"', implementation(abstract).replace("\n", " ")]
         lines += [text for check in left for text in _inside(check)]
-        lines += ['#line 1 "running#0"', "int main() {"]
+        lines += [
+            '#line 1 "running#0"',
+            "int main(int count, char** words) {",
+            "if (!::ucts::began(count, words)) { return 3; }",
+        ]
         for check in left:
             if check.text.run:
                 lines.append(f"::ucts::run({check.number}, &ucts_check_{check.number}::run_it);")
-        return "\n".join([*lines, "return 0; }", ""]).replace("<::", "< ::")  # <: is [ in C++03
+        return "\n".join([*lines, "return ::ucts::ended(); }", ""])
 
     def _with_references(self, keys: set[str]) -> set[str]:
         wanted = set(keys)
@@ -289,11 +315,12 @@ class _Comparing:
                 differences.append(self._difference(one, *observed))
         if not differences:  # else it follows from one of these
             for error in self._seen.loose[:1]:
-                differences.append(self._of_header("what is generated", error.message, self._place(error)))
+                told = "; ".join([error.message, *self._linked.left_out])
+                differences.append(self._of_header("what is generated", told, self._place(error)))
         found, counted, missing = listing
         exercised.update(counted)
         unjudged = {**missing, **unjudged}
-        return Comparison(dict(exercised), (*differences, *found), unjudged=unjudged)
+        return Comparison(dict(exercised), (*differences, *found), unjudged=unjudged, remarks=self._linked.left_out)
 
     def _observed_of(self, one: Check) -> tuple[str, tuple[tuple[str, int], ...]] | None:
         if one.text.key in self._seen.bodies:
@@ -332,6 +359,13 @@ class _Comparing:
         return Difference(
             expected.requirement, one.rule, expected.element, expected.line, one.text.says, observed, *place
         )
+
+    def _place_in(self, name: str, error: Error) -> tuple[str, int]:
+        """Where ``error`` is; for a keyword where the header ``name`` defines it."""
+        keyword = keyword_of(error.message)
+        text = (self._headers.folder / name).read_text(encoding="utf-8", errors="replace") if keyword else ""
+        defined = re.search(rf"^[ \t]*#[ \t]*define[ \t]+{keyword}\b", text, re.MULTILINE) if keyword else None
+        return (name, text.count("\n", 0, defined.start()) + 1) if defined else self._place(error)
 
     def _place(self, error: Error) -> tuple[str, int]:
         places = [(error.file, error.line), *error.notes]
@@ -377,6 +411,20 @@ def _inside(check: Check) -> Iterator[str]:
     if check.text.run:
         body += f" inline void run_it() {{ {check.text.run} }}"
     yield f"namespace ucts_check_{check.number} {{ {body} }}"
+
+
+def _results(path: Path, token: str) -> Iterator[tuple[str, int, str]]:
+    """What the program said in lines that begin with the ``token`` that it was given, and only those: headers may print, too."""
+    text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+    for line in text.split("\n"):
+        match = _RESULT.fullmatch(line.removeprefix(f"{token} ")) if line.startswith(f"{token} ") else None
+        if match is not None:
+            yield match[1], int(match[2]), match[3]
+
+
+def _told_by(error: Error) -> str:
+    keyword = keyword_of(error.message)
+    return f"it redefines the keyword {keyword}" if keyword else error.message
 
 
 def _observed(message: str) -> str:

@@ -1,0 +1,75 @@
+"""What a program is linked with: the source files beside generated headers, and libraries of the vendor."""
+
+from __future__ import annotations
+
+import fnmatch
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from ucm_cts.harness.toolchains.cpp.compiling import STANDARDS, Compiler, Headers, read_errors, run
+
+SUFFIXES = (".cpp", ".cc", ".cxx", ".C")
+
+
+@dataclass(frozen=True)
+class Linked:
+    """``words`` of the command that links, after the program's own source; ``left_out`` says which files are not linked, and why."""
+
+    words: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
+
+
+def linked(headers: Headers, standard: str, compiler: Compiler, folder: Path) -> Linked:
+    """What a program that uses ``headers`` is linked with; ``folder`` is for what is made of it. Raises ``NoCompiler``.
+
+    Source files that the vendor names are linked as they are. If the vendor names none, those that compile become an archive, from
+    which the linker takes what the program needs: a demonstration with a main of its own, or a body that the user has yet
+    to write, is no part of what is certified.
+    """
+    layout = headers.layout
+    if layout.sources is not None:
+        names = sorted(str(p.relative_to(headers.folder)) for p in headers.folder.rglob("*") if p.is_file())
+        named = [str(headers.folder / n) for n in names if any(matches(n, pattern) for pattern in layout.sources)]
+        return Linked((*named, *layout.libraries))
+    objects, left_out = [], []
+    for number, source in enumerate(_sources(headers.folder)):
+        made = folder / f"source-{number}.o"
+        why = _compiled(source, made, headers, standard, compiler)
+        if why:
+            left_out.append(f"{source.relative_to(headers.folder)} does not compile ({why}) and was not linked")
+        else:
+            objects.append(str(made))
+    return Linked((*_archived(objects, folder), *layout.libraries), tuple(left_out))
+
+
+def matches(name: str, pattern: str) -> bool:
+    """Whether the file ``name`` fits ``pattern``, whose ``**/`` at the beginning stands for no folder, too."""
+    return fnmatch.fnmatchcase(name, pattern) or fnmatch.fnmatchcase(name, pattern.removeprefix("**/"))
+
+
+def _sources(folder: Path) -> Iterator[Path]:
+    yield from sorted(p for p in folder.rglob("*") if p.suffix in SUFFIXES)
+
+
+def _compiled(source: Path, made: Path, headers: Headers, standard: str, compiler: Compiler) -> str:
+    """Make ``made`` of ``source``; why that cannot be done, nothing if it is done."""
+    words = [*compiler.command, STANDARDS[standard], "-pedantic-errors", *headers.options, "-O0"]
+    ended = run([*words, "-c", str(source), "-o", str(made)], made.parent, compiler)
+    if ended.status == 0 and made.is_file():
+        return ""
+    first = next((f"line {e.line}: {e.message}" for e in read_errors(ended.errors)), "")
+    return ended.problem or first or f"status {ended.status}"
+
+
+def _archived(objects: list[str], folder: Path) -> list[str]:
+    """An archive of ``objects``; they themselves where none can be made."""
+    archive = str(folder / "libsources.a")
+    if not objects:
+        return []
+    try:
+        subprocess.run(["ar", "rcs", archive, *objects], check=True, capture_output=True, stdin=subprocess.DEVNULL)
+    except (OSError, subprocess.CalledProcessError):
+        return objects
+    return [archive]
