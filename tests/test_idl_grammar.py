@@ -12,7 +12,6 @@ from ucm_cts.harness.toolchains.idl.reading import (
     LARGEST,
     LONGEST_CHAIN,
     NotIdl,
-    included,
     read_expression,
     read_files,
     read_idl,
@@ -259,7 +258,6 @@ def test_no_text_ends_the_reader(text: str) -> None:
 
 def test_files_that_are_included_and_not_there_are_known() -> None:
     files = {"gen/a.idl": '#include "b.idl"\n#include <ucm/core.idl>\n', "gen/b.idl": "typedef long t;"}
-    assert included(files["gen/a.idl"]) == ["b.idl", "ucm/core.idl"]
     assert read_files(files).missing == ("ucm/core.idl",)
 
 

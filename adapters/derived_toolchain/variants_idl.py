@@ -107,6 +107,7 @@ for _reading in (
     "standard-idl=printed",
     "standard-idl=printed-with-timers",
     "standard-idl=model",
+    "idl-enumerator-values=observed",
     "idl-enumerator-values=default-value",
 ):
     _variant(f"declared_{_reading.replace('-', '_').replace('=', '_as_')}", _SAME, _reading)
@@ -140,6 +141,45 @@ _variant(
         STANDARD,
     ),
 )
+
+
+HEADS: dict[str, tuple[str, tuple[tuple[str, Replacement], ...]]] = {
+    "macros_for_numbers": (
+        "#define UCM_N_8 8\n#define UCM_N_16 \\\n  (UCM_N_8 * 2) /* twice\n as much */\n#define UCM_1 1\n#undef UCM_1\n",
+        ((r"string<16>", "string<UCM_N_16>"), (r"sequence<([^<>,]*), 8>", r"sequence<\1, UCM_N_8>")),
+    ),
+    "macros_for_keywords": (
+        "#define UCM_LOCAL local\n#define UCM_NOTHING\n#define UCM_INDEX(t) @IndexType(typeid=#t)\n#define UCM_IF(x) x ## face\n",
+        (
+            (r"\binterface (?=\w+(?: :| \{|;))", "UCM_NOTHING UCM_LOCAL UCM_IF(inter) "),
+            (r'@IndexType\(typeid="([^"]*)"\)', r"UCM_INDEX(\n  \1\n)"),
+        ),
+    ),
+    "branches_that_are_not_taken": (
+        "#if 0\nDon't read this; module {\n# if 1\n#  error no\n# else\n# endif\n#elif defined UCM_OLD && UCM_OLD > 2\n#error no\n"
+        "#else\n#define UCM_NEW (1 << 3)\n#endif\n#ifdef __OTHER_COMPILER__\n#include <other.idl>\n#endif\n",
+        ((r"\n( *)(interface )", r"\n#if UCM_NEW == 8 && !defined(UCM_OLD)\n\1\2\n#else\n\1}\n#endif\n"),),
+    ),
+    "guards_of_another_kind": (
+        "#pragma once\n",
+        ((r"#ifndef (\w+)\n", r"#if !defined(\1)\n"), (r"\n#endif\n$", "\n#endif // guard\n")),
+    ),
+    "no_guards": ("", ((r"#ifndef (\w+)\n#define \1\n", "\n\n"), (r"\n#endif\n$", "\n"))),
+}
+"""By the variant's name: what stands first in each file, and patterns with what stands instead."""
+
+
+def _with_directives(head: str, changes: tuple[tuple[str, Replacement], ...]) -> Derive:
+    def rewrite(text: str) -> str:
+        for pattern, replacement in changes:
+            text = re.sub(pattern, replacement, text)
+        return f"{head}{text}"
+
+    return lambda program: rewritten(program, lambda files: {name: rewrite(text) for name, text in files.items()})
+
+
+for _name, (_head, _changes) in HEADS.items():
+    _variant(_name, _with_directives(_head, _changes))
 
 
 @variant(task="idl")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.derived_toolchain.registry import breaks
-from ucm_cts.adapters.derived_toolchain.rewriting import STANDARD, appended, replaced, rewritten
+from ucm_cts.adapters.derived_toolchain.rewriting import GUARD, MODEL, STANDARD, appended, replaced, rewritten
 from ucm_cts.adapters.toolchain.program import Program
 
 ENUM_INDEX = r'@IndexType\(typeid="(?!unsigned long")[^"]*"\)\n(?= *enum)'
@@ -263,6 +263,8 @@ NATIVES = ("native-types=supported",)
 DEFAULTS = ("idl-attribute-defaults=annotated",)
 
 DECLARES: dict[str, tuple[str, ...]] = {
+    "values_forgotten": ("idl-enumerator-values=observed",),
+    "values_counted_from_one": ("idl-enumerator-values=observed",),
     "native_is_octet": NATIVES,
     "native_without_footprint": NATIVES,
     "footprint_of_another_size": NATIVES,
@@ -302,6 +304,21 @@ for _name, (_requirement, _pattern, _replacement) in PRINTED.items():
     )
 for _name, (_requirement, _text) in APPENDED.items():
     breaks(_requirement, task="idl")(appended(_name, _text))
+
+
+@breaks("R-12.7-02", "R-12.7-03", "R-12.7-06", task="idl", also=("R-12.7-04", "R-12.7-05"))
+def generates_what_no_compiler_sees(program: Program) -> Program:
+    """All that follows from the model stands in a branch that is never taken."""
+    begin = "\n#ifdef NEVER_DEFINED\n"
+    return rewritten(program, lambda files: {**files, MODEL: f"{begin}{files[MODEL]}{GUARD}"})
+
+
+@breaks("R-12.4.1-10", task="idl")
+def bound_of_another_branch(program: Program) -> Program:
+    """A macro has the right number where it does not count."""
+    made = "\n#if defined(TEXT_BOUND) || 2 < 1\n#define BOUND 16\n#else\n#define BOUND 17\n#endif\n"
+    program = replaced("", r"string<16>", "string<BOUND>")(program)
+    return rewritten(program, lambda files: {**files, MODEL: f"{made}{files[MODEL]}"})
 
 
 @breaks("R-12.7-07", task="idl")

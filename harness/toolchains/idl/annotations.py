@@ -198,6 +198,8 @@ def _kinds(vendor: Vendor, annotation: Annotation, scope: Scope) -> set[str] | N
 
 def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
     """Whether the values of enumerators can be told from the IDL."""
+    if vendor.reading("idl-enumerator-values") not in ("observed", "default-value"):
+        raise NotExercised
     hit = here(vendor, fact.path, Enum)
     enum = hit.entry.declaration
     assert isinstance(enum, Enum)

@@ -9,12 +9,14 @@ import re
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Literal
 
-from ucm_cts.harness.toolchains.idl.reading import NotIdl, Problem, blanked, included, read_idl
+from ucm_cts.harness.toolchains.idl.preprocessing import Preprocessed
+from ucm_cts.harness.toolchains.idl.problems import Problem
+from ucm_cts.harness.toolchains.idl.reading import read_files
 from ucm_cts.harness.toolchains.idl.scopes import build, every
 from ucm_cts.harness.toolchains.idl.showing import type_of
 from ucm_cts.reference_models.idl.declarations import (
@@ -54,18 +56,15 @@ def opinion(files: Mapping[str, str]) -> Opinion:
     program = shutil.which("omniidl")
     if program is None:
         return Opinion("none", reason="omniidl is not installed; Debian's package is omniidl")
-    try:
-        declarations = {name: read_idl(text, name) for name, text in files.items()}
-    except NotIdl as error:
-        return Opinion("none", reason=f"not read by the suite: {error}")
-    beyond = next(_beyond(declarations), "")
-    known = {PurePosixPath(name).name for name in files}
-    missing = [n for text in files.values() for n in included(text) if PurePosixPath(n).name not in known]
-    if beyond or missing:
-        return Opinion("none", reason=beyond or f"{missing[0]} is not among the files")
+    read = read_files(files)
+    if read.problems:
+        return Opinion("none", reason=f"not read by the suite: {read.problems[0]}")
+    beyond = next(_beyond(read.declarations), "")
+    if beyond or read.missing:
+        return Opinion("none", reason=beyond or f"{read.missing[0]} is not among the files")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "all.idl"
-        path.write_text("\n".join(joined(files)) + "\n")
+        path.write_text("\n".join(joined(files, read.left)) + "\n")
         try:
             ran = subprocess.run(
                 [program, "-N", "-nf", "-nc", "all.idl"],
@@ -103,15 +102,11 @@ def _beyond(files: Mapping[str, tuple[Declaration, ...]]) -> Iterator[str]:
             yield f"{declaration.name} is of type {type_.name}"
 
 
-_INCLUDE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*[\"<]([^\">\n]+)[\">]")
-
-
-def joined(files: Mapping[str, str]) -> Iterator[str]:
+def joined(files: Iterable[str], left: Preprocessed) -> Iterator[str]:
     """The lines of all files as a preprocessor would hand them on: each file once, where it is first included, under its number
     among ``files``, because names may hold anything.
     """
     done: set[str] = set()
-    by_name = {PurePosixPath(name).name: name for name in files}
     numbers = {name: number for number, name in enumerate(files)}
 
     def lines(name: str) -> Iterator[str]:
@@ -119,16 +114,14 @@ def joined(files: Mapping[str, str]) -> Iterator[str]:
             return
         done.add(name)
         yield f'# 1 "{numbers[name]}"'
-        plain = without_annotations(blanked(files[name], name)).split("\n")
-        source = files[name].removeprefix("\ufeff").replace("\r\n", "\n").split("\n")
-        for number, (line, original) in enumerate(zip(plain, source, strict=True), 1):
-            found = _INCLUDE.match(original)
-            if found and not line.strip():
-                yield from lines(by_name[PurePosixPath(found[1]).name])
+        included = dict(left.includes[name])
+        for number, line in enumerate(without_annotations(left.texts[name]).split("\n"), 1):
+            if number in included:
+                yield from lines(included[number])
                 yield f'# {number} "{numbers[name]}"'
             yield line
 
-    for name in files:
+    for name in left.roots:
         yield from lines(name)
 
 

@@ -12,6 +12,7 @@ ASKED_OF: dict[str, tuple[str, ...]] = {
     "R-12.4.1-11": ("native-types=supported",),
     "R-12.4.1.1-0[23]": ("native-types=supported",),
     "R-14-04": ("native-types=supported",),
+    "R-12.4.1.3-02": ("idl-enumerator-values=observed", "idl-enumerator-values=default-value"),
     "R-12.4.1.3-03": ("idl-attribute-defaults=annotated",),
     "R-12.6-10": ("idl-interface-attributes=attributes",),
     "R-12.10-29": ("idl-standard-files=generated",),

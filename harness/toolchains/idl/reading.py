@@ -8,18 +8,17 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from dataclasses import dataclass, field
+from pathlib import Path
 
 from lark import Lark, Token
 from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
 from lark.lexer import PatternRE, PatternStr, TerminalDef
 
 from ucm_cts.harness.toolchains.idl.building import Builder
+from ucm_cts.harness.toolchains.idl.preprocessing import LARGEST, Preprocessed, preprocessed, without_comments
+from ucm_cts.harness.toolchains.idl.problems import NotIdl, Problem, problem_at
 from ucm_cts.reference_models.idl.declarations import Declaration, Expression
-
-LARGEST = 4 * 1024 * 1024
-"""Characters that a file of IDL may have."""
 
 DEEPEST = 100
 """Levels to which brackets may nest."""
@@ -29,52 +28,43 @@ LONGEST_CHAIN = 1000
 
 
 @dataclass(frozen=True)
-class Problem:
-    """Why a text is not IDL, and where; lines and columns are counted from 1."""
-
-    file: str
-    line: int
-    column: int
-    text: str
-
-    def __str__(self) -> str:
-        return f"{self.file}:{self.line}:{self.column}: {self.text}"
-
-
-class NotIdl(Exception):
-    """A text that is not IDL; ``problem`` tells why."""
-
-    def __init__(self, problem: Problem) -> None:
-        super().__init__(str(problem))
-        self.problem = problem
-
-
-@dataclass(frozen=True)
 class Files:
-    """What several files declare, file by file; what is wrong with those that do not; files that are included and not there."""
+    """What several files declare, file by file; what is wrong with those that do not; files that are included and not there; and
+    what the preprocessor left.
+    """
 
     declarations: Mapping[str, tuple[Declaration, ...]]
     problems: tuple[Problem, ...]
     missing: tuple[str, ...]
+    left: Preprocessed = field(default_factory=Preprocessed, repr=False, compare=False)
 
 
 def read_files(files: Mapping[str, str]) -> Files:
-    """What ``files`` (name to text) declare. Never raises."""
+    """What ``files`` (name to text) declare, which may include one another. Never raises."""
+    left = preprocessed(files)
     declarations: dict[str, tuple[Declaration, ...]] = {}
     problems = []
-    known = {PurePosixPath(name).name for name in files}
-    missing = {name for text in files.values() for name in included(text) if PurePosixPath(name).name not in known}
-    for name, text in files.items():
+    for name in files:
         try:
-            declarations[name] = read_idl(text, name)
+            if name in left.problems:
+                raise NotIdl(left.problems[name])
+            declarations[name] = _declared(left.texts[name], name)
         except NotIdl as error:
             problems.append(error.problem)
-    return Files(declarations, tuple(problems), tuple(sorted(missing)))
+    return Files(declarations, tuple(problems), tuple(sorted(left.missing)), left)
+
+
+def read_idl(text: str, file: str = "") -> tuple[Declaration, ...]:
+    """The declarations in ``text``. Raises ``NotIdl``."""
+    read = read_files({file: text})
+    if read.problems:
+        raise NotIdl(read.problems[0])
+    return read.declarations[file]
 
 
 @functools.lru_cache(maxsize=32)
-def read_idl(text: str, file: str = "") -> tuple[Declaration, ...]:
-    """The declarations in ``text``; vendors hand over one standard file with each model. Raises ``NotIdl``."""
+def _declared(text: str, file: str) -> tuple[Declaration, ...]:
+    """What a preprocessed text declares; vendors hand over one standard file with each model."""
     parsed = _parsed(text, file, "start")
     assert isinstance(parsed, tuple)
     return parsed
@@ -82,38 +72,9 @@ def read_idl(text: str, file: str = "") -> tuple[Declaration, ...]:
 
 def read_expression(text: str) -> Expression:
     """The value of a constant as it may stand in a model. Raises ``NotIdl``."""
-    expression = _parsed(text, "", "expression_alone")
+    expression = _parsed(without_comments(text), "", "expression_alone")
     assert not isinstance(expression, tuple)
     return expression
-
-
-_INCLUDE = re.compile(r"^[ \t]*#[ \t]*include[ \t]*[\"<]([^\">\n]+)[\">]", re.MULTILINE)
-
-
-def included(text: str) -> list[str]:
-    """The names in the include directives of ``text``."""
-    return _INCLUDE.findall(text)
-
-
-_BLANKED = re.compile(
-    r'(?P<kept>"(?:\\.|[^"\\\n])*"|\'(?:\\[^\n]|[^\'\\\n])+\')'
-    r"|(?P<blanked>//[^\n]*|/\*.*?\*/|^[ \t]*\#(?:[^\n\\]|\\\n|\\)*)|(?P<open>/\*)",
-    re.DOTALL | re.MULTILINE,
-)
-
-
-def blanked(text: str, file: str = "") -> str:
-    """``text`` with blanks instead of comments and directives, so that all places stay. Raises ``NotIdl``."""
-    text = text.removeprefix("\ufeff").replace("\r\n", "\n")
-    pieces = []
-    at = 0
-    for match in _BLANKED.finditer(text):
-        if match["open"]:
-            raise NotIdl(_problem(text, match.start(), file, "this comment does not end; close it"))
-        if match["blanked"]:
-            pieces += [text[at : match.start()], re.sub(r"[^\n]", " ", match[0])]
-            at = match.end()
-    return "".join([*pieces, text[at:]])
 
 
 _QUOTED = r'"(?:\\.|[^"\\\n])*"'
@@ -124,10 +85,6 @@ _VALUE = re.compile(rf"(?:=|\[|\bcase\b)(?:{_QUOTED}|[^;{{}}\"])*|{_QUOTED}")
 def _shifts_marked(text: str) -> str:
     """``text`` with another character, and a blank, for each shift to the right."""
     return re.sub(rf"{_QUOTED}|>>", lambda m: "\u226b " if m[0] == ">>" else m[0], text)
-
-
-def _problem(text: str, at: int, file: str, told: str) -> Problem:
-    return Problem(file, text.count("\n", 0, at) + 1, at - (text.rfind("\n", 0, at) + 1) + 1, told)
 
 
 def _bounded(text: str, file: str) -> None:
@@ -147,18 +104,13 @@ def _bounded(text: str, file: str) -> None:
             chain += 1
         if depth > DEEPEST or chain > LONGEST_CHAIN:
             what = "nests deeper" if depth > DEEPEST else "is a longer expression"
-            raise NotIdl(_problem(text, match.start(), file, f"{what} than this suite reads; make it simpler"))
+            raise NotIdl(problem_at(text, match.start(), file, f"{what} than this suite reads; make it simpler"))
     nested = re.search(rf"(?:sequence\s*<\s*){{{DEEPEST}}}", text)
     if nested:
-        raise NotIdl(_problem(text, nested.start(), file, "nests deeper than this suite reads; make it simpler"))
+        raise NotIdl(problem_at(text, nested.start(), file, "nests deeper than this suite reads; make it simpler"))
 
 
 def _parsed(text: str, file: str, start: str) -> tuple[Declaration, ...] | Expression:
-    if len(text) > LARGEST:
-        raise NotIdl(Problem(file, 1, 1, f"has more than {LARGEST} characters; split it"))
-    if "\0" in text:
-        raise NotIdl(_problem(text, text.index("\0"), file, "a NUL is not IDL; remove it"))
-    text = blanked(text, file)
     _bounded(text, file)
     if ">>" in text:
         text = _shifts_marked(text) if start != "start" else _VALUE.sub(lambda m: _shifts_marked(m[0]), text)
@@ -183,7 +135,7 @@ def _told(error: UnexpectedInput, text: str, file: str) -> Problem:
         met = repr(text[error.pos_in_stream] if error.pos_in_stream is not None else "")
     else:
         last = text.rstrip()
-        return _problem(text, len(last), file, "the text ends before its declarations do")
+        return problem_at(text, len(last), file, "the text ends before its declarations do")
     assert not isinstance(error, UnexpectedEOF)
     return Problem(file, error.line, error.column, f"{met} is not expected here")
 
@@ -209,4 +161,4 @@ def _whole_words(terminal: TerminalDef) -> None:
         terminal.priority = 2
 
 
-__all__ = ["Files", "NotIdl", "Problem", "Token", "included", "read_expression", "read_files", "read_idl"]
+__all__ = ["LARGEST", "Files", "NotIdl", "Problem", "Token", "read_expression", "read_files", "read_idl"]
