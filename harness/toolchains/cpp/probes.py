@@ -36,7 +36,7 @@ from ucm_cts.reference_models.cpp.expected import Expected, ExpectedCpp
 
 CHECKS = {
     "cpp_probes": "A probe, compiled and run against the headers, finds each declaration to be what the mapping says.",
-    "cpp_headers": "Each header compiles alone and twice, and all of them together, as the standard of the profile.",
+    "cpp_headers": "Each header compiles alone and twice, and all together, as the standard of the profile, and redefines no keyword.",
     "cpp_body": "Classes that implement the abstract classes, with all that they inherit, compile, link and are called.",
     "cpp_unexpected": "libclang finds nothing in the headers that the mapping excludes and no probe could see.",
     "cpp_generated": "The tool chain writes files for each legal model.",
