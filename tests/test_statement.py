@@ -20,9 +20,9 @@ from ucm_cts.harness.catalogue import load_capabilities, load_options, load_requ
 from ucm_cts.harness.documents import DocumentError
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.models.core_models import CHECKS, CORE, compare
+from ucm_cts.harness.profiles import FRAMEWORK_PROFILES, PROFILES
 from ucm_cts.harness.pytest_plugin import _undecided
 from ucm_cts.harness.report.write import save_report
-from ucm_cts.harness.profiles import FRAMEWORK_PROFILES, PROFILES
 from ucm_cts.harness.results import Report
 from ucm_cts.harness.running.campaign import Campaign
 from ucm_cts.harness.running.driver import Driver
