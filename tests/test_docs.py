@@ -12,6 +12,7 @@ import subprocess
 import sys
 import textwrap
 import tomllib
+from collections import Counter
 from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any, get_args
@@ -25,11 +26,14 @@ from command_line import report_of, ucm_cts, within
 import ucm_cts as package
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.metamodel.writing import Dialect
 from ucm_cts.adapters.derived import MUTANTS
+from ucm_cts.adapters.derived_toolchain.registry import mutants as wrong_tool_chains
 from ucm_cts.adapters.python.engine import Engine
 from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
 from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
 from ucm_cts.harness.commands import cli
+from ucm_cts.harness.profiles import PARTS, TOOLCHAIN_PROFILES
 from ucm_cts.harness.results import Verdict
 from ucm_cts.harness.running.integrity import contradiction
 from ucm_cts.harness.scenarios.probes import load_probe_types
@@ -288,14 +292,10 @@ def test_toolchain_guide(here: Path) -> None:
     (written,) = [c for c in commands("ucm-cts ics") if "my-toolchain.toml" in c]
     assert ucm_cts(*shlex.split(written)[1:]).status == 0
     assert 'product = "My tool chain"' in (here / "ucm-cts-ics.toml").read_text()
-    described = {
-        key
-        for row in column("docs/toolchains.md", r"(`.+?`.*?) \| .+ \| .+")
-        for key in re.findall(r"`\[?([a-z0-9]+)", row)
-    }
-    assert described - {"pim"} == {f.name for f in msgspec.structs.fields(ToolChain)} - {"folder", "source"} | {
-        f.name for f in msgspec.structs.fields(Command)
-    }
+    rows = column("docs/toolchains.md", r"(`.+?`.*?) \| .+ \| .+")
+    described = {key for row in rows for key in re.findall(r"`\[?([a-z0-9_]+)", row)} - {"pim"}
+    fields = {f.name for kind in (ToolChain, Command, Dialect) for f in msgspec.structs.fields(kind)}
+    assert described == fields - {"folder", "source", "tags", "attributes", "literals"}
 
 
 def test_python_guide(here: Path) -> None:
@@ -397,6 +397,34 @@ def test_example_of_profile_core_serves(here: Path) -> None:
     verdicts = {entry["id"]: entry["verdict"] for entry in entries}
     assert {verdicts[f"R-10.1.5.1-{number}"] for number in ("01", "03", "05", "08")} == {"pass"}
     assert [one for one, verdict in verdicts.items() if verdict == "fail"] == ["R-10.1-01"]
+
+
+def test_detection_tells_what_the_published_matrix_of_tool_chains_says() -> None:
+    matrix = msgspec.json.decode((ROOT / "results/detection/toolchains/matrix.json").read_bytes(), type=Matrix)
+    assert matrix.is_proved
+    assert matrix.is_all
+    names = {mutant.name for mutant in matrix.mutants}
+    assert names <= wrong_tool_chains().keys()
+    left_out = {name for name in names if name.startswith("without_")}
+    tasks = Counter(wrong_tool_chains()[name].task for name in names - left_out)
+    told = (ROOT / "docs" / "detection.md").read_text()
+    for what, number in {
+        "rules of the reference tool chain left out": len(left_out),
+        "other wrong checkers": tasks["check"],
+        "wrong generators of IDL": tasks["idl"],
+        "wrong generators of C++11 and C++03": tasks["cpp11"] + tasks["cpp03"],
+        "testable requirements of clauses 9, 12, 13 and 14": len(matrix.testable),
+        "conformant tool chains": len(matrix.variants),
+    }.items():
+        assert f"\n| {what} | {number} | " in told, what
+
+
+@pytest.mark.parametrize("profile", TOOLCHAIN_PROFILES)
+def test_the_reference_tool_chain_is_published_as_conformant(profile: str) -> None:
+    report = json.loads((ROOT / f"results/ucm-cts-toolchain-0.1.0/{profile}/report.json").read_text())
+    assert (report["product"], report["profile"], report["verdict"]) == ("ucm-cts-toolchain", profile, "conformant")
+    parts = {r.id for r in load_requirements() if r.profile in PARTS[profile] and not r.untestable}
+    assert {r["id"] for r in report["requirements"]} == parts
 
 
 def test_detection_tells_what_the_published_matrix_says() -> None:
