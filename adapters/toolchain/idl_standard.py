@@ -2,7 +2,90 @@
 (12.10) and the interfaces of standard policies (12.11).
 """
 
-STANDARD = """\
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+Operation = tuple[str, str, dict[str, str], tuple[str, ...]]
+"""What it returns, its name, its parameters (all of them IN) with their types, and what it raises."""
+
+_NOT_FOUND, _BAD, _ERROR = "NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"
+_WIDTH = 110
+
+CONTAINER_MODEL: tuple[tuple[str, tuple[Operation, ...]], ...] = (
+    (
+        "ComponentObject",
+        (
+            ("void", "on_init", {}, ()),
+            ("void", "on_remove", {}, ()),
+            ("void", "on_startup", {"dependencies": "PortConnections"}, ()),
+            ("void", "on_shutdown", {}, ()),
+            ("PortElementObject", "get_portElement", {"provided": "string"}, ()),
+        ),
+    ),
+    ("Container", ()),
+    ("FragmentObject", (("void", "set_container_interface", {"container_interface": "Container"}, ()),)),
+    (
+        "Connectable",
+        (
+            ("void", "on_connect", {"port_name": "string", "required": "PortElementObject"}, ()),
+            ("void", "on_disconnect", {"port_name": "string"}, ()),
+        ),
+    ),
+    (
+        "Container",
+        (
+            ("componentId", "add_component", {"configValues": "Properties"}, (_ERROR,)),
+            ("void", "remove_component", {"comp_instance": "componentId"}, (_NOT_FOUND, _ERROR)),
+            (
+                "PortElementObject",
+                "get_port_element",
+                {"comp_instance": "componentId", "port_name": "string"},
+                (_NOT_FOUND, _ERROR),
+            ),
+            (
+                "connectionId",
+                "connect",
+                {"instance": "componentId", "port_name": "string", "to_port": "PortElementObject"},
+                (_NOT_FOUND, _BAD, _ERROR),
+            ),
+            ("void", "disconnect", {"connection": "connectionId"}, (_NOT_FOUND, _ERROR)),
+            ("void", "start", {}, (_ERROR,)),
+            ("void", "stop", {}, (_ERROR,)),
+            ("componentIds", "get_components", {}, (_ERROR,)),
+        ),
+    ),
+    (
+        "ContainerManager : Container",
+        (
+            ("Container", "create_container", {"configValues": "Properties"}, (_ERROR,)),
+            ("void", "remove_container", {"subContainer": "Container"}, (_NOT_FOUND, _ERROR)),
+            ("void", "destroy", {}, (_ERROR,)),
+        ),
+    ),
+)
+"""The interfaces of 12.10, with what they inherit; one without operations is only announced."""
+
+
+def _interfaces() -> Iterator[str]:
+    for name, operations in CONTAINER_MODEL:
+        if operations:
+            yield "\n".join([f"interface {name} {{", *map(_operation, operations), "};\n"])
+        else:
+            yield f"interface {name};\n"
+
+
+def _operation(operation: Operation) -> str:
+    result, name, parameters, raised = operation
+    taken = ", ".join(f"in {kind} {parameter}" for parameter, kind in parameters.items())
+    told = f"    {result} {name}({taken})"
+    raises = f"raises ({', '.join(raised)})" if raised else ""
+    if not raises:
+        return f"{told};"
+    return f"{told} {raises};" if len(told) + len(raises) < _WIDTH else f"{told}\n        {raises};"
+
+
+_BEFORE = """\
 #ifndef UCM_IDL
 #define UCM_IDL
 
@@ -45,45 +128,9 @@ struct PortConnection {
     PortElementObjects to_port;
 };
 typedef sequence<PortConnection> PortConnections;
+"""
 
-interface ComponentObject {
-    void on_init();
-    void on_remove();
-    void on_startup(in PortConnections dependencies);
-    void on_shutdown();
-    PortElementObject get_portElement(in string provided);
-};
-
-interface Container;
-
-interface FragmentObject {
-    void set_container_interface(in Container container_interface);
-};
-
-interface Connectable {
-    void on_connect(in string port_name, in PortElementObject required);
-    void on_disconnect(in string port_name);
-};
-
-interface Container {
-    componentId add_component(in Properties configValues) raises (UCM_ERROR);
-    void remove_component(in componentId comp_instance) raises (NOT_FOUND, UCM_ERROR);
-    PortElementObject get_port_element(in componentId comp_instance, in string port_name)
-        raises (NOT_FOUND, UCM_ERROR);
-    connectionId connect(in componentId instance, in string port_name, in PortElementObject to_port)
-        raises (NOT_FOUND, BAD_PARAMETER, UCM_ERROR);
-    void disconnect(in connectionId connection) raises (NOT_FOUND, UCM_ERROR);
-    void start() raises (UCM_ERROR);
-    void stop() raises (UCM_ERROR);
-    componentIds get_components() raises (UCM_ERROR);
-};
-
-interface ContainerManager : Container {
-    Container create_container(in Properties configValues) raises (UCM_ERROR);
-    void remove_container(in Container subContainer) raises (NOT_FOUND, UCM_ERROR);
-    void destroy() raises (UCM_ERROR);
-};
-
+_POLICIES = """\
 module standard_execution_policies {
     module execution_policies_api {
         interface component_execution_intf : ::PortElementObject {
@@ -144,3 +191,5 @@ module timer_service {
 
 #endif
 """
+
+STANDARD = "\n".join((_BEFORE, *_interfaces(), _POLICIES))
