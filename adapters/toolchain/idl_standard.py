@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from textwrap import indent
 
 Operation = tuple[str, str, dict[str, str], tuple[str, ...]]
 """What it returns, its name, its parameters (all of them IN) with their types, and what it raises."""
@@ -130,66 +131,76 @@ struct PortConnection {
 typedef sequence<PortConnection> PortConnections;
 """
 
-_POLICIES = """\
-module standard_execution_policies {
-    module execution_policies_api {
-        interface component_execution_intf : ::PortElementObject {
-            void run();
-        };
-    };
-};
+Declared = tuple[str, str, tuple[str, ...]]
+"""A keyword, what follows it up to the body, and what stands in the body; a typedef has none."""
 
-module standard_services {
-    module standard_services_api {
-        typedef unsigned long ucm_time_t;
-        typedef long ucm_suseconds_t;
-        typedef string<255> log_message_t;
-        struct ucm_timeval_t {
-            ucm_time_t utv_sec;
-            ucm_suseconds_t utv_usec;
-        };
-        enum log_severity_t {
-            debug,
-            info,
-            warning,
-            error,
-            fatal
-        };
-        interface clock_service_intf : ::PortElementObject {
-            void get_local_time(out ucm_timeval_t local_time);
-            void get_synchronized_time(out ucm_timeval_t local_time);
-        };
-        interface trace_service_intf : ::PortElementObject {
-            void log(in log_severity_t severity, in log_message_t message);
-        };
-    };
-};
+_PORT = " : ::PortElementObject"
 
-module timer_service {
-    module timer_contracts {
-        enum timeout_enum_t {
-            ABSOLUTE_TIME,
-            RELATIVE_TIME
-        };
-        struct timeout_t {
-            ::standard_services::standard_services_api::ucm_time_t time_val;
-            timeout_enum_t flag;
-        };
-        typedef unsigned long timer_number_t;
-        typedef boolean timer_bool_t;
-        interface timer_callback_intf : ::PortElementObject {
-            void on_timeout(in timeout_t time, in timer_number_t timer_number);
-        };
-        interface timer_service_intf : ::PortElementObject {
-            void start_periodic_scheduler(in timer_number_t timer_number, in timeout_t delay_time, in timeout_t rate);
-            void start_sporadic_scheduler(in timer_number_t timer_number, in timeout_t time);
-            void cancel_timer(in timer_number_t timer_number);
-            timer_bool_t is_canceled(in timer_number_t timer_number);
-        };
-    };
-};
+_EXECUTION: tuple[Declared, ...] = (("interface", f"component_execution_intf{_PORT}", ("void run()",)),)
 
-#endif
-"""
+_SERVICES: tuple[Declared, ...] = (
+    ("typedef", "unsigned long ucm_time_t", ()),
+    ("typedef", "long ucm_suseconds_t", ()),
+    ("typedef", "string<255> log_message_t", ()),
+    ("struct", "ucm_timeval_t", ("ucm_time_t utv_sec", "ucm_suseconds_t utv_usec")),
+    ("enum", "log_severity_t", ("debug", "info", "warning", "error", "fatal")),
+    (
+        "interface",
+        f"clock_service_intf{_PORT}",
+        tuple(f"void get_{which}_time(out ucm_timeval_t local_time)" for which in ("local", "synchronized")),
+    ),
+    (
+        "interface",
+        f"trace_service_intf{_PORT}",
+        ("void log(in log_severity_t severity, in log_message_t message)",),
+    ),
+)
 
-STANDARD = "\n".join((_BEFORE, *_interfaces(), _POLICIES))
+_NUMBER = "in timer_number_t timer_number"
+_TIME = "in timeout_t"
+
+_TIMERS: tuple[Declared, ...] = (
+    ("enum", "timeout_enum_t", ("ABSOLUTE_TIME", "RELATIVE_TIME")),
+    (
+        "struct",
+        "timeout_t",
+        ("::standard_services::standard_services_api::ucm_time_t time_val", "timeout_enum_t flag"),
+    ),
+    ("typedef", "unsigned long timer_number_t", ()),
+    ("typedef", "boolean timer_bool_t", ()),
+    ("interface", f"timer_callback_intf{_PORT}", (f"void on_timeout({_TIME} time, {_NUMBER})",)),
+    (
+        "interface",
+        f"timer_service_intf{_PORT}",
+        (
+            f"void start_periodic_scheduler({_NUMBER}, {_TIME} delay_time, {_TIME} rate)",
+            f"void start_sporadic_scheduler({_NUMBER}, {_TIME} time)",
+            f"void cancel_timer({_NUMBER})",
+            f"timer_bool_t is_canceled({_NUMBER})",
+        ),
+    ),
+)
+
+POLICIES: tuple[tuple[str, str, tuple[Declared, ...]], ...] = (
+    ("standard_execution_policies", "execution_policies_api", _EXECUTION),
+    ("standard_services", "standard_services_api", _SERVICES),
+    ("timer_service", "timer_contracts", _TIMERS),
+)
+"""The modules of 12.11, one in the other, and what they hold."""
+
+
+def _policies() -> Iterator[str]:
+    for outer, inner, declared in POLICIES:
+        body = indent("\n".join(map(_declaration, declared)), " " * 8)
+        yield f"module {outer} {{\n    module {inner} {{\n{body}\n    }};\n}};\n"
+
+
+def _declaration(declared: Declared) -> str:
+    keyword, told, body = declared
+    if not body:
+        return f"{keyword} {told};"
+    members = ",\n".join(body) if keyword == "enum" else "\n".join(f"{member};" for member in body)
+    return f"{keyword} {told} {{\n{indent(members, ' ' * 4)}\n}};"
+
+
+STANDARD = "\n".join((_BEFORE, *_interfaces(), *_policies(), "#endif\n"))

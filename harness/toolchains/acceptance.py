@@ -7,7 +7,7 @@ if its twin was accepted, too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -18,8 +18,9 @@ from ucm_cts.harness.stating.statement import Statement
 from ucm_cts.harness.toolchains.blame import Blame
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.corpus import Due, Question, differing_lines, questions
-from ucm_cts.harness.toolchains.dressing import Dress, has_unprinted_root
+from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.processing import Made
+from ucm_cts.harness.toolchains.roots import ROOT_UNKNOWN, refused_for_the_root
 from ucm_cts.harness.toolchains.vicinity import vicinity
 from ucm_cts.reference_models.findings import Finding
 
@@ -145,8 +146,8 @@ def judge(asked: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judg
     """A judgement for each question that was answered."""
     legal = {q.name: q.text for q in asked if q.due == "accept" and q.name in answers and _stands(q, answers)}
     blame = Blame(legal, {name for name in legal if answers[name].accepted is False})
-    knows_the_root = any(has_unprinted_root(text) and answers[name].accepted for name, text in legal.items())
-    return [_judged(q, answers, blame, knows_the_root) for q in asked if q.name in answers]
+    for_the_root = refused_for_the_root(legal, {name: answers[name].accepted for name in legal})
+    return [_judged(q, answers, blame, for_the_root) for q in asked if q.name in answers]
 
 
 def _stands(q: Question, answers: Mapping[str, Answer]) -> bool:
@@ -155,7 +156,7 @@ def _stands(q: Question, answers: Mapping[str, Answer]) -> bool:
     return not q.twin or (twin is not None and bool(twin.accepted))
 
 
-def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame, knows_the_root: bool) -> Judgement:
+def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame, for_the_root: Collection[str]) -> Judgement:
     answer = answers[q.name]
     rule = RULE_FOR[q.due]
     if answer.died:
@@ -166,9 +167,8 @@ def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame, knows_the_
         return Judgement(q, rule, "unclear", observed=f"no answer: {answer.told}")
     if not _stands(q, answers):
         return Judgement(q, rule, "unclear", "", f"its legal twin {q.twin} was not accepted", elsewhere=True)
-    if q.due == "accept" and not answer.accepted and has_unprinted_root(q.text) and not knows_the_root:
-        told = "no model with a root around several outermost modules was accepted, and the text prints no such root"
-        return Judgement(q, rule, "unclear", "", told, elsewhere=True)
+    if q.name in for_the_root:
+        return Judgement(q, rule, "unclear", "", ROOT_UNKNOWN, elsewhere=True)
     if q.due == "accept":
         return _of_legal(q, answer, rule, blame)
     if answer.accepted:

@@ -60,7 +60,6 @@ _VALUES = ("value", "defaultValue")
 """Attributes that hold values, in which constants and enumerators may be named."""
 
 _LANGUAGE = ("Language",)
-_ROOT = re.compile(r"(?:\s|<\?.*?\?>|<!--.*?-->)*<Model\b", re.DOTALL)
 _SEGMENT = re.compile(r"[^:.]+")
 _IN_VALUE = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'(?:[^'\\]|\\.)*'|(?<![\w.])[A-Za-z_][\w-]*(?![\w.]*\()")
 _WORDS = frozenset(("TRUE", "FALSE", "true", "false", "core", *CHAR_KINDS, *FLOAT_KINDS, *INTEGER_RANGES))
@@ -88,11 +87,6 @@ class Dress:
         for element in elements:
             _respell(element, self.dialect)
         return etree.tostring(root, encoding="unicode")
-
-
-def has_unprinted_root(text: str) -> bool:
-    """Does the model have the root ``Model`` around several outermost modules? The text prints no spelling of it (9.1.4.4)."""
-    return bool(_ROOT.match(text))
 
 
 def drawn_name(name: str, seed: int) -> str:

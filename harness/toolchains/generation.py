@@ -14,8 +14,9 @@ from ucm_cts.harness.documents import read_text
 from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Processed
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
-from ucm_cts.harness.toolchains.dressing import Dress, has_unprinted_root
+from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.processing import Made
+from ucm_cts.harness.toolchains.roots import ROOT_UNKNOWN, refused_for_the_root
 from ucm_cts.reference_models.findings import Finding
 
 FOLDERS = (SUITE / "models" / "mapping", SUITE / "models" / "legal")
@@ -65,12 +66,10 @@ class Generation:
 
     def judge(self, made: Mapping[str, Made], looked: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
         """All that was seen."""
-        rooted = [name for name in made if has_unprinted_root(self._texts[name])]
-        knows_the_root = any(made[name].accepted for name in rooted)
+        for_the_root = refused_for_the_root(self._texts, {name: one.accepted for name, one in made.items()})
         for name in made:
-            if name in rooted and made[name].accepted is False and not knows_the_root:
-                told = "no model with a root around several outermost modules was accepted, and the text prints no such root"
-                yield Fact(self._generates[0], (name,), unclear=told, elsewhere=True)
+            if name in for_the_root:
+                yield Fact(self._generates[0], (name,), unclear=ROOT_UNKNOWN, elsewhere=True)
             else:
                 yield from looked[name]
 

@@ -1,22 +1,18 @@
-"""Runs one command of a tool chain on one model, and survives whatever it does."""
+"""Does one task of a tool chain with models, and says what became of them."""
 
 from __future__ import annotations
 
-import os
 import re
-import select
 import signal
-import subprocess
 import tempfile
-import time
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
 from ucm_cts.adapters.toolchain.program import Program
 from ucm_cts.harness.results import Incident, Processed
+from ucm_cts.harness.toolchains.bounded import Ended, run
 from ucm_cts.harness.toolchains.description import MODEL, MODELS, OUT, Command, Task, ToolChain, program
 
 MODEL_FILE = "model.xml"
@@ -25,12 +21,8 @@ SEVERAL = 40
 """Models for one call that takes several."""
 
 _OUTPUT = 1 << 18
-_FLOOD = 1 << 24
-_LOOK_SECONDS = 0.05
 _FILES = 2_000
 _FILES_BYTES = 64 << 20
-_PAGE = os.sysconf("SC_PAGE_SIZE")
-_MIB = 1 << 20
 
 
 @dataclass(frozen=True)
@@ -85,7 +77,7 @@ class CommandLine:
             for file, (_, text) in zip(files, models, strict=True):
                 file.write_text(text, encoding="utf-8")
             filled = [str(f) for word in words for f in (files if word == MODELS else (word,))]
-            ended = _run(filled, folder, self._toolchain)
+            ended = run(filled, Path(folder), self._toolchain)
         if ended.incident or _odd_status(ended.status, command) or _died(ended):
             return None
         told: dict[str, list[str]] = {str(file): [] for file in files}
@@ -114,7 +106,7 @@ class CommandLine:
             model.write_text(text, encoding="utf-8")
             out.mkdir()
             filled = [_filled(word, str(model), str(out)) for word in words]
-            ended = _run(filled, folder, self._toolchain)
+            ended = run(filled, Path(folder), self._toolchain)
             output = ended.output.replace(f"{folder}/", "")
             shown = tuple(_filled(word, MODEL_FILE, "out") for word in command.command)
             incident = ended.incident or _odd_status(ended.status, command) or _died(ended)
@@ -190,84 +182,9 @@ _DEATHS = re.compile(
 """What run-time systems print when a program dies; its exit status may be one that refuses a model."""
 
 
-def _died(ended: _Ended) -> Incident | None:
+def _died(ended: Ended) -> Incident | None:
     found = _DEATHS.search(ended.output) if ended.status else None
     return Incident("crash", f"it died: {found[0].strip()}") if found else None
-
-
-@dataclass(frozen=True)
-class _Ended:
-    status: int | None
-    output: str
-    incident: Incident | None = None
-
-
-def _run(words: list[str], folder: str, limits: ToolChain) -> _Ended:
-    try:
-        process = subprocess.Popen(
-            words,
-            cwd=folder,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-        )
-    except OSError as error:
-        return _Ended(None, "", Incident("unreachable", f"{words[0]} cannot be run: {error.strerror}"))
-    with process:
-        assert process.stdout is not None
-        try:
-            kept, incident = _watch(process, process.stdout.fileno(), limits)
-        finally:
-            with suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
-        status = process.wait()
-    return _Ended(status if incident is None else None, kept.decode(errors="replace"), incident)
-
-
-def _watch(process: subprocess.Popen[bytes], source: int, limits: ToolChain) -> tuple[bytes, Incident | None]:
-    """The output of ``process`` until it ends or goes too far."""
-    kept, total = bytearray(), 0
-    looked = time.monotonic()
-    deadline = looked + limits.seconds
-    poll = select.poll()
-    poll.register(source, select.POLLIN)
-    while True:
-        if poll.poll(_LOOK_SECONDS * 1000):
-            chunk = os.read(source, 1 << 16)
-            total += len(chunk)
-            kept += chunk[: max(0, _OUTPUT - len(kept))]
-            if not chunk:
-                break
-        if total > _FLOOD:
-            return bytes(kept), Incident("flood", f"more than {_FLOOD // _MIB} MiB of output")
-        if process.poll() is not None and not poll.poll(0):
-            break  # a child that it left behind holds the pipe
-        if time.monotonic() > deadline:
-            return bytes(kept), Incident("hang", f"no end after {limits.seconds:g} s")
-        if time.monotonic() < looked + _LOOK_SECONDS:
-            continue
-        looked = time.monotonic()
-        if _resident(process.pid) > limits.memory * _MIB:
-            return bytes(kept), Incident("memory", f"more than {limits.memory} MiB of memory")
-    try:
-        process.wait(max(0.1, deadline - time.monotonic()))
-    except subprocess.TimeoutExpired:
-        return bytes(kept), Incident("hang", f"no end after {limits.seconds:g} s")
-    return bytes(kept), None
-
-
-def _resident(group: int) -> int:
-    """Bytes that all processes of the group hold together, as far as the system tells."""
-    used = 0
-    for entry in os.scandir("/proc"):
-        if entry.name.isdecimal():
-            with suppress(OSError, IndexError, ValueError):
-                with open(f"/proc/{entry.name}/stat", "rb") as stream:
-                    fields = stream.read().rpartition(b") ")[2].split()
-                if int(fields[2]) == group:
-                    used += int(fields[21]) * _PAGE
-    return used
 
 
 def _files(out: Path) -> dict[str, str]:

@@ -5,16 +5,14 @@ from __future__ import annotations
 import json
 import os
 import re
-import signal
-import subprocess
-import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.toolchains import bounded
+from ucm_cts.harness.toolchains.bounded import Ended
 
 STANDARDS = {"cpp11": "-std=c++11", "cpp03": "-std=c++03"}
 
@@ -42,16 +40,6 @@ class Error:
     message: str
     fatal: bool = False
     notes: tuple[tuple[str, int], ...] = ()
-
-
-@dataclass(frozen=True)
-class Ended:
-    """How a run ended: ``status`` is None if it went beyond a limit, which ``problem`` names."""
-
-    status: int | None
-    output: str
-    errors: str
-    problem: str = ""
 
 
 class Layout(Value, frozen=True):
@@ -93,40 +81,12 @@ def run(words: Sequence[str], folder: Path, compiler: Compiler) -> Ended:
     limits = [str(compiler.memory * 1024), str(_OUTPUT * 16 // 512)]
     shell = ["/bin/sh", "-c", _LIMITED, *limits, *words]
     environment = {**os.environ, "LC_ALL": "C.UTF-8"}
-    with tempfile.TemporaryFile() as output, tempfile.TemporaryFile() as errors:
-        try:
-            process = subprocess.Popen(
-                shell,
-                cwd=folder,
-                env=environment,
-                stdin=subprocess.DEVNULL,
-                stdout=output,
-                stderr=errors,
-                start_new_session=True,
-            )
-        except OSError as error:
-            raise NoCompiler(f"{words[0]} cannot be run: {error.strerror}") from None
-        status, problem = _wait(process, compiler.seconds)
-        said, told = _text(output), _text(errors)
-    if status == 127:
+    ended = bounded.run(shell, folder, compiler, kept=_OUTPUT, flood=_OUTPUT * 4, apart=True, environment=environment)
+    if ended.incident and ended.incident.kind == "unreachable":
+        raise NoCompiler(ended.problem)
+    if ended.status == 127:
         raise NoCompiler(f"no program '{words[0]}' can be run; install it or name another compiler")
-    return Ended(status, said, told, problem)
-
-
-def _wait(process: subprocess.Popen[bytes], seconds: float) -> tuple[int | None, str]:
-    try:
-        return process.wait(seconds), ""
-    except subprocess.TimeoutExpired:
-        return None, f"no end after {seconds:g} s"
-    finally:
-        with suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-
-
-def _text(stream: Any) -> str:
-    stream.seek(0)
-    return str(stream.read(_OUTPUT).decode(errors="replace"))
+    return ended
 
 
 @dataclass(frozen=True)

@@ -11,13 +11,13 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ucm_cts.harness.toolchains.bounded import Ended
 from ucm_cts.harness.toolchains.cpp.bodies import implementation, implemented, runs
 from ucm_cts.harness.toolchains.cpp.checks import Text, connection_declared, render
 from ucm_cts.harness.toolchains.cpp.compiling import (
     LAYOUT,
     Compiled,
     Compiler,
-    Ended,
     Error,
     Headers,
     Layout,

@@ -1,4 +1,4 @@
-"""Compares declarations that clause 12 prints (``standard.idl``) with those of a vendor, if the vendor has them.
+"""Compares declarations that clause 12 prints with those of a vendor, if the vendor has them.
 
 Those of 12.10 may stand in any module. Those of 12.11 are compared only in the modules that 12.11 prints, because the
 same things may follow from the models of clause 10 (interpretation standard-idl). Names of parameters are free, since one of
@@ -8,12 +8,9 @@ those printed is not IDL: it differs only in case from its type's.
 from __future__ import annotations
 
 import functools
-import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-from ucm_cts.harness.toolchains.idl.reading import read_idl
 from ucm_cts.harness.toolchains.idl.results import Wrong
 from ucm_cts.harness.toolchains.idl.scopes import Entry, Hit, build, every, resolve
 from ucm_cts.harness.toolchains.idl.showing import type_of
@@ -35,22 +32,15 @@ from ucm_cts.reference_models.idl.declarations import (
     kind_of,
 )
 from ucm_cts.reference_models.idl.expectations import ExpectedIdl
-
-PRINTED = Path(__file__).parent / "standard.idl"
+from ucm_cts.reference_models.idl.standard import STANDARD
 
 
 @functools.cache
 def printed() -> tuple[tuple[str, Entry], ...]:
     """The printed declarations, each with its requirement."""
-    text = PRINTED.read_text()
-    marks = [(text.count("\n", 0, m.start()) + 1, m[1]) for m in re.finditer(r"//@ (\S+)", text)]
-    found = []
-    for entry in every(build({"": read_idl(text)})):
-        inside = entry.scope.owner is None or isinstance(entry.scope.owner.declaration, Module)
-        if inside and not isinstance(entry.declaration, Module) and type(entry.declaration).__name__ != "Enumerator":
-            requirement = [mark for line, mark in marks if line <= entry.declaration.place.line][-1]
-            found.append((requirement, entry))
-    return tuple(found)
+    root = build({"": [standard.wrapped for standard in STANDARD]})
+    requirements = {(*standard.modules, standard.declaration.name): standard.requirement for standard in STANDARD}
+    return tuple((requirements[entry.path], entry) for entry in every(root) if entry.path in requirements)
 
 
 def standard_differences(vendor: Vendor) -> Iterator[tuple[str, list[Wrong]]]:

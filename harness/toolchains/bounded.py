@@ -1,0 +1,153 @@
+"""Runs one command within limits of time, memory and output, whatever it does."""
+
+from __future__ import annotations
+
+import os
+import select
+import signal
+import subprocess
+import time
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from ucm_cts.harness.results import Incident
+
+_LOOK_SECONDS = 0.05
+_PAGE = os.sysconf("SC_PAGE_SIZE")
+_MIB = 1 << 20
+
+
+class Limits(Protocol):
+    """How long a run may take, and how many MiB of memory all its processes may hold together."""
+
+    @property
+    def seconds(self) -> float: ...
+
+    @property
+    def memory(self) -> int: ...
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a run ended: ``status`` is None if it was not to be run or went beyond a limit, which ``incident`` names."""
+
+    status: int | None
+    output: str
+    errors: str = ""
+    incident: Incident | None = None
+
+    @property
+    def problem(self) -> str:
+        """Which limit it went beyond, or why it was not run; empty if it ended by itself."""
+        return self.incident.detail if self.incident else ""
+
+
+def run(
+    words: Sequence[str],
+    folder: Path,
+    limits: Limits,
+    *,
+    kept: int = 1 << 18,
+    flood: int = 1 << 24,
+    apart: bool = False,
+    environment: Mapping[str, str] | None = None,
+) -> Ended:
+    """Run ``words`` in ``folder`` in a process group of its own, none of which is left afterwards.
+
+    Of what it prints the first ``kept`` bytes are told, and more than ``flood`` end it. With ``apart`` errors are told
+    apart from output. Never raises for what the command does.
+    """
+    try:
+        process = subprocess.Popen(
+            words,
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE if apart else subprocess.STDOUT,
+            start_new_session=True,
+        )
+    except OSError as error:
+        return Ended(None, "", incident=Incident("unreachable", f"{words[0]} cannot be run: {error.strerror}"))
+    with process:
+        watch = _Watch(process, limits, kept, flood)
+        try:
+            incident = watch.until_the_end()
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+        status = process.wait()
+    return Ended(status if incident is None else None, *watch.told, incident)
+
+
+class _Watch:
+    def __init__(self, process: subprocess.Popen[bytes], limits: Limits, kept: int, flood: int) -> None:
+        self._process, self._limits = process, limits
+        self._kept, self._flood, self._total = kept, flood, 0
+        self._looked = time.monotonic()
+        self._deadline = self._looked + limits.seconds
+        self._poll = select.poll()
+        streams = [stream for stream in (process.stdout, process.stderr) if stream is not None]
+        self._texts = {stream.fileno(): bytearray() for stream in streams}
+        self._open = set(self._texts)
+        for source in self._texts:
+            self._poll.register(source, select.POLLIN)
+
+    @property
+    def told(self) -> tuple[str, str]:
+        """Output and errors."""
+        texts = [text.decode(errors="replace") for text in self._texts.values()]
+        return texts[0], texts[1] if len(texts) > 1 else ""
+
+    def until_the_end(self) -> Incident | None:
+        """Wait until the process ends or goes too far."""
+        while not self._is_over():
+            self._read()
+            if self._total > self._flood:
+                return Incident("flood", f"more than {self._flood // _MIB} MiB of output")
+            if time.monotonic() > self._deadline:
+                return Incident("hang", f"no end after {self._limits.seconds:g} s")
+            if self._is_fat():
+                return Incident("memory", f"more than {self._limits.memory} MiB of memory")
+        return None
+
+    def _is_over(self) -> bool:
+        """The process has ended, and all was read that it printed; a child that it left behind may hold the pipe."""
+        return self._process.poll() is not None and not (self._open and self._poll.poll(0))
+
+    def _read(self) -> None:
+        if not self._open:
+            with suppress(subprocess.TimeoutExpired):
+                self._process.wait(_LOOK_SECONDS)
+            return
+        for source, _ in self._poll.poll(_LOOK_SECONDS * 1000):
+            chunk = os.read(source, 1 << 16)
+            self._total += len(chunk)
+            text = self._texts[source]
+            text += chunk[: max(0, self._kept - len(text))]
+            if not chunk:
+                self._poll.unregister(source)
+                self._open.remove(source)
+
+    def _is_fat(self) -> bool:
+        now = time.monotonic()
+        if now < self._looked + _LOOK_SECONDS:
+            return False
+        self._looked = now
+        return _resident(self._process.pid) > self._limits.memory * _MIB
+
+
+def _resident(group: int) -> int:
+    """Bytes that all processes of the group hold together, as far as the system tells."""
+    used = 0
+    for entry in os.scandir("/proc"):
+        if entry.name.isdecimal():
+            with suppress(OSError, IndexError, ValueError):
+                with open(f"/proc/{entry.name}/stat", "rb") as stream:
+                    fields = stream.read().rpartition(b") ")[2].split()
+                if int(fields[2]) == group:
+                    used += int(fields[21]) * _PAGE
+    return used
