@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import functools
-import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -17,12 +16,13 @@ from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue import SUITE
 from ucm_cts.harness.documents import read, read_text
 from ucm_cts.harness.toolchains.cases import Case, Variant, changed, load_cases
-from ucm_cts.harness.toolchains.operators import OPERATORS, Operator, applications
+from ucm_cts.harness.toolchains.operators import OPERATORS, Applications, Operator
 
 LEGAL = SUITE / "models" / "legal"
 
 MOST = 6
-"""Questions that one operator adds to the corpus; whole models are changed before small ones."""
+"""Questions that one operator adds to the corpus at least if it can, beside one for each kind of place; whole models are
+changed before small ones."""
 
 Due = Literal["accept", "refuse"]
 
@@ -79,12 +79,13 @@ def _of_operators(legal: Sequence[Question]) -> Iterator[Question]:
     """What the operators make of legal models that are nobody's variants."""
     roots = [(q, etree.fromstring(q.text)) for q in legal if q.due == "accept" and not q.twin]
     for operator in load_operators().values():
-        yield from itertools.islice(_of_operator(operator, roots), MOST)
+        yield from _of_operator(operator, roots)
 
 
 def _of_operator(operator: Operator, roots: Sequence[tuple[Question, etree._Element]]) -> Iterator[Question]:
+    applications = Applications(operator, MOST)
     for twin, root in roots:
-        for number, (place, spoilt) in enumerate(applications(operator, root)):
+        for number, (place, spoilt) in enumerate(applications.within(root)):
             text = etree.tostring(spoilt, encoding="unicode")
             yield Question(
                 f"{operator.name}/{twin.name}-{number + 1}",

@@ -1,12 +1,13 @@
 """Edits that break legal models, one a rule, and edits that keep them legal; the engine that applies them.
 
 An operator is a function that changes one element of a model (an lxml element in canonical spelling) in place. It returns False
-where it does not apply. Each is registered for the tag of the elements that it changes, and applied at one place at a time.
+where it does not apply. Each is registered for the tags of the elements that it changes, and applied at one place at a time.
 """
 
 from __future__ import annotations
 
 import copy
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -16,19 +17,25 @@ from lxml import etree
 Change = Callable[[etree._Element], object]
 
 PLACES = 3
-"""An operator is tried at so many places of one model, those with the most different surroundings first."""
+"""An operator is applied at so many places of one model that differ in their surroundings."""
+
+TRIES = 4
+"""An operator is tried at so many places of one kind, where it may turn out not to apply."""
+
+Kind = tuple[str, str, bool]
+"""A kind of place: its tag, that of what is around it, and whether it comes after others of its tag."""
 
 
 @dataclass(frozen=True)
 class Operator:
-    """``change`` at an element of tag ``at`` breaks ``requirement``, or keeps the model legal if ``breaks`` is False.
+    """``change`` at an element of a tag in ``at`` breaks ``requirement``, or keeps the model legal if ``breaks`` is False.
 
     ``under`` are readings (``option=value``) that must be declared.
     """
 
     name: str
     requirement: str
-    at: str
+    at: tuple[str, ...]
     change: Change
     breaks: bool
     under: tuple[str, ...] = ()
@@ -42,43 +49,59 @@ class Operator:
 OPERATORS: dict[str, Operator] = {}
 
 
-def breaks(requirement: str, at: str, under: tuple[str, ...] = ()) -> Callable[[Change], Change]:
+def breaks(requirement: str, at: str | tuple[str, ...], under: tuple[str, ...] = ()) -> Callable[[Change], Change]:
     """Register a function that breaks ``requirement`` by what it does to one ``at`` element; its docstring says why."""
     return _registering(requirement, at, under, True)
 
 
-def keeps(requirement: str, at: str, under: tuple[str, ...] = ()) -> Callable[[Change], Change]:
+def keeps(requirement: str, at: str | tuple[str, ...], under: tuple[str, ...] = ()) -> Callable[[Change], Change]:
     """Register a function whose change of one ``at`` element is legal by ``requirement``."""
     return _registering(requirement, at, under, False)
 
 
-def _registering(requirement: str, at: str, under: tuple[str, ...], broken: bool) -> Callable[[Change], Change]:
+def _registering(
+    requirement: str, at: str | tuple[str, ...], under: tuple[str, ...], broken: bool
+) -> Callable[[Change], Change]:
     def register(change: Change) -> Change:
         name = change.__name__
         assert name not in OPERATORS, f"two operators are called {name}"
-        OPERATORS[name] = Operator(name, requirement, at, change, broken, under)
+        OPERATORS[name] = Operator(name, requirement, (at,) if isinstance(at, str) else at, change, broken, under)
         return change
 
     return register
 
 
-def applications(operator: Operator, root: etree._Element, most: int = PLACES) -> Iterator[tuple[str, etree._Element]]:
-    """Changed copies of the model at ``root``, each with the place that was changed, at most ``most`` of them."""
-    seen: set[tuple[str, ...]] = set()
-    found = 0
-    for element in root.iter(operator.at):
-        surroundings = _surroundings(element)
-        if found == most:
-            return
-        if surroundings in seen:
-            continue
-        copied = copy.deepcopy(root)
-        place = root.getroottree().getpath(element)
-        target = _at(copied, place)
-        if operator.change(target) is not False:
+class Applications:
+    """Where an operator is applied in model after model: at places of every kind, and at ``most`` in all if there are so many."""
+
+    def __init__(self, operator: Operator, most: int) -> None:
+        self._operator, self._left = operator, most
+        self._done: set[Kind] = set()
+        self._in_vain: Counter[Kind] = Counter()
+
+    def within(self, root: etree._Element) -> Iterator[tuple[str, etree._Element]]:
+        """Changed copies of the model at ``root``, each with the place that was changed."""
+        seen: set[tuple[str, ...]] = set()
+        for element in root.iter(*self._operator.at):
+            kind, surroundings = _kind(element), _surroundings(element)
+            more = self._left > 0 and len(seen) < PLACES and surroundings not in seen
+            if not more and (kind in self._done or self._in_vain[kind] >= TRIES):
+                continue
+            copied = copy.deepcopy(root)
+            place = root.getroottree().getpath(element)
+            if self._operator.change(_at(copied, place)) is False:
+                self._in_vain[kind] += 1
+                continue
             seen.add(surroundings)
-            found += 1
-            yield f"{operator.at} {element.get('name') or place}", copied
+            self._done.add(kind)
+            self._left -= 1
+            yield f"{element.tag} {element.get('name') or place}", copied
+
+
+def _kind(element: etree._Element) -> Kind:
+    around = element.getparent()
+    before = next(element.itersiblings(element.tag, preceding=True), None)
+    return str(element.tag), ("" if around is None else str(around.tag)), before is not None
 
 
 def _at(root: etree._Element, place: str) -> etree._Element:

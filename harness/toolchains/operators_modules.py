@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 
 from lxml import etree
 
@@ -12,7 +13,7 @@ from ucm_cts.harness.toolchains.operators_interfaces import beside
 
 ELSEWHERE = ("declarations-elsewhere=refused",)
 _DATA_TYPES = ("PrimitiveInteger", "PrimitiveFloat", "PrimitiveChar", "PrimitiveBoolean", "StringType")
-_MODULES = (
+MODULES = (
     "ApplicationModule",
     "PlatformModule",
     "ContractModule",
@@ -20,11 +21,27 @@ _MODULES = (
     "NonfunctionalAspectModule",
     "ComponentModule",
 )
+DECLARED = (
+    *(*_DATA_TYPES, "Alias", "Array", "Enumeration", "NativeType", "Sequence", "Structure", "Union"),
+    *("AbstractDataType", "AbstractInterface", "AnnotationDefinition", "Constant", "Exception", "Interface"),
+    *("ConnectorDefinition", "InteractionPattern", "PortType"),
+    *("Language", "TechnicalAspect", "TechnicalPolicyDefinition"),
+    *("AtomicComponentImplementation", "ComponentType", "CompositeComponentImplementation"),
+    *("ComponentPortTechnicalPolicy", "ComponentTechnicalPolicy"),
+)
+MEMBERS = ("Attribute", "ConfigurationParameter", "Enumerator", "ExceptionField", "InteractionItem", "InteractionRole")
+MEMBERS += ("Method", "Parameter", "Part", "Port", "PortElement")
+NAMED = (*DECLARED, *MEMBERS)
+"""What certainly has a name, besides modules, fields of structures and cases of unions, whose names have requirements of their own."""
+
+OF_DATA_TYPES = ("Alias", "Array", "ConfigurationParameter", "Constant", "ExceptionField", "Sequence", "StructureField")
+OF_DATA_TYPES += ("UnionCase",)
+OF_TYPES = ("Attribute", "Parameter")
 
 
 def module_of(element: etree._Element) -> etree._Element:
     """The nearest module around ``element``."""
-    return next(around for around in element.iterancestors() if around.tag in _MODULES)
+    return next(around for around in element.iterancestors() if around.tag in MODULES)
 
 
 def in_the_same_module(element: etree._Element, name: str, *tags: str) -> etree._Element | None:
@@ -32,22 +49,34 @@ def in_the_same_module(element: etree._Element, name: str, *tags: str) -> etree.
     return next((one for one in module_of(element) if one.tag in tags and one.get("name") == name), None)
 
 
-@breaks("R-9.1.4.1-01", at="Enumerator")
-def enumerator_without_name(enumerator: etree._Element) -> None:
-    """An enumerator has no name."""
-    del enumerator.attrib["name"]
+@breaks("R-9.1.4.1-01", at=NAMED)
+def without_name(element: etree._Element) -> bool:
+    """It has no name."""
+    if _is_named_elsewhere(element) or _is_returned(element):
+        return False
+    del element.attrib["name"]
+    return True
 
 
-@breaks("R-9.1.4.1-01", at="Interface")
-def interface_with_an_empty_name(interface: etree._Element) -> None:
-    """An interface has an empty name."""
-    interface.set("name", "")
+@breaks("R-9.1.4.1-01", at=NAMED)
+def with_an_empty_name(element: etree._Element) -> bool:
+    """Its name is empty."""
+    if _is_named_elsewhere(element) or _is_returned(element):
+        return False
+    element.set("name", "")
+    return True
 
 
-@breaks("R-9.1.4.1-01", at="ComponentType")
-def component_type_without_name(component_type: etree._Element) -> None:
-    """A component type has no name."""
-    del component_type.attrib["name"]
+def _is_named_elsewhere(element: etree._Element) -> bool:
+    """Whether another element may mean it, so that two things would be wrong without its name."""
+    name = str(element.get("name"))
+    others = (one for one in element.getroottree().iter() if one is not element)
+    return any(name in re.split(r"[^\w-]+", str(value)) for one in others for value in one.attrib.values())
+
+
+def _is_returned(element: etree._Element) -> bool:
+    """What a method returns is its only parameter of that direction."""
+    return str(element.get("direction")).lower() == "return"
 
 
 @breaks("R-9.1.4.1-02", at="Enumeration")
@@ -87,16 +116,22 @@ def same_name_in_a_module_of_its_own(integer: etree._Element) -> None:
     etree.SubElement(module, "PrimitiveBoolean", name=str(integer.get("name")))
 
 
-@breaks("R-9.1.4.4-01", at="ContractModule")
-def contract_module_without_name(module: etree._Element) -> None:
-    """A contract module has no name."""
+@breaks("R-9.1.4.4-01", at=MODULES)
+def module_without_name(module: etree._Element) -> bool:
+    """A module has no name."""
+    if _is_named_elsewhere(module):
+        return False
     del module.attrib["name"]
+    return True
 
 
-@breaks("R-9.1.4.4-01", at="ComponentModule")
-def component_module_with_an_empty_name(module: etree._Element) -> None:
-    """A component module has an empty name."""
+@breaks("R-9.1.4.4-01", at=MODULES)
+def module_with_an_empty_name(module: etree._Element) -> bool:
+    """A module has an empty name."""
+    if _is_named_elsewhere(module):
+        return False
     module.set("name", "")
+    return True
 
 
 @breaks("R-9.1.4.4-05", at="StructureField")
@@ -111,7 +146,7 @@ def path_from_the_root(field: etree._Element) -> bool:
     name = str(field.get("type"))
     if in_the_same_module(field, name, *_DATA_TYPES) is None:
         return False
-    modules = [str(around.get("name")) for around in field.iterancestors() if around.tag in _MODULES]
+    modules = [str(around.get("name")) for around in field.iterancestors() if around.tag in MODULES]
     field.set("type", "".join(f"::{module}" for module in (*reversed(modules), name)))
     return True
 
@@ -173,48 +208,47 @@ def enumerator_with_an_annotation(enumerator: etree._Element) -> bool:
     return True
 
 
-@breaks("R-9.2.2.4-02", at="StructureField")
-def field_without_type(field: etree._Element) -> None:
-    """A field has no type."""
-    del field.attrib["type"]
+@breaks("R-9.2.2.4-02", at=OF_DATA_TYPES)
+def of_no_type(element: etree._Element) -> None:
+    """It has no type."""
+    del element.attrib["type"]
 
 
-@breaks("R-9.2.2.4-03", at="StructureField")
-def field_of_nothing_known(field: etree._Element) -> None:
-    """The type of a field is declared nowhere."""
-    field.set("type", NOWHERE)
+@breaks("R-9.2.2.4-03", at=OF_DATA_TYPES)
+def of_a_data_type_not_known(element: etree._Element) -> None:
+    """Its type is declared nowhere."""
+    element.set("type", NOWHERE)
 
 
-@breaks("R-9.2.2.4-03", at="ConfigurationParameter")
-def parameter_of_nothing_known(parameter: etree._Element) -> None:
-    """The type of a configuration parameter is declared nowhere."""
-    parameter.set("type", NOWHERE)
+@breaks("R-9.2.2.4-04", at=OF_DATA_TYPES)
+def of_an_interface(element: etree._Element) -> bool:
+    """Its type is an interface, where a data type is asked for."""
+    return _change_type(element, "Interface")
 
 
-@breaks("R-9.2.2.4-04", at="StructureField")
-def field_of_an_interface(field: etree._Element) -> None:
-    """The type of a field is an interface."""
-    field.set("type", str(_new(field, "Interface").get("name")))
+@breaks("R-9.2.1-07", at=OF_DATA_TYPES)
+def of_an_exception(element: etree._Element) -> bool:
+    """Its type is an exception."""
+    return _change_type(element, "Exception")
 
 
-@breaks("R-9.2.1-07", at="StructureField")
-def field_of_an_exception(field: etree._Element) -> None:
-    """The type of a field is an exception."""
-    field.set("type", str(_new(field, "Exception").get("name")))
+@breaks("R-9.2.2.5-01", at=OF_TYPES)
+def of_a_type_not_known(element: etree._Element) -> None:
+    """Its type is declared nowhere."""
+    element.set("type", NOWHERE)
 
 
-@breaks("R-9.2.2.5-01", at="Parameter")
-def argument_of_nothing_known(parameter: etree._Element) -> None:
-    """The type of a method's parameter is declared nowhere."""
-    parameter.set("type", NOWHERE)
+@breaks("R-9.2.2.5-02", at=OF_TYPES)
+def of_what_is_no_type(element: etree._Element) -> bool:
+    """Its type is an exception."""
+    return _change_type(element, "Exception")
 
 
-@breaks("R-9.2.2.5-02", at="Parameter")
-def argument_of_an_exception(parameter: etree._Element) -> None:
-    """The type of a method's parameter is an exception."""
-    parameter.set("type", str(_new(parameter, "Exception").get("name")))
-
-
-def _new(element: etree._Element, tag: str) -> etree._Element:
-    """A declaration of this kind, new in the module around ``element``."""
-    return etree.SubElement(module_of(element), tag, name=f"another_{tag.lower()}")
+def _change_type(element: etree._Element, tag: str) -> bool:
+    """Make a declaration of this kind the type of ``element``, if there may be one beside it."""
+    module = module_of(element)
+    if module.tag != "ContractModule":
+        return False
+    etree.SubElement(module, tag, name=f"another_{tag.lower()}")
+    element.set("type", f"another_{tag.lower()}")
+    return True
