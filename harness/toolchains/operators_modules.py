@@ -29,13 +29,17 @@ DECLARED = (
     *("AtomicComponentImplementation", "ComponentType", "CompositeComponentImplementation"),
     *("ComponentPortTechnicalPolicy", "ComponentTechnicalPolicy"),
 )
-MEMBERS = ("Attribute", "ConfigurationParameter", "Enumerator", "ExceptionField", "InteractionItem", "InteractionRole")
-MEMBERS += ("Method", "Parameter", "Part", "Port", "PortElement")
+MEMBERS = (
+    *("Attribute", "Enumerator", "ExceptionField", "Method", "Parameter"),
+    *("ConfigurationParameter", "InteractionItem", "InteractionRole", "Part", "Port", "PortElement"),
+)
 NAMED = (*DECLARED, *MEMBERS)
 """What certainly has a name, besides modules, fields of structures and cases of unions, whose names have requirements of their own."""
 
-OF_DATA_TYPES = ("Alias", "Array", "ConfigurationParameter", "Constant", "ExceptionField", "Sequence", "StructureField")
-OF_DATA_TYPES += ("UnionCase",)
+OF_DATA_TYPES = (
+    *("Alias", "Array", "Constant", "Sequence"),
+    *("ConfigurationParameter", "ExceptionField", "StructureField", "UnionCase"),
+)
 OF_TYPES = ("Attribute", "Parameter")
 
 
