@@ -20,10 +20,6 @@ from ucm_cts.harness.toolchains.operators import OPERATORS, Applications, Operat
 
 LEGAL = SUITE / "models" / "legal"
 
-MOST = 6
-"""Questions that one operator adds to the corpus at least if it can, beside one for each kind of place; whole models are
-changed before small ones."""
-
 Due = Literal["accept", "refuse"]
 
 
@@ -83,7 +79,7 @@ def _of_operators(legal: Sequence[Question]) -> Iterator[Question]:
 
 
 def _of_operator(operator: Operator, roots: Sequence[tuple[Question, etree._Element]]) -> Iterator[Question]:
-    applications = Applications(operator, MOST)
+    applications = Applications(operator)
     for twin, root in roots:
         for number, (place, spoilt) in enumerate(applications.within(root)):
             text = etree.tostring(spoilt, encoding="unicode")

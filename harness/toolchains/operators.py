@@ -19,6 +19,10 @@ Change = Callable[[etree._Element], object]
 PLACES = 3
 """An operator is applied at so many places of one model that differ in their surroundings."""
 
+MOST = 6
+"""Questions that one operator adds to the corpus at least if it can, beside one for each kind of place; whole models are
+changed before small ones."""
+
 TRIES = 4
 """An operator is tried at so many places of one kind, where it may turn out not to apply."""
 
@@ -30,7 +34,8 @@ Kind = tuple[str, str, bool]
 class Operator:
     """``change`` at an element of a tag in ``at`` breaks ``requirement``, or keeps the model legal if ``breaks`` is False.
 
-    ``under`` are readings (``option=value``) that must be declared.
+    ``under`` are readings (``option=value``) that must be declared. One place is enough for those of a large family,
+    applied ``once``.
     """
 
     name: str
@@ -39,6 +44,7 @@ class Operator:
     change: Change
     breaks: bool
     under: tuple[str, ...] = ()
+    once: bool = False
 
     @property
     def because(self) -> str:
@@ -59,6 +65,13 @@ def keeps(requirement: str, at: str | tuple[str, ...], under: tuple[str, ...] = 
     return _registering(requirement, at, under, False)
 
 
+def family(requirement: str, at: str, name: str, because: str, change: Change, broken: bool) -> None:
+    """Register one of many operators that differ in a value only, to be applied once."""
+    assert name not in OPERATORS, f"two operators are called {name}"
+    change.__doc__ = because
+    OPERATORS[name] = Operator(name, requirement, (at,), change, broken, once=True)
+
+
 def _registering(
     requirement: str, at: str | tuple[str, ...], under: tuple[str, ...], broken: bool
 ) -> Callable[[Change], Change]:
@@ -72,10 +85,11 @@ def _registering(
 
 
 class Applications:
-    """Where an operator is applied in model after model: at places of every kind, and at ``most`` in all if there are so many."""
+    """Where an operator is applied in model after model: at places of every kind, and at ``MOST`` in all if there are so many."""
 
-    def __init__(self, operator: Operator, most: int) -> None:
-        self._operator, self._left = operator, most
+    def __init__(self, operator: Operator) -> None:
+        self._operator = operator
+        self._left = 1 if operator.once else MOST
         self._done: set[Kind] = set()
         self._in_vain: Counter[Kind] = Counter()
 
@@ -85,7 +99,7 @@ class Applications:
         for element in root.iter(*self._operator.at):
             kind, surroundings = _kind(element), _surroundings(element)
             more = self._left > 0 and len(seen) < PLACES and surroundings not in seen
-            if not more and (kind in self._done or self._in_vain[kind] >= TRIES):
+            if not more and (self._operator.once or kind in self._done or self._in_vain[kind] >= TRIES):
                 continue
             copied = copy.deepcopy(root)
             place = root.getroottree().getpath(element)
