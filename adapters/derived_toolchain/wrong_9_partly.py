@@ -136,20 +136,21 @@ def data_may_be_interfaces(program: Program) -> Program:
 
 
 @breaks("R-9.3.3.4-04", task="check")
-def only_compares_multiplicities(program: Program) -> Program:
-    """Does not mind negative multiplicities as long as the lower one is not above the upper one."""
-    return _only_if(program, "multiplicities_are_a_range", lambda wrong, _, _scope: "at least" in _range(wrong))
+def compares_with_one_only(program: Program) -> Program:
+    """Compares multiplicities only where the upper one is 1."""
+    return _only_if(program, "multiplicities_are_a_range", lambda role, *_: role.upper_multiplicity == 1)
 
 
-@breaks("R-9.3.3.4-04", task="check")
-def does_not_compare_multiplicities(program: Program) -> Program:
-    """Does not mind a lower multiplicity above the upper one."""
-    return _only_if(program, "multiplicities_are_a_range", lambda wrong, _, _scope: "at least" not in _range(wrong))
+@breaks("R-9.3.3.4-04", task="check", declares=("negative-multiplicities=refused",))
+def looks_at_lower_multiplicities_only(program: Program) -> Program:
+    """Says that it refuses negative multiplicities, and takes any negative number for an upper one."""
+    return _only_if(program, "multiplicities_are_not_negative", lambda role, *_: (role.lower_multiplicity or 0) < 0)
 
 
-def _range(role: InteractionRole) -> str:
-    lower, upper = role.lower_multiplicity or 0, role.upper_multiplicity or 0
-    return "at least more than at most" if 0 <= upper < lower else "negative"
+@breaks("R-9.3.3.4-04", task="check", declares=("negative-multiplicities=refused",))
+def looks_at_upper_multiplicities_only(program: Program) -> Program:
+    """Says that it refuses negative multiplicities, and takes any number for a lower one."""
+    return _only_if(program, "multiplicities_are_not_negative", lambda role, *_: (role.upper_multiplicity or 0) < -1)
 
 
 @breaks("R-9.3.3.4-06", task="check")

@@ -52,7 +52,7 @@ def sets_parameters_of_its_definition(annotation: Annotation, scope: Scope) -> I
             )
 
 
-@rule("R-9.2.9.4-03", Annotation)
+@rule("R-9.2.9.4-03", Annotation, under="repeated-parameter-values=refused")
 def sets_parameters_once(annotation: Annotation, scope: Scope) -> Iterator[Complaint]:
     """A parameter has one value."""
     seen: set[int] = set()

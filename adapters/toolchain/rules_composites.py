@@ -153,7 +153,7 @@ def delegated_ports_have_one_specification(
             )
 
 
-@rule("R-9.5.5.6-05", CompositeComponentImplementation)
+@rule("R-9.5.5.6-05", CompositeComponentImplementation, under="delegation-bindings=same")
 def delegated_ports_bind_alike(composite: CompositeComponentImplementation, scope: Scope) -> Iterator[Complaint]:
     """The same stands for the same at both ports."""
     for ends in _ends(composite, scope):

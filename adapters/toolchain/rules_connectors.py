@@ -97,7 +97,7 @@ def bound_types_have_the_nature_of_the_item(binding: ItemBinding, scope: Scope) 
         )
 
 
-@rule("R-9.3.3.4-08", ConnectorDefinition)
+@rule("R-9.3.3.4-08", ConnectorDefinition, under="repeated-item-bindings=refused")
 def items_are_bound_to_one_type(connector: ConnectorDefinition, scope: Scope) -> Iterator[Complaint]:
     """One type stands for an item."""
     seen: dict[int, Declared] = {}

@@ -72,14 +72,20 @@ def items_are_not_redefined(pattern: InteractionPattern, scope: Scope) -> Iterat
 
 @rule("R-9.3.3.4-04", InteractionRole)
 def multiplicities_are_a_range(role: InteractionRole, _scope: Scope) -> Iterator[Complaint]:
-    """At least none, at most any number, and not more at least than at most."""
+    """Not more at least than at most."""
+    lower, upper = role.lower_multiplicity, role.upper_multiplicity
+    if lower is not None and upper is not None and 0 <= upper < lower:
+        yield role, f"role {role.name} is for at least {lower} and at most {upper}; exchange them"
+
+
+@rule("R-9.3.3.4-04", InteractionRole, under="negative-multiplicities=refused")
+def multiplicities_are_not_negative(role: InteractionRole, _scope: Scope) -> Iterator[Complaint]:
+    """At least none, and at most any number."""
     lower, upper = role.lower_multiplicity, role.upper_multiplicity
     if lower is not None and lower < 0:
         yield role, f"role {role.name} has the lower multiplicity {lower}; begin with 0"
     if upper is not None and upper < ANY_NUMBER:
         yield role, f"role {role.name} has the upper multiplicity {upper}; say {ANY_NUMBER} for any number"
-    if lower is not None and upper is not None and 0 <= upper < lower:
-        yield role, f"role {role.name} is for at least {lower} and at most {upper}; exchange them"
 
 
 @rule("R-9.3.3.4-06", InteractionPattern)

@@ -77,7 +77,7 @@ def values_are_of_parameters_of_the_definition(policy: ComponentTechnicalPolicy,
             yield value, f"'{value.configuration_parameter}' is no parameter of {name}; say definition.parameter"
 
 
-@rule("R-9.5.4.2-09", ComponentTechnicalPolicy)
+@rule("R-9.5.4.2-09", ComponentTechnicalPolicy, under="repeated-parameter-values=refused")
 def parameters_receive_one_value(policy: ComponentTechnicalPolicy, scope: Scope) -> Iterator[Complaint]:
     """No parameter receives two values."""
     seen: set[int] = set()

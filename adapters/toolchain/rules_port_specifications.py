@@ -62,7 +62,7 @@ def items_stand_for_types(binding: InteractionItemBinding, scope: Scope) -> Iter
         yield binding, f"'{binding.actual_type}' is no data type or interface; declare it"
 
 
-@rule("R-9.5.3.5-03", InteractionItemBinding)
+@rule("R-9.5.3.5-03", InteractionItemBinding, under="abstract-actual-types=refused")
 def items_stand_for_concrete_types(binding: InteractionItemBinding, scope: Scope) -> Iterator[Complaint]:
     """The actual type of an item is not abstract."""
     actual = scope.find(binding.actual_type, *TYPES)
@@ -85,7 +85,7 @@ def actual_types_have_the_nature_of_their_item(spec: PortRoleSpec, scope: Scope)
             )
 
 
-@rule("R-9.5.3.5-05", PortRoleSpec)
+@rule("R-9.5.3.5-05", PortRoleSpec, under="repeated-item-bindings=refused")
 def items_have_one_actual_type(spec: PortRoleSpec, scope: Scope) -> Iterator[Complaint]:
     """No item stands for two types."""
     seen: dict[int, Declared] = {}

@@ -61,7 +61,7 @@ def selector_values_are_enumerators(union: Union, scope: Scope) -> Iterator[Comp
                 yield value, f"{enumeration.name} has no enumerator '{value.enumerator}'; name one that it has"
 
 
-@rule("R-9.2.4.6-05", Union)
+@rule("R-9.2.4.6-05", Union, under="repeated-selector-values=refused")
 def selector_values_have_one_case(union: Union, _scope: Scope) -> Iterator[Complaint]:
     """For each value one case is active."""
     taken: dict[str, int] = {}

@@ -1,13 +1,13 @@
 """Judges profile pim: what a tool chain made of each question, and which requirements that keeps or breaks.
 
 Refusing a broken model counts only if its legal twin was accepted, so nobody passes by refusing everything. A refused legal model is
-held against the requirement that it was written for unless a simpler one is to blame (blame.py), a legal variant only
-if its twin was accepted, too.
+held against the requirement that it was written for unless a simpler one is to blame (blame.py) or nothing with a construct
+that no text prints was accepted (unprinted.py), a legal variant only if its twin was accepted, too.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -20,7 +20,7 @@ from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.corpus import Due, Question, differing_lines, questions
 from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.processing import Made
-from ucm_cts.harness.toolchains.roots import ROOT_UNKNOWN, refused_for_the_root
+from ucm_cts.harness.toolchains.unprinted import refused_for_spelling
 from ucm_cts.harness.toolchains.vicinity import vicinity
 from ucm_cts.reference_models.findings import Finding
 
@@ -146,8 +146,8 @@ def judge(asked: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judg
     """A judgement for each question that was answered."""
     legal = {q.name: q.text for q in asked if q.due == "accept" and q.name in answers and _stands(q, answers)}
     blame = Blame(legal, {name for name in legal if answers[name].accepted is False})
-    for_the_root = refused_for_the_root(legal, {name: answers[name].accepted for name in legal})
-    return [_judged(q, answers, blame, for_the_root) for q in asked if q.name in answers]
+    misspelt = refused_for_spelling(legal, {name: answers[name].accepted for name in legal})
+    return [_judged(q, answers, blame, misspelt) for q in asked if q.name in answers]
 
 
 def _stands(q: Question, answers: Mapping[str, Answer]) -> bool:
@@ -156,7 +156,7 @@ def _stands(q: Question, answers: Mapping[str, Answer]) -> bool:
     return not q.twin or (twin is not None and bool(twin.accepted))
 
 
-def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame, for_the_root: Collection[str]) -> Judgement:
+def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame, misspelt: Mapping[str, str]) -> Judgement:
     answer = answers[q.name]
     rule = RULE_FOR[q.due]
     if answer.died:
@@ -167,10 +167,8 @@ def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame, for_the_ro
         return Judgement(q, rule, "unclear", observed=f"no answer: {answer.told}")
     if not _stands(q, answers):
         return Judgement(q, rule, "unclear", "", f"its legal twin {q.twin} was not accepted", elsewhere=True)
-    if q.name in for_the_root:
-        return Judgement(q, rule, "unclear", "", ROOT_UNKNOWN, elsewhere=True)
     if q.due == "accept":
-        return _of_legal(q, answer, rule, blame)
+        return _of_legal(q, answer, rule, blame, misspelt)
     if answer.accepted:
         return Judgement(q, rule, "broken", f"the model is refused: {q.because}", "it was accepted")
     if answer.lines and q.changed and not answer.lines & vicinity(q.text, q.changed):
@@ -180,11 +178,13 @@ def _judged(q: Question, answers: Mapping[str, Answer], blame: Blame, for_the_ro
     return Judgement(q, rule, "kept")
 
 
-def _of_legal(q: Question, answer: Answer, rule: str, blame: Blame) -> Judgement:
+def _of_legal(q: Question, answer: Answer, rule: str, blame: Blame, misspelt: Mapping[str, str]) -> Judgement:
     if answer.accepted:
         return Judgement(q, rule, "kept")
     instead = blame.instead_of(q.name)
     if instead:
         return Judgement(q, rule, "unclear", "", f"the simpler model {instead} was refused, too", elsewhere=True)
+    if q.name in misspelt:
+        return Judgement(q, rule, "unclear", "", f"it was refused, and may be for our spelling: {misspelt[q.name]}")
     expected = f"the model is accepted{f': {q.because}' if q.because else ''}"
     return Judgement(q, rule, "broken", expected, f"it was refused: {answer.told or 'without a word'}")

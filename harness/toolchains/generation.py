@@ -16,7 +16,7 @@ from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.processing import Made
-from ucm_cts.harness.toolchains.roots import ROOT_UNKNOWN, refused_for_the_root
+from ucm_cts.harness.toolchains.unprinted import refused_for_spelling
 from ucm_cts.reference_models.findings import Finding
 
 FOLDERS = (SUITE / "models" / "mapping", SUITE / "models" / "legal")
@@ -66,10 +66,10 @@ class Generation:
 
     def judge(self, made: Mapping[str, Made], looked: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
         """All that was seen."""
-        for_the_root = refused_for_the_root(self._texts, {name: one.accepted for name, one in made.items()})
+        misspelt = refused_for_spelling(self._texts, {name: one.accepted for name, one in made.items()})
         for name in made:
-            if name in for_the_root:
-                yield Fact(self._generates[0], (name,), unclear=ROOT_UNKNOWN, elsewhere=True)
+            if name in misspelt:
+                yield Fact(self._generates[0], (name,), unclear=misspelt[name])
             else:
                 yield from looked[name]
 

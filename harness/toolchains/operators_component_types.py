@@ -211,7 +211,7 @@ def item_stands_for_nothing_known(binding: etree._Element) -> None:
     binding.set("actualType", NOWHERE)
 
 
-@breaks("R-9.5.3.5-03", at="InteractionItemBinding")
+@breaks("R-9.5.3.5-03", at="InteractionItemBinding", under=("abstract-actual-types=refused",))
 def item_stands_for_something_abstract(binding: etree._Element) -> bool:
     """The actual type is abstract."""
     interface = is_interface(binding, str(binding.get("actualType")))
@@ -224,7 +224,7 @@ def item_stands_for_another_nature(binding: etree._Element) -> bool:
     return _with(binding, "actualType", spare_unlike(binding, str(binding.get("actualType"))))
 
 
-@breaks("R-9.5.3.5-05", at="InteractionItemBinding")
+@breaks("R-9.5.3.5-05", at="InteractionItemBinding", under=("repeated-item-bindings=refused",))
 def item_stands_for_two_types(binding: etree._Element) -> bool:
     """One item has two actual types."""
     return _again(binding)

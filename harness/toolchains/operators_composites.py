@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from ucm_cts.harness.toolchains.declarations import NOWHERE, member, path, resolved, spare_like
+from ucm_cts.harness.toolchains.declarations import NOWHERE, member, path, resolved, spare_interface, spare_like
 from ucm_cts.harness.toolchains.operators import breaks, keeps
 from ucm_cts.harness.toolchains.operators_aspects import ELSEWHERE
 
@@ -91,10 +91,22 @@ def end_with_an_api_of_its_own(connection: etree._Element) -> bool:
     connector = resolved(connection, str(connection.get("definition")), "ConnectorDefinition")
     if connector is None:
         return False
-    port_type = etree.Element("PortType", name="stray_port_type")
-    connector.addnext(port_type)
+    port_type = _stray_port_type(connector)
+    if port_type is None:
+        return False
     _stray_end(connection, etree.Element("PortTypeSpec", type=path(port_type)))
     return True
+
+
+def _stray_port_type(beside: etree._Element) -> etree._Element | None:
+    """A new port type with an element like nobody else's, so that it is another one by its name and by what it holds."""
+    interface = spare_interface(beside)
+    if not interface:
+        return None
+    port_type = etree.Element("PortType", name="stray_port_type")
+    etree.SubElement(port_type, "PortElement", name="stray_element", interface=interface, kind="PROVIDED")
+    beside.addnext(port_type)
+    return port_type
 
 
 @breaks("R-9.5.5.4-05", at="Connection")
@@ -242,10 +254,9 @@ def delegation_to_another_api(delegation: etree._Element) -> bool:
     end, composite = delegation.find("ConnectionEnd"), delegation.getparent()
     spec = _spec_of(end) if end is not None else None
     port_type = resolved(spec, str(spec.get("type")), "PortType") if spec is not None else None
-    if end is None or composite is None or port_type is None:
+    other = _stray_port_type(port_type) if port_type is not None else None
+    if end is None or composite is None or other is None:
         return False
-    other = etree.Element("PortType", name="stray_port_type")
-    port_type.addnext(other)
     component = etree.Element("ComponentType", name="stray_type")
     port = etree.SubElement(component, "Port", name="stray_port")
     composite.addnext(component)
@@ -255,7 +266,7 @@ def delegation_to_another_api(delegation: etree._Element) -> bool:
     return True
 
 
-@breaks("R-9.5.5.6-05", at="PortDelegation")
+@breaks("R-9.5.5.6-05", at="PortDelegation", under=("delegation-bindings=same",))
 def delegation_to_other_bindings(delegation: etree._Element) -> bool:
     """The inner port binds something else."""
     end, composite = delegation.find("ConnectionEnd"), delegation.getparent()

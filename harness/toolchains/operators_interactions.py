@@ -138,7 +138,7 @@ def _role(port: etree._Element) -> etree._Element | None:
     return pattern.find(f"InteractionRole[@name='{name}']") if pattern is not None else None
 
 
-@breaks("R-9.3.3.4-08", at="ItemBinding")
+@breaks("R-9.3.3.4-08", at="ItemBinding", under=("repeated-item-bindings=refused",))
 def bound_to_another_type_too(binding: etree._Element) -> bool:
     """One item stands for two types."""
     module, _, name = str(binding.get("connectorItem")).rpartition("::")
