@@ -6,7 +6,7 @@ import copy
 
 from lxml import etree
 
-from ucm_cts.harness.toolchains.declarations import NOWHERE, path, resolved, spare_unlike
+from ucm_cts.harness.toolchains.declarations import NOWHERE, path, resolved, spare_data, spare_unlike
 from ucm_cts.harness.toolchains.operators import breaks, keeps
 from ucm_cts.harness.toolchains.operators_aspects import definition_of
 
@@ -45,19 +45,19 @@ def policy_of_nothing_known(implementation: etree._Element) -> None:
     etree.SubElement(implementation, "TechnicalPolicy", name=NOWHERE)
 
 
-@breaks("R-9.5.4.2-01", at="ComponentTechnicalPolicy")
+@breaks("R-9.5.4.2-01", at=POLICIES)
 def policy_of_nobody(policy: etree._Element) -> None:
     """A policy that manages no component."""
     _without(policy, "ManagedComponent")
 
 
-@breaks("R-9.5.4.2-02", at="ComponentTechnicalPolicy")
+@breaks("R-9.5.4.2-02", at=POLICIES)
 def manages_nothing_known(policy: etree._Element) -> None:
     """One of the managed components is declared nowhere."""
     policy.insert(0, etree.Element("ManagedComponent", name=NOWHERE))
 
 
-@breaks("R-9.5.4.2-02", at="ComponentTechnicalPolicy")
+@breaks("R-9.5.4.2-02", at=POLICIES)
 def manages_a_component_type(policy: etree._Element) -> bool:
     """One of the managed components is a component type."""
     component = policy.getroottree().getroot().find(".//ComponentType")
@@ -78,13 +78,13 @@ def named_by_the_policy_only(used: etree._Element) -> bool:
     return True
 
 
-@breaks("R-9.5.4.2-04", at="ComponentTechnicalPolicy")
+@breaks("R-9.5.4.2-04", at=POLICIES)
 def definition_of_nothing_known(policy: etree._Element) -> None:
     """The policy definition is declared nowhere."""
     policy.set("technicalPolicyDefinition", NOWHERE)
 
 
-@breaks("R-9.5.4.2-08", at="ComponentTechnicalPolicy")
+@breaks("R-9.5.4.2-08", at=POLICIES)
 def value_of_nothing_known(policy: etree._Element) -> None:
     """The definition has no such parameter."""
     name = f"{policy.get('technicalPolicyDefinition')}.{NOWHERE}"
@@ -161,6 +161,16 @@ def _actual(binding: etree._Element, value: str) -> bool:
     around = binding.getparent()
     binding.set("actualType", value)
     return around is not None and around.tag in POLICIES and bool(value)
+
+
+@breaks("R-9.5.4.2-11", at="ComponentPortTechnicalPolicy")
+def port_policy_binds_to_nothing_known(policy: etree._Element) -> bool:
+    """A policy on ports binds a type that is declared nowhere to another."""
+    other = spare_data(policy)
+    if not other:
+        return False
+    etree.SubElement(policy, "AbstractTypeBinding", abstractType=NOWHERE, actualType=other)
+    return True
 
 
 @breaks("R-9.5.4.3-02", at="ComponentPortTechnicalPolicy")

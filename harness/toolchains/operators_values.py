@@ -12,7 +12,7 @@ from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.contracts import FLOAT_KINDS, INTEGER_RANGES
 from ucm_cts.harness.toolchains.declarations import path, spare
-from ucm_cts.harness.toolchains.operators import family
+from ucm_cts.harness.toolchains.operators import breaks, family
 from ucm_cts.harness.toolchains.operators_aspects import definition_of
 from ucm_cts.harness.toolchains.operators_modules import module_of
 
@@ -63,13 +63,13 @@ def _default(tag: str, **more: str) -> Callable[[etree._Element, str, str], bool
     return put
 
 
-def _annotation(interface: etree._Element, type_: str, value: str) -> bool:
-    definition = etree.SubElement(module_of(interface), "AnnotationDefinition", name="valued_annotation")
+def _annotation(element: etree._Element, type_: str, value: str) -> bool:
+    definition = etree.SubElement(module_of(element), "AnnotationDefinition", name="valued_annotation")
     etree.SubElement(definition, "ConfigurationParameter", name="valued_parameter", type=type_)
     annotation = etree.Element("Annotation", annotationDefinition="valued_annotation")
     _value(annotation, "valued_annotation.valued_parameter", value)
-    interface.insert(0, annotation)
-    return _in_contracts(interface)
+    element.insert(0, annotation)
+    return _in_contracts(element)
 
 
 def _policy(policy: etree._Element, type_: str, value: str) -> bool:
@@ -116,6 +116,16 @@ def _new_type(element: etree._Element, typed: Typed) -> str:
         return spare(element, typed.tag, **typed.attributes)
     etree.SubElement(module_of(element), typed.tag, {"name": "valued_type", **typed.attributes})
     return "valued_type"
+
+
+_ANNOTATED = ("Attribute", "Constant", "Enumeration", "Method", "Structure", "StructureField", "Union", "UnionCase")
+
+
+@breaks("R-9.2.9.2-03", at=_ANNOTATED)
+def annotated_beyond(element: etree._Element) -> bool:
+    """The value of its annotation is more than the parameter's type holds."""
+    etree.SubElement(module_of(element), "PrimitiveInteger", name="valued_type", kind="UBYTE")
+    return _annotation(element, "valued_type", "256")
 
 
 for _place in _PLACES:
