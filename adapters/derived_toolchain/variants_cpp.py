@@ -56,6 +56,49 @@ FREEDOMS: Mapping[str, Freedom] = {
         [(r"void (level|chosen)\((::interfaces::level_t) (?=value|given)", r"void \1(const \2& ")]
     ),
     "mutators_by_value": Freedom([(r"virtual void remark\(const (::interfaces::text_t)&", r"virtual void remark(\1")]),
+    "mutators_by_moving_besides": Freedom(
+        [
+            (
+                r"(    virtual void remark\(const (::interfaces::text_t)& value\) = 0;\n)",
+                r"\1    void remark(\2&& value) { remark(static_cast<const \2&>(value)); }\n",
+            )
+        ],
+        ("cpp11",),
+    ),
+    "overloads_of_operations": Freedom(
+        [
+            (
+                r"(    virtual ::interfaces::(text_t) textual\([^\n]*\n)",
+                r"\1    ::interfaces::\2 textual(const char* given) { return textual(::interfaces::\2(given)); }\n",
+            ),
+            (
+                r"(    virtual ::interfaces::record_t structured\([^\n]*\n)",
+                r"\1    template <class T> int structured(const T*, int&, int) { return 0; }\n",
+            ),
+        ]
+    ),
+    "overloads_of_startup": Freedom(
+        [
+            (
+                r"(    virtual void on_startup\((const left_out_Connection&) left_out, [^\n]*\n)",
+                r"\1    void on_startup(\2) {}\n    void on_startup(const char*, int) {}\n",
+            ),
+            (
+                r"(    virtual void on_startup\((const Watch_clock_api_Connection&) [^\n]*\n)",
+                r"\1    static void on_startup(\2, int) {}\n",
+            ),
+        ]
+    ),
+    "sizes_without_sign": Freedom(
+        [(r"template <class T, ::std::size_t N>", "template <class T, unsigned N>")], ("cpp03",)
+    ),
+    "sizes_with_sign": Freedom(
+        [
+            (r"template <class T, ::std::size_t N>", "template <class T, int N>"),
+            (r"index >= N", "index >= size_type(N)"),
+        ],
+        ("cpp03",),
+    ),
     "elements_are_abstract_by_name": Freedom([(r"\bPortElementObject\b", "Abstract_PortElementObject")]),
 }
 
@@ -86,6 +129,21 @@ def _many_files(files: Files) -> Files:
         else:
             made[name] = text
     return made
+
+
+_CONNECTION = re.compile(r"typedef (::ucm::PortConnection< (\S+) >) (\w+);")
+
+
+def _connections_derived(files: Files) -> Files:
+    """Connection types derive from instances of the template."""
+
+    def defined(match: re.Match[str]) -> str:
+        instance, interface, name = match.groups()
+        shared = "::ucm::shared_ptr" if "class shared_ptr" in files[SUPPORT_FILE] else "::std::shared_ptr"
+        made = f"{name}(::std::string name, {shared}< {interface} > given) : {instance}(name, given) {{}}"
+        return f"#ifndef HAS_{name}\n#define HAS_{name}\nstruct {name} : {instance} {{\n    {made}\n}};\n#endif"
+
+    return {name: _CONNECTION.sub(defined, text) for name, text in files.items()}
 
 
 _STRUCTURE = re.compile(r"class (\w+) \{\n  public:\n    \1\(\)([^\n]*) \{\}\n.*?\n  private:\n(.*?)\};\n", re.DOTALL)
@@ -159,6 +217,7 @@ REWRITTEN: Mapping[str, tuple[Callable[[Files], Files], tuple[str, ...]]] = {
     "framework_namespace": (_framework, ()),
     "one_file": (_one_file, ()),
     "many_files": (_many_files, ()),
+    "connections_derived": (_connections_derived, ()),
     "plain_members": (_plain_members, ("cpp-struct=plain",)),
     "bounded_vectors": (_bounded_vectors, ()),
 }

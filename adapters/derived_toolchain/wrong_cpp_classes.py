@@ -251,6 +251,9 @@ COMPONENTS: Mapping[str, Wrong] = {
     "connection_by_value": Wrong(
         "refinement", "R-13.7-12", [(r"on_startup\(const out_api_Connection&", "on_startup(out_api_Connection")]
     ),
+    "offer_by_value": Wrong(
+        "policies", "R-13.7-12", [(r"const Watch_clock_api_Connection&", "Watch_clock_api_Connection")]
+    ),
     "component_without_attribute": Wrong("ports", "R-13.7-13", [(r"    virtual void age\([^\n]*\n", "")]),
     "inherited_attribute_forgotten": Wrong("refinement", "R-13.7-13", [(r"    virtual [^\n]* serial\(\) = 0;\n", "")]),
     "getter_named_otherwise": Wrong("ports", "R-13.7-14", [(r"\bget_left_in\b", "left_in")], also="R-13.7-20"),

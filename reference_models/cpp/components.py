@@ -22,6 +22,7 @@ from ucm_cts.reference_models.cpp.expected import (
     Declares,
     DeclaresConnection,
     Expected,
+    Forms,
     Getter,
     Implemented,
     InheritsElement,
@@ -203,34 +204,39 @@ class Components:
             True,
             tuple(Connection(f"{u.name}_Connection", u.key) for u in ports if u.element.kind == "REQUIRED"),
             () if self._context.reading("cpp-policy-connections") == "none" else tuple(u.key for u in offered),
+            owner=self.class_of(declared),
         )
         self.abstract.append(abstract)
         return abstract
 
     def _life_cycle(self, declared: Declared, owner: str, abstract: Abstract) -> Iterator[Expected]:
         for function, requirement in LIFE_CYCLE.items():
-            yield expect(requirement, declared, Arity(Named(owner), function, 0))
-            yield expect(requirement, declared, Passed(Named(owner), function, 0, 0, ("void",)))
+            forms = Forms(("void",), ((),))
+            yield expect(requirement, declared, Arity(Named(owner), function, 0, forms))
+            yield expect(requirement, declared, Passed(Named(owner), function, 0, 0, ("void",), forms))
             yield expect(requirement, declared, Pure(Named(owner), abstract.key, function, 0))
 
     def _startup(self, declared: Declared, owner: str, abstract: Abstract) -> Iterator[Expected]:
+        yield expect("R-13.7-04", declared, Pure(Named(owner), abstract.key, "on_startup", -1))
+        yield expect("R-13.7-12", declared, self._startup_of(abstract))
+
+    def _startup_of(self, abstract: Abstract) -> Startup:
         count, more = len(abstract.startup), len(abstract.more)
         must = self._context.reading("cpp-policy-connections") == "on_startup"
-        yield expect("R-13.7-04", declared, Pure(Named(owner), abstract.key, "on_startup", -1))
-        yield expect("R-13.7-12", declared, Startup(owner, count + more if must else count, count + more))
+        least = count + more if must else count
+        return Startup(abstract.owner, least, count + more, tuple(c.name for c in abstract.startup))
 
     def _port(self, declared: Declared, owner: str, abstract: Abstract, use: Use) -> Iterator[Expected]:
         if use.element.kind == "PROVIDED":
             yield from self._getter(declared, owner, abstract, use, f"get_{use.name}", ("14", "15", "16"))
             return
         name = f"{use.name}_Connection"
-        alike = sum(c.interface == use.key for c in abstract.startup)
         for requirement, claim in (
             ("R-13.7-08", DeclaresConnection(owner, name)),
             ("R-13.7-09", ConnectionTemplate(owner, name)),
             ("R-13.7-10", ConnectionShape(owner, name)),
             ("R-13.7-11", ConnectionTo(owner, name, use.expected_class)),
-            ("R-13.7-12", StartupTakes(owner, name, alike)),
+            ("R-13.7-12", StartupTakes(owner, name, self._startup_of(abstract))),
         ):
             yield expect(requirement, declared, claim, _named(use))
         yield from self._element(declared, use, Connected(owner, name))

@@ -65,6 +65,14 @@ class Method(Value, frozen=True):
         return list(itertools.product(*(p.types for p in self.parameters)))
 
 
+class Forms(Value, frozen=True):
+    """The declarations that a function may have: one of ``results``, the types of one of ``signatures``, ``const`` or not."""
+
+    results: tuple[str, ...] = ()
+    signatures: tuple[tuple[str, ...], ...] = ()
+    constant: tuple[bool, ...] = (False,)
+
+
 class Getter(Value, frozen=True):
     """A member function that returns a reference to an interface; ``interface`` is the key of what is implemented."""
 
@@ -84,6 +92,7 @@ class Abstract(Value, frozen=True):
 
     The first so many ``methods`` are ``inherited``.
     Components have ``life_cycle``; ``startup`` lists what it is connected to, ``more`` what policies may add to that.
+    ``owner`` is the class of a component.
     """
 
     key: str
@@ -93,6 +102,7 @@ class Abstract(Value, frozen=True):
     startup: tuple[Connection, ...] = ()
     more: tuple[str, ...] = ()
     inherited: int = 0
+    owner: str = ""
 
 
 # claims about names and types
@@ -290,11 +300,15 @@ class Pure(Value, frozen=True):
 
 
 class Arity(Value, frozen=True):
-    """``method`` of ``owner`` has so many parameters, and is not to be called for constant objects only."""
+    """``method`` of ``owner`` has so many parameters, and is constant only if ``forms`` say so.
+
+    Of several such functions one has one of ``forms``.
+    """
 
     owner: Class
     method: str
     parameters: int
+    forms: Forms = Forms()
 
 
 class Passed(Value, frozen=True):
@@ -308,6 +322,7 @@ class Passed(Value, frozen=True):
     parameters: int
     position: int
     types: tuple[str, ...]
+    forms: Forms = Forms()
 
 
 class NoMutator(Value, frozen=True):
@@ -376,19 +391,22 @@ class ConnectionTo(Value, frozen=True):
 
 
 class Startup(Value, frozen=True):
-    """``on_startup`` of ``owner`` takes from ``least`` to ``most`` connections."""
+    """``on_startup`` of ``owner`` takes from ``least`` to ``most`` constant references, all of ``connections`` among them."""
 
     owner: str
     least: int
     most: int
+    connections: tuple[str, ...]
 
 
 class StartupTakes(Value, frozen=True):
-    """Among what ``on_startup`` of ``owner`` takes is ``times`` a constant reference of type ``connection``."""
+    """Among what ``on_startup`` takes is a constant reference of type ``connection``, as often as this is the type of one of the
+    connections that ``startup`` names.
+    """
 
     owner: str
     connection: str
-    times: int
+    startup: Startup
 
 
 class ReturnsReference(Value, frozen=True):

@@ -28,6 +28,7 @@ from ucm_cts.reference_models.cpp.expected import (
     Declares,
     Derives,
     Expected,
+    Forms,
     Implemented,
     IsAbstract,
     Method,
@@ -270,14 +271,16 @@ class Interfaces:
         mutator = self.members.mutator(attribute, declared, ())
         assert accessor.result is not None
         type_ = accessor.result.type
-        yield reading, Arity(owner, accessor.name, 0)
-        yield reading, Passed(owner, accessor.name, 0, 0, (type_,))
+        read = Forms((type_,), ((),))
+        yield reading, Arity(owner, accessor.name, 0, read)
+        yield reading, Passed(owner, accessor.name, 0, 0, (type_,), read)
         yield pure, Pure(owner, key, accessor.name, 0)
         if mutator is None:
             yield read_only, NoMutator(owner, accessor.name, type_)
             return
-        yield writing, Arity(owner, accessor.name, 1)
-        yield writing, Passed(owner, accessor.name, 1, 1, mutator.parameters[0].types)
+        written = Forms(("void",), tuple(mutator.signatures()))
+        yield writing, Arity(owner, accessor.name, 1, written)
+        yield writing, Passed(owner, accessor.name, 1, 1, mutator.parameters[0].types, written)
         yield pure, Pure(owner, key, accessor.name, 1)
 
     def method_expected(
@@ -286,20 +289,20 @@ class Interfaces:
         """What is expected of the function of ``method``, which stands where ``declared`` does. Raises ``Unsayable``."""
         found = self.members.method(method, declared, bindings)
         count = len(found.parameters)
+        forms = Forms((found.result.type if found.result is not None else "void",), tuple(found.signatures()))
         yield expect("R-13.6.1-01", declared, Pure(owner, key, found.name, count), method)
-        yield expect("R-13.6.1-02", declared, Arity(owner, found.name, count), method)
+        yield expect("R-13.6.1-02", declared, Arity(owner, found.name, count, forms), method)
         position = 0
         for parameter in method.parameters:
             if parameter.direction != "RETURN":
                 position += 1
                 type_ = bound(parameter.type, declared, bindings)
                 taken = found.parameters[position - 1]
-                claim = Passed(owner, found.name, count, position, taken.types)
+                claim = Passed(owner, found.name, count, position, taken.types, forms)
                 yield expect(_requirement(type_, parameter.direction), declared, claim, parameter)
                 yield from self._reference(type_, declared, claim, parameter)
-        result = found.result.type if found.result is not None else "void"
         returned = next((p for p in method.parameters if p.direction == "RETURN"), None)
-        claim = Passed(owner, found.name, count, 0, (result,))
+        claim = Passed(owner, found.name, count, 0, forms.results, forms)
         if returned is None:
             yield expect("R-13.6.1-06", declared, claim, method)
         else:
@@ -315,7 +318,7 @@ class Interfaces:
             return
         reference = self._context.reference(interface_class(type_))
         types = (reference, f"const {reference}&", f"{reference}&")
-        somehow = Passed(claim.owner, claim.method, claim.parameters, claim.position, types)
+        somehow = Passed(claim.owner, claim.method, claim.parameters, claim.position, types, claim.forms)
         yield expect("R-13.6.2-01" if self._context.modern else "R-13.10.3-01", declared, somehow, parameter)
         if not self._context.modern:
             yield expect("R-13.10.3-02", declared, Works("shared_ptr", (interface_class(type_),)), parameter)

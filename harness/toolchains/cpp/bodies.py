@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ucm_cts.harness.toolchains.cpp.checks import class_text, connection_text
+from ucm_cts.harness.toolchains.cpp.overloads import found_function, ways_to_startup
 from ucm_cts.reference_models.cpp.expected import (
     Abstract,
     Connected,
@@ -20,7 +21,8 @@ LIFE_CYCLE = ("on_init", "on_shutdown", "on_remove")
 def implementation(abstract: Abstract) -> str:
     """Class templates whose parameter is the class that is implemented: ``KEY``, and ``KEY_lacks_FUNCTION_PARAMETERS``."""
     members = list(_members(abstract))
-    lines = [_template(abstract.key, [text for _, text in members], len(members))]
+    lines = [_startup_found(abstract)] if abstract.life_cycle else []
+    lines.append(_template(abstract.key, [text for _, text in members], len(members)))
     for left_out, _ in members:
         rest = [text for name, text in members if name != left_out]
         lines.append(_template(f"{abstract.key}_lacks_{left_out}", rest, len(members)))
@@ -64,7 +66,8 @@ def _method(method: Method, position: int) -> str:
 
 
 def _getter(name: str, interface: str, position: int) -> str:
-    result = f"typename ::ucts::bare<typename ::ucts::signature<UCTS_TYPE(&B::{name})>::result>::type"
+    function = f"typename ::ucts::bare<UCTS_TYPE(::ucts::of_0(&B::{name}))>::type"
+    result = f"typename ::ucts::bare<{function}::result>::type"
     made = f"typedef {result} result; typedef typename ::ucts::pointee<result>::type pointed;"
     return f"virtual {result} {name}() {{ ++ucts_calls[{position}]; {made} return result(new ::ucts::{interface}<pointed>); }}"
 
@@ -73,7 +76,7 @@ def _startup(abstract: Abstract, position: int) -> str:
     least, most = len(abstract.startup), len(abstract.startup) + len(abstract.more)
     forms = []
     for count in range(least, most + 1):
-        function = "typename ::ucts::signature<UCTS_TYPE(&B::on_startup)>"
+        function = f"typename ::ucts::{abstract.key}_startup<B>::function"
         taken = ", ".join(f"{function}::a{i} a{i}" for i in range(1, count + 1))
         kept = " ".join(f"::ucts::keep(a{i});" for i in range(1, count + 1))
         text = f"virtual void on_startup({taken}) {{ ++ucts_calls[{position}]; {kept} }}"
@@ -82,6 +85,13 @@ def _startup(abstract: Abstract, position: int) -> str:
         return forms[0]
     # keeping what is no connection does not compile: the numbers of parameters that are not there take something else
     return " ".join(form.replace("::ucts::keep(", "::ucts::keep_if_connection(") for form in forms)
+
+
+def _startup_found(abstract: Abstract) -> str:
+    least, most = len(abstract.startup), len(abstract.startup) + len(abstract.more)
+    connections = [connection_text(abstract.owner, connection.name) for connection in abstract.startup]
+    name = f"{abstract.key}_startup"
+    return found_function(name, "on_startup", ways_to_startup(name, least, most, connections))
 
 
 def implemented(claim: Implemented, abstract: Abstract) -> tuple[str, str]:
@@ -132,7 +142,8 @@ def runs(claim: Runs, abstract: Abstract, interfaces: dict[str, Abstract]) -> tu
     lines += [_attribute(method, position) for position, method in enumerate(abstract.methods)]
     lines.append("component.on_init();")
     lines += [_connected(claim.owner, c.name, c.interface, number) for number, c in enumerate(abstract.startup)]
-    lines.append("::ucts::start(component, &owner::on_startup);")
+    startup = f"::ucts::{abstract.key}_startup<owner>::function::pointer"
+    lines.append(f"::ucts::start(component, static_cast< {startup} >(&owner::on_startup));")
     one_each = {connection.interface: number for number, connection in enumerate(abstract.startup)}
     for number in one_each.values():
         connection = abstract.startup[number]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from ucm_cts.harness.toolchains.cpp.overloads import found_function, ways_to, ways_to_startup
 from ucm_cts.harness.toolchains.cpp.prelude import ARRAY_WORKS, SHARED_WORKS, SHARED_WORKS_TYPES
 from ucm_cts.reference_models.cpp import expected as claims
 from ucm_cts.reference_models.cpp.expected import Class, Connected, Named, Returned, Sample
@@ -72,6 +73,14 @@ def connection_declared(owner: str, connection: str) -> str:
     return f"{opened} struct {name} : {owner} {{ typedef {connection} type; }}; {'}' * len(parts)}"
 
 
+def connection_missing(owner: str, connection: str) -> str:
+    """What ``connection_text`` names where there is no such type, so that texts that name it are understood."""
+    place, _, name = _helper(owner, connection).rpartition("::")
+    parts = [part for part in place.split("::") if part]
+    opened = " ".join(f"namespace {part} {{" for part in parts)
+    return f"{opened} struct {name} {{ struct type; }}; {'}' * len(parts)}"
+
+
 def _holds(condition: str) -> str:
     return f"typedef ::ucts::holds<({condition})>::yes checked;"
 
@@ -84,8 +93,15 @@ def _words(types: Iterable[str]) -> str:
     return " or ".join(type_.replace("< ", "<").replace(" >", ">") for type_ in types)
 
 
-def _function(owner: Class, method: str, parameters: int) -> str:
-    return f"typedef UCTS_TYPE(::ucts::of_{parameters}(&{class_text(owner)}::{method})) function;"
+def _function(claim: claims.Arity | claims.Passed) -> str:
+    found = found_function("found", claim.method, ways_to("found", claim.parameters, claim.forms))
+    return f"{found} typedef found<{class_text(claim.owner)} >::function function;"
+
+
+def _startup(claim: claims.Startup) -> str:
+    connections = [connection_text(claim.owner, connection) for connection in claim.connections]
+    ways = ways_to_startup("found", claim.least, claim.most, connections)
+    return f"{found_function('found', 'on_startup', ways)} typedef found<{claim.owner}>::function function;"
 
 
 def render(claim: claims.Claim) -> Text | None:
@@ -300,15 +316,15 @@ def _of_classes(claim: claims.Claim) -> Text | None:
             at = f"{key}_lacks_{method}_{parameters}" if parameters >= 0 else f"{key}_lacks_{method}"
             text = _holds(f"__is_abstract(::ucts::{at}<{class_text(owner)} >)")
             return Text(f"{class_words(owner)}::{method} is pure virtual", text, key=key, pure=True)
-        case claims.Arity(owner, method, parameters):
+        case claims.Arity(owner, method, parameters, _):
             counted = f"{parameters or 'no'} parameter{'s' * (parameters != 1)}"
             says = f"{class_words(owner)} has a function {method} with {counted}"
-            return Text(says, _function(owner, method, parameters), of_functions=True)
-        case claims.Passed(owner, method, parameters, position, types):
+            return Text(says, _function(claim), of_functions=True)
+        case claims.Passed(owner, method, _, position, types, _):
             found = f"function::a{position}" if position else "function::result"
             what = f"parameter {position}" if position else "the result"
             says = f"{what} of {class_words(owner)}::{method} is {_words(types)}"
-            return Text(says, f"{_function(owner, method, parameters)} {_one_of(found, types)}", of_functions=True)
+            return Text(says, f"{_function(claim)} {_one_of(found, types)}", of_functions=True)
         case claims.NoMutator(owner, method, type_):
             declared = (
                 f"template <class T> ::ucts::yes_type has(char (*)[sizeof((::ucts::make<T>().{method}("
@@ -339,10 +355,7 @@ def _of_components(claim: claims.Claim) -> Text | None:
         case claims.ConnectionTemplate(owner, connection):
             type_ = connection_text(owner, connection)
             named = _holds(f"sizeof(::ucts::has_connection<{type_}>(0)) == sizeof(::ucts::yes_type)")
-            instance = (
-                "template <class T> struct made {}; template <template <class> class P, class T> struct made< P<T> >"
-                f" {{ typedef int yes; }}; typedef made<{type_}>::yes is_made;"
-            )
+            instance = f"enum {{ is_made = sizeof(::ucts::instance(static_cast< ::ucts::connection_base<{type_}>::type*>(0))) }};"
             return Text(f"{connection} is an instance of a template PortConnection", f"{named} {instance}")
         case claims.ConnectionShape(owner, connection):
             type_ = connection_text(owner, connection)
@@ -358,16 +371,21 @@ def _of_components(claim: claims.Claim) -> Text | None:
                 return Text(f"{connection} refers to the actual interface", f"typedef {type_} found;")
             text = f"enum {{ found = sizeof(::ucts::accepts<{interface} >(static_cast<{type_}*>(0))) }};"
             return Text(f"{connection} refers to {interface}", text)
-        case claims.Startup(owner, least, most):
-            text = f"typedef ::ucts::signature<UCTS_TYPE(&{owner}::on_startup)> function;"
-            text += f" {_one_of('function::result', ['void'])}"
+        case claims.Startup(owner, least, most, _):
+            text = f"{_startup(claim)} {_one_of('function::result', ['void'])}"
             text += f" typedef ::ucts::holds<(function::arity >= {least} && function::arity <= {most})>::yes counted;"
+            constant = " && ".join(f"::ucts::by_constant<function::a{i}>::value" for i in range(1, most + 1))
+            text += f" typedef ::ucts::holds<({constant or 'true'})>::yes constant;"
             counted = f"{least}" if least == most else f"{least} to {most}"
-            return Text(f"{owner}::on_startup takes {counted} connections", text, of_functions=True)
-        case claims.StartupTakes(owner, connection, times):
+            says = f"{owner}::on_startup takes {counted} constant references to connections"
+            return Text(says, text, of_functions=True)
+        case claims.StartupTakes(owner, connection, startup):
             type_ = connection_text(owner, connection)
-            text = _holds(f"sizeof(::ucts::times<{type_} >(&{owner}::on_startup)) - 1 == {times}")
-            return Text(f"{owner}::on_startup takes {times} const {connection}&", text, of_functions=True)
+            alike = [f"::ucts::same<{connection_text(owner, c)}, {type_}>::value" for c in startup.connections]
+            taken = [f"::ucts::same<function::a{i}, const {type_}&>::value" for i in range(1, startup.most + 1)]
+            text = f"{_startup(startup)} {_holds(' + '.join(taken) + ' == ' + ' + '.join(alike))}"
+            says = f"{owner}::on_startup takes const {connection}& as often as there are connections of this type"
+            return Text(says, text, of_functions=True)
         case claims.ReturnsReference(owner, getter, interface):
             type_ = class_text(Returned(owner, getter))
             if not interface:

@@ -82,6 +82,9 @@ def _uses_connection(claim: Claim, failed: claims.DeclaresConnection) -> bool:
         return claim != failed
     if getattr(claim, "owner", None) == Connected(failed.owner, failed.connection):
         return True
+    startup = claim.startup if isinstance(claim, claims.StartupTakes) else claim
+    if isinstance(startup, claims.Startup) and startup.owner == failed.owner:
+        return failed.connection in startup.connections
     return isinstance(claim, _AT_LAST) and _owner(claim) == failed.owner
 
 

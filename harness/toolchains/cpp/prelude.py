@@ -68,6 +68,12 @@ template <class T> struct element_base<T, false> { typedef typename T::Abstract_
 template <class T> struct port_element : element_base<T, sizeof(has_element<T>(0)) == sizeof(yes_type)> {};
 template <class T> yes_type has_connection(typename T::PortConnection*);
 template <class T> no_type has_connection(...);
+template <class T> struct connection_base { typedef typename T::PortConnection type; };
+template <template <class> class P, class A> int instance(P<A>*);
+template <template <class, class> class P, class A, class B> int instance(P<A, B>*);
+template <class A> struct by_constant { enum { value = 0 }; };
+template <class A> struct by_constant<const A&> { enum { value = 1 }; };
+template <int N> struct by_constant<none<N> > { enum { value = 1 }; };
 yes_type becomes_int(int);
 template <class T> yes_type is_unscoped(char (*)[sizeof(becomes_int(make<T>()))]);
 template <class T> no_type is_unscoped(...);
@@ -102,7 +108,7 @@ template <class C> void keep(const C& connection) {
 }
 template <class C> void keep_if_connection(const C& connection) { keep(connection); }
 template <int N> void keep_if_connection(const none<N>&) {}
-template <class C, class M> C* unconnected(M C::*) { return new C(::std::string(), M()); }
+template <class C, class M, class O> C* unconnected(M O::*) { return new C(::std::string(), M()); }
 template <class A> const typename bare<A>::type& slot_of() {
     typedef typename bare<A>::type C;
     if (slot<C>::value == 0) {
@@ -166,8 +172,11 @@ def _signatures() -> str:
         alike = " + ".join(["0", *(f"same<A{i}, const C&>::value" for i in range(1, count + 1))])
         text.append(
             f"template <class R, class C{classes}> struct signature<R (C::*)({taken})> "
-            f"{{ typedef R result;{named} enum {{ arity = {count} }}; }};\n"
+            f"{{ typedef R result;{named} enum {{ arity = {count} }}; typedef R (C::*pointer)({taken}); }};\n"
             f"template <class R, class C{classes}> signature<R (C::*)({taken})> of_{count}(R (C::*)({taken}));\n"
+            f"template <class R, class C{classes}> struct signature<R (C::*)({taken}) const> : signature<R (C::*)({taken})> {{}};\n"
+            f"template <class R, class C{classes}> signature<R (C::*)({taken}) const>"
+            f" of_constant_{count}(R (C::*)({taken}) const);\n"
             f"template <class C, class R, class O{classes}> char (&times(R (O::*)({taken})))[1 + {alike}];\n"
             f"template <class B, class C{classes}> void start(B& body, void (C::*startup)({taken})) "
             f"{{ (body.*startup)({given}); }}"
@@ -179,8 +188,24 @@ SHARED = "namespace ucts { template <class T> struct pointee<%s<T> > { typedef T
 
 ARRAY = """\
 namespace ucts { template <class A> struct array_of;
-template <class T, ::std::size_t N> struct array_of<%s<T, N> > { typedef T element; enum { size = N }; }; }
+template <class T, ::std::size_t N> struct array_of< ::std::array<T, N> > { typedef T element; enum { size = N }; }; }
 """
+
+_SIZES = [f"{sign}{integer}" for sign in ("", "unsigned ") for integer in ("short", "int", "long")]
+
+UCM_ARRAY = "\n".join(
+    [
+        "namespace ucts { template <class A> struct array_of;",
+        *(
+            f"template <class T, {size} N> struct array_of< ::ucm::array<T, N> >"
+            " { typedef T element; enum { size = N }; };"
+            for size in _SIZES
+        ),
+        "}",
+        "",
+    ]
+)
+"""13.10.1 does not say of which type the size is; only what matches the vendor's template is ever chosen."""
 
 SAFE_ENUM = """\
 namespace ucts { template <class E> struct safe;

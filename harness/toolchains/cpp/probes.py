@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ucm_cts.harness.toolchains.bounded import Ended
 from ucm_cts.harness.toolchains.cpp.bodies import implementation, implemented, runs
-from ucm_cts.harness.toolchains.cpp.checks import Text, connection_declared, render
+from ucm_cts.harness.toolchains.cpp.checks import Text, connection_declared, connection_missing, render
 from ucm_cts.harness.toolchains.cpp.compiling import (
     LAYOUT,
     Compiled,
@@ -29,7 +29,7 @@ from ucm_cts.harness.toolchains.cpp.keywords import keyword_of, redefined
 from ucm_cts.harness.toolchains.cpp.linking import Linked, linked
 from ucm_cts.harness.toolchains.cpp.listing import LISTED, RULE, Listed, listed
 from ucm_cts.harness.toolchains.cpp.needs import lacks, line_of
-from ucm_cts.harness.toolchains.cpp.prelude import ARRAY, SAFE_ENUM, SHARED, prelude
+from ucm_cts.harness.toolchains.cpp.prelude import ARRAY, SAFE_ENUM, SHARED, UCM_ARRAY, prelude
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.reference_models.cpp import expected as claims
 from ucm_cts.reference_models.cpp.expected import Expected, ExpectedCpp
@@ -266,7 +266,7 @@ class _Comparing:
         for name, text in self._support(modern).items():
             if name not in self._seen.support:
                 lines += [f'#line 1 "support#{name}"', text]
-        lines += [text for check in left for text in _outside(check)]
+        lines += [text for check in self._checks for text in _outside(check, check in left)]
         broken = self._broken_keys()
         needed = {check.text.key for check in left}
         wanted = self._with_references(needed)
@@ -294,9 +294,9 @@ class _Comparing:
     def _support(self, modern: bool) -> dict[str, str]:
         """What probes need of class templates that C++03 leaves to the framework, each only if something needs it."""
         if modern:
-            return {"shared_ptr": SHARED % "::std::shared_ptr", "array": ARRAY % "::std::array"}
+            return {"shared_ptr": SHARED % "::std::shared_ptr", "array": ARRAY}
         needed = {_needs(c.expected.claim) for c in self._checks}
-        every = {"shared_ptr": SHARED % "::ucm::shared_ptr", "array": ARRAY % "::ucm::array", "safe_enum": SAFE_ENUM}
+        every = {"shared_ptr": SHARED % "::ucm::shared_ptr", "array": UCM_ARRAY, "safe_enum": SAFE_ENUM}
         return {name: text for name, text in every.items() if name in needed}
 
     def _told(self, of_headers: list[Difference], listing: Listed) -> Comparison:
@@ -398,11 +398,12 @@ def _needs(claim: claims.Claim) -> str:
     return ""
 
 
-def _outside(check: Check) -> Iterator[str]:
+def _outside(check: Check, is_left: bool) -> Iterator[str]:
     claim = check.expected.claim
     if isinstance(claim, claims.DeclaresConnection):
+        declared = connection_declared if is_left else connection_missing
         yield f'#line 1 "{check.tag}"'
-        yield connection_declared(claim.owner, claim.connection)
+        yield declared(claim.owner, claim.connection)
 
 
 def _inside(check: Check) -> Iterator[str]:
