@@ -53,7 +53,10 @@ RELAXED: dict[str, tuple[str, Replacement]] = {
     "decimal_constants": (r"0xFF00", "65280"),
     "shorter_real_numbers": (r"3\.14159", "3.14159E+0"),
     "strings_in_pieces": (r'"good morning"', '"good " "morning"'),
-    "modules_opened_again": (r"(\n    typedef wchar wide_char_t;\n)", r"\n};\nmodule data_types {\1"),
+    "modules_opened_again": (
+        r"(?m)^(module \w+ \{)((?:\n(?!\}).*)*?)(\n    typedef wchar wide_char_t;\n)",
+        r"\1\2\n};\n\1\3",
+    ),
     "parameters_with_one_capital": (r"MESSAGE_TYPE_T", "Message_type_t"),
     "other_attributes_besides": (r"(interface unrelated \{\n)", r"\1/* nothing */\n"),
     "helpful_typedefs": (r"(\n *)(interface unrelated \{)", r"\1typedef sequence<octet> bytes_t;\1\2"),
@@ -70,6 +73,15 @@ RELAXED: dict[str, tuple[str, Replacement]] = {
     "attributes_of_interfaces_are_operations": (
         r"(interface painter \{\n) *.*attribute (\S+) colour;\n *.*attribute (\S+) width;\n",
         r"\1\2 get_colour();\n\3 width();\nvoid set_width(in \3 value);\n",
+    ),
+    "parameters_called_otherwise": (r"\b(in|out|inout) (\S+) (?=\w+[,)])", r"\1 \2 the_"),
+    "ancestors_without_operations": (
+        r"(\n *)interface unrelated \{",
+        r"\1interface thing {};\1interface unrelated : thing, ::PortElementObject {",
+    ),
+    "operations_in_an_ancestor": (
+        r"(\n *)interface unrelated \{((?:\n.*)*?\n *\};)",
+        r"\1interface unrelated_operations {\2\1interface unrelated : unrelated_operations {};",
     ),
     "cases_out_of_order": (
         r"( *case ::data_types::triangle:\n.*\n)( *case ::data_types::square:\n.*\n)",
@@ -111,6 +123,12 @@ for _reading in (
     "idl-enumerator-values=default-value",
 ):
     _variant(f"declared_{_reading.replace('-', '_').replace('=', '_as_')}", _SAME, _reading)
+_variant("footprint_by_another_name", replaced("", r"unsigned long max;", "uint32 max;", STANDARD))
+_variant(
+    "ids_written_out",
+    replaced("", r"\bcomponentId (?=\w+[(,)])|\bconnectionId (?=\w+[(,)])", "long ", STANDARD),
+    "idl-standard-files=generated",
+)
 _variant("hyphens_are_underscores", _SAME, "idl-hyphens=underscore")
 _variant("all_index_types_declared", _SAME, "index-annotations=always")
 _variant("capitals_declared", _SAME, "idl-template-names=upper")

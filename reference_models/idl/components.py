@@ -56,7 +56,18 @@ def component_facts(subject: Subject, bodies: Sequence[Subject], templates: Temp
     for attribute in component.attributes:
         yield from attribute_facts(subject, attribute, "R-12.8.1-02")
     names = tuple(attribute.name for attribute in component.attributes)
-    yield Only(**subject.about("R-12.8.1-02"), kind="attribute", names=names)
+    ancestors = tuple(path_of(one) for one in lineage(Declared(component, subject.scope)))[1:]
+    yield Only(**subject.about("R-12.8.1-02"), kind="attribute", names=names, ancestors=ancestors)
+    getters = tuple(
+        f"get_{port.name}{rest}" for port, _ in ports_of(Declared(component, subject.scope)) for rest in ("", "_*")
+    )
+    yield Only(
+        **subject.about("R-12.8.1-06"),
+        kind="operation",
+        names=(),
+        patterns=(*getters, "get_tp_*"),  # of which there must be, and may not be, is told elsewhere
+        ancestors=ancestors,
+    )
     base = subject.scope.find(component.refines, ComponentType) if component.refines else None
     if base is not None:
         yield Inherits(**subject.about("R-12.8.1-05"), base=path_of(base))
@@ -86,7 +97,9 @@ def _port(
     specs = [spec for spec in port.specs if isinstance(spec, PortTypeSpec)]
     if not specs:
         for path, _, _ in holders:
-            yield NoGetter(**subject.about("R-12.8.4-02", port, path=path), names=(f"get_{port.name}_*",))
+            yield NoGetter(
+                **subject.about("R-12.8.4-02", port, path=path), names=(f"get_{port.name}", f"get_{port.name}_*")
+            )
         return
     for spec in specs:
         found = scope.find(spec.type, PortType)

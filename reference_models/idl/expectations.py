@@ -30,7 +30,7 @@ STANDS_FOR: dict[str, tuple[str, ...]] = {
     "idl_interfaces": tuple(f"R-12.6-{n:02}" for n in range(1, 11)),
     "idl_modules": tuple(f"R-12.7-{n:02}" for n in range(2, 13)),
     "idl_components": (
-        *(f"R-12.8.1-{n:02}" for n in range(1, 6)),
+        *(f"R-12.8.1-{n:02}" for n in range(1, 7)),
         *("R-12.8.2-01", "R-12.8.2-02", "R-12.8.2-03", "R-12.8.3-01", "R-12.8.3-02"),
         *(f"R-12.8.4-{n:02}" for n in (2, 4, 5, 6, 7)),
         *(f"R-12.8.5-{n:02}" for n in (2, 3, 4, 5)),
@@ -70,7 +70,7 @@ class Declares(Expected, frozen=True, kw_only=True):
 
 
 class Means(Expected, frozen=True, kw_only=True):
-    """What stands at the path has a type that means ``type``: a typedef, member, case, parameter, attribute, constant, operation."""
+    """What stands at the path has a type that means ``type``: a typedef, member, case, attribute, constant, operation."""
 
     type: Type
 
@@ -89,9 +89,17 @@ class Lists(Expected, frozen=True, kw_only=True):
 
 
 class Takes(Expected, frozen=True, kw_only=True):
-    """The operation's parameters: direction and name of each."""
+    """The operation's parameters: direction and name of each; what the names count for is option idl-parameter-names."""
 
     parameters: tuple[tuple[str, str], ...]
+
+
+class TakesType(Expected, frozen=True, kw_only=True):
+    """The parameter at the path, the one at ``position`` (from 0) of ``parameters`` (see ``Takes``), has a type that means ``type``."""
+
+    position: int
+    parameters: tuple[tuple[str, str], ...]
+    type: Type
 
 
 class Labelled(Expected, frozen=True, kw_only=True):
@@ -108,11 +116,16 @@ class Raises(Expected, frozen=True, kw_only=True):
 
 
 class Only(Expected, frozen=True, kw_only=True):
-    """The interface has no ``kind`` (operation, attribute) of its own beyond these names, and those that end with ``tolerated``."""
+    """The interface has no ``kind`` (operation, attribute), not even inherited, beyond these names, those that end with
+    ``tolerated``, those that one of the ``patterns`` fits, in which ``*`` stands for any part of a name, and all that is in
+    ``ancestors``, which are all that the model has.
+    """
 
     kind: str
     names: tuple[str, ...]
     tolerated: tuple[str, ...] = ()
+    patterns: tuple[str, ...] = ()
+    ancestors: tuple[Path, ...] = ()
 
 
 class Inherits(Expected, frozen=True, kw_only=True):

@@ -26,6 +26,7 @@ from ucm_cts.reference_models.idl.expectations import (
     Raises,
     Signature,
     Takes,
+    TakesType,
 )
 from ucm_cts.reference_models.idl.subjects import DATA_TYPES, TYPES, Bound, Subject, named, path_of, type_named
 
@@ -67,6 +68,7 @@ def interface_facts(subject: Subject) -> Iterator[Expected]:
         tolerated=tuple(
             attribute.name for attribute in interface.attributes
         ),  # they stand for access methods (9.2.7.1)
+        ancestors=tuple(path_of(one) for one in with_ancestors(Declared(interface, subject.scope)))[1:],
     )
     for attribute in interface.attributes:
         yield from attribute_facts(subject, attribute, "R-12.6-10", needed=False)
@@ -86,13 +88,13 @@ def _method(subject: Subject, method: Method) -> Iterator[Expected]:
     scope = subject.scope
     yield Declares(**subject.about("R-12.6-04", method), kind="operation")
     arguments = arguments_of(method)
-    yield Takes(
-        **subject.about("R-12.6-05", method), parameters=tuple((DIRECTIONS[p.direction], p.name) for p in arguments)
-    )
-    for parameter in arguments:
+    taken = tuple((DIRECTIONS[p.direction], p.name) for p in arguments)
+    yield Takes(**subject.about("R-12.6-05", method), parameters=taken)
+    for position, parameter in enumerate(arguments):
         type_ = type_named(parameter.type, scope)
         if type_ is not None:
-            yield Means(**subject.about("R-12.6-06", method, parameter), type=type_)
+            about = subject.about("R-12.6-06", method, parameter)
+            yield TakesType(**about, position=position, parameters=taken, type=type_)
     result = result_of(method)
     type_ = type_named(result.type, scope) if result is not None else VOID
     if type_ is not None:
@@ -122,6 +124,13 @@ def attribute_facts(
 
 def all_methods(interface: Declared) -> Iterator[tuple[Method, Scope]]:
     """The methods of an interface and of all that it inherits, each with the scope of its references."""
+    for element, scope in with_ancestors(interface):
+        assert isinstance(element, Interface)
+        yield from ((method, scope) for method in element.methods)
+
+
+def with_ancestors(interface: Declared) -> Iterator[Declared]:
+    """An interface and all that it inherits, directly or not, each once."""
     waiting, met = [interface], set[Path]()
     while waiting:
         current = waiting.pop(0)
@@ -129,7 +138,7 @@ def all_methods(interface: Declared) -> Iterator[tuple[Method, Scope]]:
         if path_of(current) in met or not isinstance(element, Interface):
             continue
         met.add(path_of(current))
-        yield from ((method, scope) for method in element.methods)
+        yield current
         found = (scope.find(one.interface, Interface) for one in element.inherited_interfaces)
         waiting.extend(one for one in found if one is not None)
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ucm_cts.harness.toolchains.idl.reading import Files, NotIdl, read_expression
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
-from ucm_cts.harness.toolchains.idl.scopes import Scope, every
+from ucm_cts.harness.toolchains.idl.scopes import Entry, Scope, every
 from ucm_cts.harness.toolchains.idl.showing import show, show_worth
 from ucm_cts.harness.toolchains.idl.subject import here
 from ucm_cts.harness.toolchains.idl.values import Worth, equal, model_worth, worth
@@ -98,7 +98,7 @@ def applied(vendor: Vendor, read: Files) -> Iterator[tuple[str, list[Wrong]]]:
                 yield defined.requirement, list(_misused(annotation, defined))
         if isinstance(declaration, AnnotationDefinition) and declaration.name.lower() in DEFINED:
             defined = DEFINED[declaration.name.lower()]
-            yield defined.requirement, list(_misdefined(declaration, defined))
+            yield defined.requirement, list(_misdefined(vendor, entry, defined))
 
 
 def _misused(annotation: Annotation, defined: Defined) -> Iterator[Wrong]:
@@ -110,11 +110,14 @@ def _misused(annotation: Annotation, defined: Defined) -> Iterator[Wrong]:
     yield Wrong(expected, f"({', '.join(names)})", annotation.place)
 
 
-def _misdefined(definition: AnnotationDefinition, defined: Defined) -> Iterator[Wrong]:
+def _misdefined(vendor: Vendor, entry: Entry, defined: Defined) -> Iterator[Wrong]:
+    definition = entry.declaration
+    assert isinstance(definition, AnnotationDefinition)
     found = [(member.name, member.type) for member in definition.members]
     wanted = [(defined.member, defined.type)] if defined.type is not None else []
     printed = [(name, Text() if type_ == Named("String") else type_) for name, type_ in found]
-    if printed != wanted:
+    meant, due = ([(n, vendor.meaning(t, entry.scope)) for n, t in members] for members in (printed, wanted))
+    if meant != due and all(vendor.known(type_, entry.scope) for _, type_ in printed):
         expected = ", ".join(f"{show(t)} {n}" for n, t in wanted if t is not None) or "no members"
         observed = ", ".join(f"{show(t)} {n}" for n, t in found) or "no members"
         yield Wrong(f"annotation {definition.name} with {expected}", observed, definition.place)

@@ -9,7 +9,16 @@ from typing import Any
 import msgspec
 
 from ucm_cts.harness.toolchains.idl.annotations import defaulted, indexed, numbered, tagged
-from ucm_cts.harness.toolchains.idl.facts_of_interfaces import access, getter, inherits, no_getter, only, raises, takes
+from ucm_cts.harness.toolchains.idl.facts_of_interfaces import (
+    access,
+    getter,
+    inherits,
+    no_getter,
+    only,
+    raises,
+    takes,
+    takes_type,
+)
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
 from ucm_cts.harness.toolchains.idl.scopes import Entry, Hit, Scope, every, resolve
 from ucm_cts.harness.toolchains.idl.showing import show, show_kind, show_worth, type_of
@@ -52,6 +61,7 @@ from ucm_cts.reference_models.idl.expectations import (
     Selects,
     Tagged,
     Takes,
+    TakesType,
     Templated,
     Undeclared,
     Valued,
@@ -319,6 +329,7 @@ FACTS: Mapping[type[Expected], Callable[[Vendor, Any], list[Wrong]]] = {
     Parametrized: parametrized,
     Undeclared: undeclared,
     Takes: takes,
+    TakesType: takes_type,
     Raises: raises,
     Only: only,
     Inherits: inherits,

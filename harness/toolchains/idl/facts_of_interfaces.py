@@ -21,19 +21,50 @@ from ucm_cts.reference_models.idl.expectations import (
     Raises,
     Signature,
     Takes,
+    TakesType,
 )
 
 
 def takes(vendor: Vendor, fact: Takes) -> list[Wrong]:
-    """Whether an operation has the parameters it should: names, directions, order."""
+    """Whether an operation has the parameters it should: directions, order, and names if those count.
+
+    Names that are the model's say which parameter is meant, so they may not be in another order.
+    """
     hit = here(vendor, fact.path, Operation)
     operation = hit.entry.declaration
     assert isinstance(operation, Operation)
     found = [(p.direction, p.name) for p in operation.parameters]
     wanted = [(direction, _written(vendor, hit, name)) for direction, name in fact.parameters]
-    if found == wanted:
+    directions = [direction for direction, _ in found] == [direction for direction, _ in wanted]
+    names = vendor.reading("idl-parameter-names") == "kept" or _same_names(found, wanted)
+    if found == wanted or (directions and not names):
         return []
     return [Wrong(f"{fact.path[-1]}({_shown(wanted)})", f"({_shown(found)})", operation.place)]
+
+
+def _same_names(found: list[tuple[str, str]], wanted: list[tuple[str, str]]) -> bool:
+    return {name for _, name in found} == {name for _, name in wanted}
+
+
+def takes_type(vendor: Vendor, fact: TakesType) -> list[Wrong]:
+    """Whether a parameter has its type: that of its name, or of its position if the names are others."""
+    hit = here(vendor, fact.path[:-1], Operation)
+    operation = hit.entry.declaration
+    assert isinstance(operation, Operation)
+    found = [(p.direction, p.name) for p in operation.parameters]
+    wanted = [(direction, _written(vendor, hit, name)) for direction, name in fact.parameters]
+    if _same_names(found, wanted):
+        name = wanted[fact.position][1]
+        parameter = next(p for p in operation.parameters if p.name == name)
+    elif [direction for direction, _ in found] == [direction for direction, _ in wanted]:
+        parameter = operation.parameters[fact.position]
+    else:
+        raise NotExercised
+    if not vendor.known(parameter.type, hit.entry.scope) or vendor.is_open(fact.type):
+        raise NotExercised
+    if vendor.same(parameter.type, hit.entry.scope, fact.type):
+        return []
+    return [Wrong(f"{show(fact.type)} {parameter.name}", show(parameter.type), parameter.place)]
 
 
 def _written(vendor: Vendor, hit: Hit, name: str) -> str:
@@ -65,20 +96,37 @@ def raises(vendor: Vendor, fact: Raises) -> list[Wrong]:
 
 
 def only(vendor: Vendor, fact: Only) -> list[Wrong]:
-    """Whether an interface has nothing of a kind that the model does not have."""
+    """Whether an interface has nothing of a kind, inherited or not, that the model does not have."""
     hit = here(vendor, fact.path, Interface)
-    interface = hit.entry.declaration
-    assert isinstance(interface, Interface)
     wanted = {id(found.entry) for name in fact.names if (found := vendor.inside(hit, name)) is not None}
     tolerated = tuple(spelled(name) for name in fact.tolerated)
-    entries = hit.entry.inner.entries if hit.entry.inner is not None else ()
-    return [
-        Wrong(f"no {fact.kind} of the name in {fact.path[-1]}", entry.declaration.name, entry.declaration.place)
-        for entry in entries
-        if kind_of(entry.declaration) == fact.kind
-        and id(entry) not in wanted
-        and not entry.declaration.name.endswith(tolerated)
-    ]
+    patterns = [_pattern(re.sub(r"[-*]+", "*", one)) for one in fact.patterns]
+    wrong = []
+    for holder in (hit, *_superfluous(vendor, hit, fact)):
+        for entry in holder.entry.inner.entries if holder.entry.inner is not None else ():
+            name = entry.declaration.name
+            if (
+                kind_of(entry.declaration) == fact.kind
+                and id(entry) not in wanted
+                and not name.endswith(tolerated)
+                and not any(pattern.fullmatch(name) for pattern in patterns)
+            ):
+                place = entry.declaration.place if holder is hit else hit.entry.declaration.place
+                observed = name if holder is hit else f"{name}, inherited from {'::'.join(holder.entry.path)}"
+                wrong.append(Wrong(f"no {fact.kind} of the name in {fact.path[-1]}", observed, place))
+    return wrong
+
+
+def _superfluous(vendor: Vendor, hit: Hit, fact: Only) -> list[Hit]:
+    """The interfaces that one inherits from though the model has no such ancestor; none where that cannot be told.
+
+    What PortElementObject holds is looked at by itself.
+    """
+    ancestors = [vendor.at(path) for path in fact.ancestors]
+    if any(one is None for one in ancestors):
+        return []
+    due = {id(one.entry) for one in ancestors if one is not None}
+    return [one for one in bases(hit) if id(one.entry) not in due and one.entry.declaration.name != "PortElementObject"]
 
 
 def inherits(vendor: Vendor, fact: Inherits) -> list[Wrong]:

@@ -11,6 +11,8 @@ from ucm_cts.reference_models.idl.declarations import (
     Case,
     Constant,
     Declaration,
+    Enum,
+    Exception_,
     Expression,
     Literal,
     Member,
@@ -18,9 +20,11 @@ from ucm_cts.reference_models.idl.declarations import (
     Operation,
     Parameter,
     SequenceOf,
+    Struct,
     Text,
     Type,
     Typedef,
+    kind_of,
 )
 
 
@@ -41,6 +45,26 @@ def show(type_: Type) -> str:
             return show(type_.element) + "".join(f"[{_expression(d)}]" for d in type_.dimensions)
         case Annotated():
             return " ".join((*(f"@{one.name}" for one in type_.annotations), show(type_.type)))
+
+
+def show_declaration(declaration: Declaration) -> str:
+    """A declaration in one line as IDL writes it, an interface without its contents; parameters have no names if they are free."""
+    match declaration:
+        case Typedef():
+            return f"typedef {show(declaration.type)} {declaration.name}"
+        case Struct() | Exception_():
+            members = "".join(f"{show(one.type)} {one.name}; " for one in declaration.members)
+            base = f" : {declaration.base}" if isinstance(declaration, Struct) and declaration.base else ""
+            return f"{kind_of(declaration)} {declaration.name}{base} {{ {members}}}"
+        case Enum():
+            return f"enum {declaration.name} {{ {', '.join(one.name for one in declaration.enumerators)} }}"
+        case Operation():
+            taken = ", ".join(f"{one.direction} {show(one.type)} {one.name}".rstrip() for one in declaration.parameters)
+            raised = f" raises ({', '.join(declaration.raises)})" if declaration.raises else ""
+            return f"{show(declaration.returns)} {declaration.name}({taken}){raised}"
+        case Attribute():
+            return f"{'readonly ' * declaration.readonly}attribute {show(declaration.type)} {declaration.name}"
+    return f"{kind_of(declaration)} {declaration.name}"
 
 
 def _expression(expression: Expression) -> str:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator
-from typing import Any
+from dataclasses import dataclass
 
 from ucm_cts.harness.toolchains.idl.results import Wrong
-from ucm_cts.harness.toolchains.idl.scopes import Entry, Hit, build, every, resolve
-from ucm_cts.harness.toolchains.idl.showing import type_of
+from ucm_cts.harness.toolchains.idl.scopes import Entry, build, every, resolve
+from ucm_cts.harness.toolchains.idl.showing import show_declaration
 from ucm_cts.harness.toolchains.idl.vendor import Meaning, Vendor
 from ucm_cts.reference_models.idl.declarations import (
     Attribute,
@@ -22,6 +22,7 @@ from ucm_cts.reference_models.idl.declarations import (
     Exception_,
     Forward,
     Interface,
+    Member,
     Module,
     Named,
     Operation,
@@ -29,6 +30,7 @@ from ucm_cts.reference_models.idl.declarations import (
     SequenceOf,
     Struct,
     Type,
+    Typedef,
     kind_of,
 )
 from ucm_cts.reference_models.idl.expectations import ExpectedIdl
@@ -105,35 +107,102 @@ def _different(ours: Vendor, mine: Entry, theirs: Vendor, entry: Entry) -> Itera
     if kind_of(expected) != kind_of(found):
         yield Wrong(f"{kind_of(expected)} {expected.name}", kind_of(found), found.place)
         return
-    missing = _bases(mine) - _bases(entry)
-    if missing:
-        yield Wrong(f"{expected.name} to inherit from {_shown(missing)}", _shown(_bases(entry)), found.place)
-    for aspect in (_own_type, _contents):
-        named, meant = ((aspect(ours, mine, by), aspect(theirs, entry, by)) for by in (True, False))
-        if named[0] != named[1] and meant[0] != meant[1]:
-            wanted, got = _shown(named[0]), _shown(named[1])
-            yield Wrong(f"{expected.name} as clause 12 prints it: {wanted}", got, found.place)
+    yield from _other_ancestors(mine, entry)
+    alike = _Alike(ours, mine, theirs, entry)
+    match expected, found:
+        case Interface(), Interface():
+            yield from _other_operations(alike, expected, found)
+        case ((Struct() | Exception_()), (Struct() | Exception_())):
+            if not alike.members(expected.members, found.members) or (isinstance(found, Struct) and found.base):
+                yield Wrong(show_declaration(expected), show_declaration(found), found.place)
+        case Enum(), Enum():
+            if [one.name for one in expected.enumerators] != [one.name for one in found.enumerators]:
+                yield Wrong(show_declaration(expected), show_declaration(found), found.place)
+        case Typedef(), Typedef():
+            if not alike.types(expected.type, found.type):
+                yield Wrong(show_declaration(expected), show_declaration(found), found.place)
 
 
-def _shown(value: Any) -> str:
-    if isinstance(value, (tuple, list, frozenset)):
-        parts = sorted(map(str, value)) if isinstance(value, frozenset) else map(_shown, value)
-        return "(" + ", ".join(parts) + ")"
-    return str(value)
+def _other_ancestors(mine: Entry, entry: Entry) -> Iterator[Wrong]:
+    """Interfaces of 12.10 have just the printed ancestors; those of 12.11 may be port elements as 12.8.3 has it."""
+    due, found = _bases(mine), _bases(entry)
+    free = {_PORT_ELEMENT} if len(mine.path) > 1 else set()
+    if due <= found <= due | free:
+        return
+    wanted = f"to inherit from {', '.join(sorted(due))}" if due else "without ancestors"
+    observed = ", ".join(sorted(found)) or "no ancestors"
+    yield Wrong(f"interface {entry.declaration.name} {wanted}", observed, entry.declaration.place)
 
 
-def _own_type(vendor: Vendor, entry: Entry, by_name: bool) -> object:
-    type_ = type_of(entry.declaration)
-    return _simple(vendor, type_, entry, by_name) if type_ is not None else None
+def _other_operations(alike: _Alike, expected: Interface, found: Interface) -> Iterator[Wrong]:
+    due, there = ([one for one in interface.body if _exported(one)] for interface in (expected, found))
+    for one in due:
+        namesakes = [other for other in there if other.name == one.name]
+        if not any(alike.operations(one, other) for other in namesakes):
+            observed = show_declaration(namesakes[0]) if namesakes else "no such operation"
+            place = namesakes[0].place if namesakes else found.place
+            yield Wrong(f"{show_declaration(one)} in interface {expected.name}", observed, place)
+    for other in there:
+        if all(other.name != one.name for one in due):
+            told = show_declaration(other)
+            yield Wrong(f"no {kind_of(other)} {other.name} in interface {expected.name}", told, other.place)
 
 
-def _simple(vendor: Vendor, type_: Type, entry: Entry, by_name: bool) -> str:
-    """A type ``by_name`` of what it refers to, or else with typedefs followed. Where things stand does not matter."""
-    if isinstance(type_, SequenceOf):
-        return f"sequence of {_simple(vendor, type_.element, entry, by_name)}"
-    if by_name and isinstance(type_, Named):
-        return type_.name.rsplit("::", 1)[-1]
-    return str(_without_scopes(vendor.meaning(type_, entry.scope)))
+def _exported(declaration: Declaration) -> bool:
+    return isinstance(declaration, (Operation, Attribute))
+
+
+@dataclass(frozen=True)
+class _Alike:
+    """Whether what stands in a printed declaration is the same as in a vendor's."""
+
+    ours: Vendor
+    mine: Entry
+    theirs: Vendor
+    entry: Entry
+
+    def types(self, expected: Type, found: Type) -> bool:
+        """By the name of the type or by its meaning, wherever either stands; another name that is printed will not do."""
+        if isinstance(expected, SequenceOf) and isinstance(found, SequenceOf):
+            bounds = (expected.bound is None) == (found.bound is None)
+            return bounds and self.types(expected.element, found.element)
+        name = _last(found)
+        if name and name == _last(expected):
+            return True
+        if name in _NAMES:
+            return False
+        wanted = self.ours.meaning(expected, self.mine.scope)
+        return _without_scopes(wanted) == _without_scopes(self.theirs.meaning(found, self.entry.scope))
+
+    def members(self, expected: tuple[Member, ...], found: tuple[Member, ...]) -> bool:
+        """Names, types and order."""
+        return [one.name for one in expected] == [one.name for one in found] and all(
+            self.types(one.type, other.type) for one, other in zip(expected, found, strict=True)
+        )
+
+    def operations(self, expected: Declaration, found: Declaration) -> bool:
+        """Result, directions, types and order of parameters, and exceptions."""
+        if not isinstance(expected, Operation) or not isinstance(found, Operation):
+            return False
+        taken = [one.direction for one in expected.parameters] == [one.direction for one in found.parameters]
+        raised = [sorted(name.rsplit("::", 1)[-1] for name in one.raises) for one in (expected, found)]
+        return (
+            taken
+            and raised[0] == raised[1]
+            and self.types(expected.returns, found.returns)
+            and all(
+                self.types(one.type, other.type)
+                for one, other in zip(expected.parameters, found.parameters, strict=True)
+            )
+        )
+
+
+_PORT_ELEMENT = "PortElementObject"
+_NAMES = frozenset(standard.declaration.name for standard in STANDARD)
+
+
+def _last(type_: Type) -> str:
+    return type_.name.rsplit("::", 1)[-1] if isinstance(type_, Named) else ""
 
 
 def _without_scopes(meaning: Meaning) -> Meaning:
@@ -145,34 +214,4 @@ def _without_scopes(meaning: Meaning) -> Meaning:
 def _bases(entry: Entry) -> frozenset[str]:
     declaration = entry.declaration
     names = declaration.bases if isinstance(declaration, Interface) else ()
-    return frozenset(name.rsplit("::", 1)[-1].lower() for name in names)
-
-
-def _contents(vendor: Vendor, entry: Entry, by_name: bool) -> object:
-    declaration = entry.declaration
-    inner = Hit(entry).entry.inner
-    match declaration:
-        case Struct() | Exception_():
-            members = inner.entries if inner is not None else ()
-            return tuple((one.declaration.name, _own_type(vendor, one, by_name)) for one in members)
-        case Enum():
-            return tuple(one.name for one in declaration.enumerators)
-        case Interface():
-            exported = inner.entries if inner is not None else ()
-            return frozenset(
-                _operation(vendor, one, by_name)
-                for one in exported
-                if isinstance(one.declaration, (Operation, Attribute))
-            )
-    return None
-
-
-def _operation(vendor: Vendor, entry: Entry, by_name: bool) -> str:
-    declaration: Declaration = entry.declaration
-    if not isinstance(declaration, Operation):
-        return f"attribute {declaration.name}"
-    parameters = ", ".join(f"{p.direction} {_simple(vendor, p.type, entry, by_name)}" for p in declaration.parameters)
-    raised = ", ".join(sorted(name.rsplit("::", 1)[-1] for name in declaration.raises))
-    return f"{_own_type(vendor, entry, by_name)} {declaration.name}({parameters})" + (
-        f" raises ({raised})" if raised else ""
-    )
+    return frozenset(name.rsplit("::", 1)[-1] for name in names)
