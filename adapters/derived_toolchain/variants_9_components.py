@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.derived_toolchain.registry import variant
+from collections.abc import Iterator
+
+from ucm_cts.adapters.contract.metamodel.aspects import TechnicalAspect
+from ucm_cts.adapters.contract.metamodel.components import ComponentPortTechnicalPolicy
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.names import Scope
+from ucm_cts.adapters.derived_toolchain.registry import replacing_rule, variant
 from ucm_cts.adapters.derived_toolchain.tolerance import without
+from ucm_cts.adapters.toolchain.checking import Complaint
+from ucm_cts.adapters.toolchain.policy_use import aspect_of, uses
 from ucm_cts.adapters.toolchain.program import Program
 
 
@@ -20,6 +28,9 @@ from ucm_cts.adapters.toolchain.program import Program
         "one-sided-policy-links=refused",
         "delegated-and-connected=refused",
         "double-delegation=refused",
+        "delegation-bindings=same",
+        "policies-on-ports-counted=with-the-component",
+        "repeated-parameter-values=refused",
     ),
 )
 def components_are_complete(program: Program) -> Program:
@@ -53,12 +64,13 @@ def components_may_be_sketches(program: Program) -> Program:
 
 @variant(task="check", declares=("unused-bindings=accepted", "abstract-actual-types=accepted"))
 def bindings_may_be_anything(program: Program) -> Program:
-    """Lets abstract types be bound that nobody uses, and to abstract types."""
+    """Lets abstract types be bound that nobody uses, and items and abstract types to abstract types."""
     return without(
         program,
         "ports_bind_what_they_use",
         "policies_bind_what_they_use",
         "ports_bind_to_concrete_types",
+        "items_stand_for_concrete_types",
         "policies_bind_to_concrete_types",
     )
 
@@ -73,3 +85,35 @@ def policies_are_named_once(program: Program) -> Program:
 def ports_serve_several_ends(program: Program) -> Program:
     """Lets an inner port be connected and delegated, and an external one be delegated twice."""
     return without(program, "ports_are_delegated_once", "delegated_ports_are_not_connected")
+
+
+def _counting_apart(program: Program) -> Program:
+    def look(_model: Model, root: Scope) -> Iterator[Complaint]:
+        for use in uses(root):
+            for policies in use.of_aspects().values():
+                aspect = aspect_of(policies[0])
+                on_component = [p for p in policies if not isinstance(p.element, ComponentPortTechnicalPolicy)]
+                assert aspect is not None
+                assert isinstance(aspect.element, TechnicalAspect)
+                if aspect.element.multiplicity == "exactlyOne" and len(on_component) > 1:
+                    yield use.implementation, f"{use.implementation.name} has two policies of {aspect.element.name}"
+
+    return replacing_rule(program, "has_the_one_policy_only", look)
+
+
+@variant(task="check")
+def policies_of_ports_are_other_policies(program: Program) -> Program:
+    """Counts the policies on a component and those on its ports apart, and says nothing of it."""
+    return _counting_apart(program)
+
+
+@variant(task="check", declares=("policies-on-ports-counted=apart",))
+def policies_of_ports_are_said_to_be_other_policies(program: Program) -> Program:
+    """The same, and says so."""
+    return _counting_apart(program)
+
+
+@variant(task="check")
+def items_may_stand_for_abstract_types(program: Program) -> Program:
+    """Lets the items of a port's role stand for abstract types, and says nothing of it."""
+    return without(program, "items_stand_for_concrete_types")

@@ -41,6 +41,7 @@ from ucm_cts.adapters.toolchain.program import Program
         "native-types=supported",
         "default-case-values=optional",
         "selectors-without-case=accepted",
+        "repeated-selector-values=refused",
         "selector-aliases=refused",
         "recursive-types=refused",
     ),

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition
 from ucm_cts.adapters.derived_toolchain.registry import replacing_rule, variant
+from ucm_cts.adapters.derived_toolchain.strictness import refusing
+from ucm_cts.adapters.derived_toolchain.tolerance import without
 from ucm_cts.adapters.toolchain.program import Program
 
 
@@ -52,3 +55,42 @@ def ports_may_do_without_api(program: Program) -> Program:
 def items_may_be_unbound(program: Program) -> Program:
     """Lets a connector leave items of its roles unbound."""
     return replacing_rule(program, "items_of_roles_are_bound", None)
+
+
+@variant(task="check")
+def connectors_have_ports(program: Program) -> Program:
+    """Refuses connectors without ports, as the fragment of 9.3.4.6 does."""
+    return refusing(program, ConnectorDefinition, lambda connector, _: not connector.ports)
+
+
+@variant(task="check")
+def negative_multiplicities_are_unbounded(program: Program) -> Program:
+    """Takes any negative multiplicity for none at all, and says nothing of it."""
+    return without(program, "multiplicities_are_not_negative")
+
+
+@variant(task="check", declares=("negative-multiplicities=accepted",))
+def negative_multiplicities_are_said_to_be_unbounded(program: Program) -> Program:
+    """The same, and says so."""
+    return without(program, "multiplicities_are_not_negative")
+
+
+@variant(task="check")
+def items_may_have_two_types(program: Program) -> Program:
+    """Lets connectors and ports bind one item to two types, and says nothing of it."""
+    return without(program, "items_are_bound_to_one_type", "items_have_one_actual_type")
+
+
+@variant(task="check", declares=("repeated-item-bindings=accepted",))
+def items_are_said_to_have_several_types(program: Program) -> Program:
+    """The same, and says so."""
+    return without(program, "items_are_bound_to_one_type", "items_have_one_actual_type")
+
+
+@variant(
+    task="check",
+    declares=("negative-multiplicities=refused", "repeated-item-bindings=refused", "unbound-items=required"),
+)
+def interactions_are_strict(program: Program) -> Program:
+    """Refuses what is open about multiplicities and items, as the reference tool chain does."""
+    return program

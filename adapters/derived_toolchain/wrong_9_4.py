@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from ucm_cts.adapters.contract.metamodel.aspects import (
     NonfunctionalAspectModule,
     ProgrammingLanguages,
@@ -16,8 +18,9 @@ from ucm_cts.adapters.contract.metamodel.components import (
 )
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
-from ucm_cts.adapters.derived_toolchain.registry import breaks
+from ucm_cts.adapters.derived_toolchain.registry import breaks, replacing_rule
 from ucm_cts.adapters.derived_toolchain.strictness import overhearing, refusing, refusing_text
+from ucm_cts.adapters.toolchain.checking import Complaint
 from ucm_cts.adapters.toolchain.policy_use import aspect_of, uses
 from ucm_cts.adapters.toolchain.program import Program
 
@@ -36,7 +39,7 @@ def apis_for_all_or_none(program: Program) -> Program:
     return refusing(program, NonfunctionalAspectModule, mixed)
 
 
-@breaks("R-9.4.1-03", task="check")
+@breaks("R-9.4.1-03", task="check", declares=("policies-on-ports-counted=with-the-component",))
 def policies_on_ports_do_not_count(program: Program) -> Program:
     """Takes an implementation whose one policy of an aspect is on its ports for an error."""
 
@@ -153,7 +156,7 @@ def any_applicability(program: Program) -> Program:
     return overhearing(program, "bad literal", "TechnicalPolicyDefinition", "applicability")
 
 
-@breaks("R-9.4.3.2-10", task="check")
+@breaks("R-9.4.3.2-10", task="check", declares=("inherited-member-names=heir",))
 def parameters_are_not_inherited(program: Program) -> Program:
     """Takes a value of a parameter that the definition only inherits for an error."""
 
@@ -238,3 +241,16 @@ def languages_are_not_alone(program: Program) -> Program:
 def languages_are_identifiers(program: Program) -> Program:
     """Takes an implementation in a language with a plus in its name for an error."""
     return refusing(program, AtomicComponentImplementation, lambda one, _: "+" in one.language)
+
+
+@breaks("R-9.4.1-04", task="check", declares=("policies-on-ports-counted=with-the-component",))
+def counts_policies_on_components_only(program: Program) -> Program:
+    """Says that policies on ports count with those on the component, and counts only the latter."""
+
+    def look(_model: Model, root: Scope) -> Iterator[Complaint]:
+        for use in uses(root):
+            mine = [policy.element for policy in use.named.values() if _multiplicity(policy) == "exactlyOne"]
+            if sum(not isinstance(policy, ComponentPortTechnicalPolicy) for policy in mine) > 1:
+                yield use.implementation, f"{use.implementation.name} has two policies"
+
+    return replacing_rule(program, "has_the_one_policy_only", look)

@@ -116,7 +116,7 @@ def refined_ports_are_near(program: Program) -> Program:
     return refusing(program, ComponentType, far)
 
 
-@breaks("R-9.5.4.3-04", task="check")
+@breaks("R-9.5.4.3-04", task="check", declares=("inherited-member-names=heir",))
 def inherited_ports_are_not_managed(program: Program) -> Program:
     """Takes a policy on an inherited port for an error."""
 

@@ -1,6 +1,7 @@
 """What clause 9 has and the text prints no XML of: who accepts no model with such a thing is not failed for our spelling of it.
 
-Our models then call it by the name of its class or field. A vendor who says in his dialect how it is spelled is held to that.
+Our models then call it by the name of its class or field. A vendor who says in his dialect how it is spelled is held to that;
+so is one who declares that he reads native types or simple comments, of which models are sent to nobody else.
 """
 
 from __future__ import annotations
@@ -24,7 +25,6 @@ _ELEMENTS = (
     "InheritedInterface",
     "InteractionItemBinding",
     "ManagedPort",
-    "NativeType",
     "PlatformModule",
     "PortRoleSpec",
     "PrimitiveChar",
@@ -32,7 +32,6 @@ _ELEMENTS = (
     "RaisedException",
     "SelectorValue",
     "Sequence",
-    "SimpleComment",
     "Union",
     "UnionCase",
 )
