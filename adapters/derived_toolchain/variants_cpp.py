@@ -89,6 +89,9 @@ FREEDOMS: Mapping[str, Freedom] = {
             ),
         ]
     ),
+    "accessors_for_constants": Freedom(
+        [(r"(virtual \S+ (?:name|age|serial|level|weight|remark)\(\)) = 0", r"\1 const = 0")]
+    ),
     "sizes_without_sign": Freedom(
         [(r"template <class T, ::std::size_t N>", "template <class T, unsigned N>")], ("cpp03",)
     ),

@@ -101,7 +101,10 @@ INTERFACES: Mapping[str, Wrong] = {
         "interfaces", "R-13.5-02", [(r"virtual (::interfaces::text_t) name\(\) = 0", r"virtual const \1& name() = 0")]
     ),
     "accessor_is_for_constants": Wrong(
-        "interfaces", "R-13.5-02", [(r"text_t name\(\) = 0", "text_t name() const = 0")]
+        "interfaces",
+        "R-13.5-02",
+        [(r"text_t name\(\) = 0", "text_t name() const = 0")],
+        declares=("cpp-accessors=not-const",),
     ),
     "mutator_forgotten": Wrong("interfaces", "R-13.5-03", [(r"    virtual void weight\([^\n]*\n", "")]),
     "mutator_has_a_body": Wrong(

@@ -24,6 +24,7 @@ from ucm_cts.reference_models.cpp.expected import (
     ArrayOf,
     BoundedSequence,
     ConstantIs,
+    Copied,
     Declares,
     Derives,
     Discriminator,
@@ -40,6 +41,7 @@ from ucm_cts.reference_models.cpp.expected import (
     Namespace,
     NoMember,
     NotCorba,
+    NotDerived,
     NotInHeader,
     Regular,
     SafeEnum,
@@ -153,6 +155,7 @@ def _is_large(declared: Declared) -> bool:
 
 def _field(
     requirement: str,
+    copied: str,
     declared: Declared,
     field: contracts.StructureField | contracts.UnionCase | contracts.ExceptionField,
     context: Context,
@@ -164,6 +167,11 @@ def _field(
     if found is not None and nameable and context.is_sayable(found.path):
         claim = Field(spelled(declared), plain(field.name), context.sample(found), struct_forms(context))
         yield expect(requirement, declared, claim, field)
+        if claim.sample.comparable:
+            yield expect(copied, declared, Copied(claim.owner, claim.field, claim.sample, claim.forms), field)
+            if isinstance(field, contracts.ExceptionField):
+                thrown = Copied(claim.owner, claim.field, claim.sample, claim.forms, True)
+                yield expect("R-13.4-08", declared, thrown, field)
 
 
 def _structure(declared: Declared, structure: contracts.Structure, context: Context) -> Iterator[Expected]:
@@ -172,7 +180,7 @@ def _structure(declared: Declared, structure: contracts.Structure, context: Cont
     if not _is_large(declared):
         yield expect("R-13.2.1-02", declared, Regular(name))
     for field in structure.fields:
-        yield from _field("R-13.2.1-03", declared, field, context)
+        yield from _field("R-13.2.1-03", "R-13.2.1-02", declared, field, context)
 
 
 def _union(declared: Declared, union: contracts.Union, context: Context) -> Iterator[Expected]:
@@ -181,7 +189,7 @@ def _union(declared: Declared, union: contracts.Union, context: Context) -> Iter
     if not _is_large(declared):
         yield expect("R-13.2.2-02", declared, Regular(name))
     for case in union.cases:
-        yield from _field("R-13.2.2-03", declared, case, context)
+        yield from _field("R-13.2.2-03", "R-13.2.2-02", declared, case, context)
         yield from _discriminator(declared, union, case, context)
 
 
@@ -230,6 +238,7 @@ def _enumeration(declared: Declared, enumeration: contracts.Enumeration, context
         yield expect(form, declared, SafeEnum(name, f"{name}_def"))
         if types:
             yield expect(inner, declared, SafeEnumInner(name, types))
+        yield expect(inner, declared, Works("safe-enum-default", (f"{name}_def",)))
     owner = name if context.modern else f"{name}_def"
     sayable = [e for e in enumeration.enumerators if context.is_sayable(e.name)]
     for enumerator in sayable:
@@ -375,7 +384,7 @@ def exceptions(context: Context) -> Iterator[Expected]:
         if not _is_large(declared):
             yield expect("R-13.4-08", declared, Thrown(name, "::UCM::Exception"))
         for field in element.fields:
-            yield from _field("R-13.4-07", declared, field, context)
+            yield from _field("R-13.4-07", "R-13.4-01", declared, field, context)
 
 
 def _roots(declared: Declared) -> Iterator[Expected]:
@@ -386,5 +395,8 @@ def _roots(declared: Declared) -> Iterator[Expected]:
     yield expect("R-13.4-03", declared, NoMember(Named(root), "rep_id"))
     yield expect("R-13.4-03", declared, NoMember(Named(root), "_rep_id"))
     yield expect("R-13.4-05", declared, IsClass("::UCM::SystemException"))
+    both = ("::UCM::UserException", "::UCM::SystemException")
+    for derived, other in (both, both[::-1]):
+        yield expect("R-13.4-05", declared, NotDerived(Named(derived), other))
     for other in ("::UCM::UserException", "::UCM::SystemException"):
         yield expect("R-13.4-06", declared, NotCorba(Named(other)))

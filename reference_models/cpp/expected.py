@@ -54,11 +54,12 @@ class Parameter(Value, frozen=True):
 
 
 class Method(Value, frozen=True):
-    """A member function; ``result`` is None for void."""
+    """A member function; ``result`` is None for void; ``constant`` says whether it may be ``const``, or not."""
 
     name: str
     result: Sample | None
     parameters: tuple[Parameter, ...]
+    constant: tuple[bool, ...] = (False,)
 
     def signatures(self) -> list[tuple[str, ...]]:
         """The types of the parameters in every way in which they may be passed."""
@@ -172,8 +173,18 @@ class Field(Value, frozen=True):
     forms: tuple[StructForm, ...]
 
 
+class Copied(Value, frozen=True):
+    """A value written to ``field`` of ``owner`` is there in copies and what it is assigned to, or in what is caught."""
+
+    owner: str
+    field: str
+    sample: Sample
+    forms: tuple[StructForm, ...]
+    thrown: bool = False
+
+
 class Discriminator(Value, frozen=True):
-    """Once ``case`` of the union ``owner`` was written one of ``functions`` returns one of ``values``."""
+    """Once ``case`` of the union ``owner`` was written, and read, one of ``functions`` returns one of ``values``."""
 
     owner: str
     functions: tuple[str, ...]
@@ -230,7 +241,14 @@ class SafeEnumInner(Value, frozen=True):
 class Works(Value, frozen=True):
     """What ``subject`` is named for works as the standard says; ``types`` and ``values`` are what it is tried with."""
 
-    subject: Literal["safe-enum-construction", "safe-enum-underlying", "safe-enum-comparison", "array", "shared_ptr"]
+    subject: Literal[
+        "safe-enum-construction",
+        "safe-enum-underlying",
+        "safe-enum-comparison",
+        "safe-enum-default",
+        "array",
+        "shared_ptr",
+    ]
     types: tuple[str, ...]
     values: tuple[str, ...] = ()
     detail: str = ""
@@ -259,6 +277,13 @@ class NotInHeader(Value, frozen=True):
 # claims about classes
 class Derives(Value, frozen=True):
     """A reference to ``derived`` is one to ``base``."""
+
+    derived: Class
+    base: str
+
+
+class NotDerived(Value, frozen=True):
+    """``derived`` does not derive from ``base``."""
 
     derived: Class
     base: str
@@ -434,6 +459,7 @@ Claim = (
     | IsClass
     | Regular
     | Field
+    | Copied
     | Discriminator
     | EnumForm
     | Underlying
@@ -446,6 +472,7 @@ Claim = (
     | ConstantIs
     | NotInHeader
     | Derives
+    | NotDerived
     | IsAbstract
     | NoMember
     | Thrown

@@ -12,6 +12,7 @@ from ucm_cts.reference_models.cpp.context import (
     DATA,
     INTERFACES,
     LARGE,
+    OBSERVED,
     Context,
     actual,
     expect,
@@ -146,7 +147,10 @@ class Members:
     def accessor(self, attribute: contracts.Attribute, declared: Declared, bindings: Bindings) -> Method:
         """Returns the attribute's value."""
         self._say(attribute)
-        return Method(plain(attribute.name), self.value(bound(attribute.type, declared, bindings)), ())
+        value = self.value(bound(attribute.type, declared, bindings))
+        reading = self._context.reading("cpp-accessors")
+        constant = (False, True) if reading == OBSERVED else (reading == "const",)
+        return Method(plain(attribute.name), value, (), constant)
 
     def mutator(self, attribute: contracts.Attribute, declared: Declared, bindings: Bindings) -> Method | None:
         """Sets the attribute; 13.5 does not say how the value is passed. None if it is read-only."""
@@ -271,7 +275,7 @@ class Interfaces:
         mutator = self.members.mutator(attribute, declared, ())
         assert accessor.result is not None
         type_ = accessor.result.type
-        read = Forms((type_,), ((),))
+        read = Forms((type_,), ((),), accessor.constant)
         yield reading, Arity(owner, accessor.name, 0, read)
         yield reading, Passed(owner, accessor.name, 0, 0, (type_,), read)
         yield pure, Pure(owner, key, accessor.name, 0)

@@ -31,7 +31,7 @@ def implementation(abstract: Abstract) -> str:
 
 def _template(name: str, members: list[str], count: int) -> str:
     return (
-        f"template <class B> struct {name} : B {{ int ucts_calls[{count + 1}];"
+        f"template <class B> struct {name} : B {{ mutable int ucts_calls[{count + 1}];"
         f" {name}() : ucts_calls() {{}} {' '.join(members)} }};"
     )
 
@@ -60,8 +60,10 @@ def _method(method: Method, position: int) -> str:
     if method.result is not None:
         body += f" return {method.result.first};"
     return " ".join(
-        f"virtual {result} {method.name}({', '.join(f'{t} a{i}' for i, t in enumerate(types, 1))}) {{ {body} }}"
+        f"virtual {result} {method.name}({', '.join(f'{t} a{i}' for i, t in enumerate(types, 1))})"
+        f"{' const' * constant} {{ {body} }}"
         for types in method.signatures()
+        for constant in method.constant
     )
 
 

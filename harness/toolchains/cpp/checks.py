@@ -134,6 +134,8 @@ def _of_types(claim: claims.Claim) -> Text | None:
             return Text(f"{name} can be made without arguments, copied and assigned", run=copied)
         case claims.Field():
             return _field(claim)
+        case claims.Copied():
+            return _copied(claim)
         case claims.Discriminator():
             return _discriminator(claim)
         case claims.IsConstant(name):
@@ -215,6 +217,25 @@ def _field(claim: claims.Field) -> Text:
     return Text(f"{owner} has a field {field} of type {sample.type} that is written and read", declared, run)
 
 
+def _copied(claim: claims.Copied) -> Text:
+    owner, field, sample = claim.owner, claim.field, claim.sample
+    look = {}
+    for form, write, call in (
+        ("accessors", f"object.{field}(value);", "()"),
+        ("plain", f"object.{field} = value;", ""),
+    ):
+        read = f"{field}{call}"
+        caught = f"T& caught) {{ {_same(sample, f'caught.{read}', 'value', 'what is caught has lost it')}"
+        copies = "T copy(object); T assigned; assigned = object; "
+        copies += _same(sample, f"copy.{read}", "value", "a copy has lost it")
+        copies += _same(sample, f"assigned.{read}", "value", "what it is assigned to has lost it")
+        look[form] = f"{write} {f'try {{ throw object; }} catch ({caught} }}' if claim.thrown else copies}"
+    declared, arguments = _dispatch(field, sample, claim.forms, look)
+    run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; look_at({arguments});"
+    kept = "thrown and caught" if claim.thrown else "copied and assigned"
+    return Text(f"{owner} is {kept} with its field {field}", declared, run)
+
+
 def _discriminator(claim: claims.Discriminator) -> Text:
     """The selector is found under one of several names, the first of which that is there counts."""
     owner, sample = claim.owner, claim.sample
@@ -233,8 +254,13 @@ def _discriminator(claim: claims.Discriminator) -> Text:
     chosen = " || ".join(f"selector == {value}" for value in claim.values)
     selected = f"const {selector} selector = at::read(object); "
     judged = f'{selected}::ucts::require({chosen}, "the selector does not say which case was written");'
+    reading = '"the selector says something else once the case was read"'
+    again = f"(void)object.{claim.case}(); {{ {selected}::ucts::require({chosen}, {reading}); }}"
     typed = f"enum {{ which = {index} }}; typedef reader<which> at;"
-    look = {"accessors": f"object.{claim.case}(value); {judged}", "plain": f"(void)value; {selected}(void)selector;"}
+    look = {
+        "accessors": f"object.{claim.case}(value); {judged} {again}",
+        "plain": f"(void)value; {selected}(void)selector;",
+    }
     declared, arguments = _dispatch(claim.case, sample, claim.forms, look)
     declared = f"{found} {typed} {declared}"
     run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; look_at({arguments});"
@@ -279,10 +305,13 @@ def _works(claim: claims.Works) -> Text:
             first, second, number, other = claim.values
             message = '"underlying() does not return the value"'
             run = "".join(
-                f"::ucts::require({type_}({v}).underlying() == {n}, {message}); "
+                f"{{ const {type_} made({v}); ::ucts::require(made.underlying() == {n}, {message}); }} "
                 for v, n in ((first, number), (second, other))
             )
             return Text(f"underlying() returns the value of {type_}", run=run)
+        case "safe-enum-default":
+            alone, named = f"::ucm::safe_enum<{type_}>", f"::ucm::safe_enum<{type_}, {type_}::type>"
+            return Text(f"ucm::safe_enum of {type_} alone keeps its enumerators", _one_of(alone, [named]))
         case "safe-enum-comparison":
             return _comparison(type_, claim.detail, claim.values)
         case "array":
@@ -305,6 +334,9 @@ def _of_classes(claim: claims.Claim) -> Text | None:
         case claims.Derives(derived, base):
             text = f"enum {{ found = sizeof(::ucts::accepts<{base} >(static_cast<{class_text(derived)}*>(0))) }};"
             return Text(f"{class_words(derived)} derives publicly from {base}", text)
+        case claims.NotDerived(derived, base):
+            text = _holds(f"!__is_base_of({base}, {class_text(derived)})")
+            return Text(f"{class_words(derived)} does not derive from {base}", text)
         case claims.IsAbstract(name):
             return Text(f"{class_words(name)} is abstract", _holds(f"__is_abstract({class_text(name)})"))
         case claims.NoMember(owner, member):
@@ -341,11 +373,16 @@ def _of_classes(claim: claims.Claim) -> Text | None:
 
 
 def _no_member(owner: Class, member: str) -> tuple[str]:
+    """Found by its address, unless it is overloaded, or by a call."""
     declared = (
         f"template <class T> ::ucts::yes_type has(char (*)[sizeof(&T::{member})]);"
         " template <class T> ::ucts::no_type has(...);"
+        f" template <class T> ::ucts::yes_type calls(char (*)[sizeof((::ucts::make<T>().{member}(), 0))]);"
+        " template <class T> ::ucts::no_type calls(...);"
     )
-    return (f"{declared} {_holds(f'sizeof(has<{class_text(owner)}>(0)) == sizeof(::ucts::no_type)')}",)
+    type_ = class_text(owner)
+    neither = (f"sizeof({how}<{type_}>(0)) == sizeof(::ucts::no_type)" for how in ("has", "calls"))
+    return (f"{declared} {_holds(' && '.join(neither))}",)
 
 
 def _of_components(claim: claims.Claim) -> Text | None:

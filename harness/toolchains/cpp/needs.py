@@ -29,9 +29,16 @@ def lacks(claim: Claim, failed: Claim) -> str:
         return f"{failed.method} is not declared"
     if isinstance(failed, claims.ReturnsReference) and _uses_result(claim, failed):
         return f"{failed.getter} leads to no class"
+    if isinstance(claim, claims.Copied) and _keeps_nothing(claim, failed):
+        return f"{claim.field} cannot be written and read"
     if isinstance(claim, _AT_LAST) and isinstance(failed, _USED):
         return "what it uses is not as it should be" if _owner(claim) == _owner(failed) else ""
     return ""
+
+
+def _keeps_nothing(claim: claims.Copied, failed: Claim) -> bool:
+    """Whether the field that is to be copied is not as it should be."""
+    return isinstance(failed, claims.Field) and (failed.owner, failed.field) == (claim.owner, claim.field)
 
 
 def line_of(claim: Claim, text: str) -> int:

@@ -224,8 +224,20 @@ ARRAY_WORKS = """\
     bool refused = false;
     try { a.at(3) = 1; } catch (const ::std::out_of_range&) { refused = true; }
     ::ucts::require(refused, "at() takes an index that is too great");
+    refused = false;
+    try { (void)c.at(3); } catch (const ::std::out_of_range&) { refused = true; }
+    ::ucts::require(refused, "at() of a constant one takes an index that is too great");
+    ::ucts::require(&a.front() == &a[0] && &a.back() == &a[2], "front() and back() are not its first and its last element");
+    ::ucts::require(&a.at(1) == &a[1] && a.data() == &a[0], "elements are not found by index");
+    ::ucts::require(a.end() - a.begin() == 3 && &*a.begin() == &a[0], "iterators do not cover its elements");
+    ::ucts::require(a.rend() - a.rbegin() == 3 && &*(a.rend() - 1) == &a[0], "reverse iterators do not end at the beginning");
+    ::ucts::require(c.rend() - c.rbegin() == 3 && &*(c.rend() - 1) == &c[0], "reverse iterators do not end at the beginning");
+    b.fill(8);
+    ::ucts::require(b[0] == 8 && b[1] == 8 && b[2] == 8, "fill() does not fill it");
     b.fill(0);
-    ::ucts::require(b[0] == 0 && b[2] == 0, "fill() does not fill it");
+    A other = a;
+    other[1] = 5;
+    ::ucts::require(other != a && !(other == a) && a < other, "it is not compared element by element");
     ::ucts::require(b < a && a > b && b <= a && a >= b && a != b && !(a == b), "it is not compared element by element");
     b = a;
     ::ucts::require(a == b, "a copy is not equal");
@@ -233,6 +245,8 @@ ARRAY_WORKS = """\
     ::ucts::require(a[0] == 0, "a copy shares its elements");
     a.swap(b);
     ::ucts::require(a[0] == 9 && b[0] == 0, "swap() does not exchange the elements");
+    a.swap(other);
+    ::ucts::require(a[1] == 5 && other[1] == 1 && other[0] == 9, "swap() does not exchange the elements");
 """
 
 SHARED_WORKS_TYPES = """\
@@ -261,6 +275,9 @@ SHARED_WORKS = """\
         ::ucts::require(!first && second, "swap() does not exchange the references");
         second.reset(new base);
         ::ucts::require(base::alive == 1, "reset() does not let go of the object");
+        P& itself = second;
+        second = itself;
+        ::ucts::require(base::alive == 1 && second.use_count() == 1, "assigned to itself it is not what it was");
     }
     ::ucts::require(base::alive == 0, "the object is not deleted with its last reference");
     {
@@ -268,6 +285,10 @@ SHARED_WORKS = """\
         P shared(made);
         made.reset();
         ::ucts::require(derived::gone == 0 && shared.use_count() == 1, "a reference to a base is not counted");
+        ::ucm::shared_ptr<derived> again(new derived);
+        P assigned;
+        assigned = again;
+        ::ucts::require(assigned.get() == again.get() && again.use_count() == 2, "a reference to a base is not assigned");
     }
-    ::ucts::require(derived::gone == 1 && base::alive == 0, "an object is not deleted as what it was made");
+    ::ucts::require(derived::gone == 2 && base::alive == 0, "an object is not deleted as what it was made");
 """
