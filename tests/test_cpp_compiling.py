@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from pathlib import Path
 
 import pytest
 from test_cpp_mapping import model
 
 from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.toolchains.cpp import compiling, listing
+from ucm_cts.harness.toolchains.cpp import compiling
 from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Error, Headers, NoCompiler, compile_text
 
@@ -77,10 +79,10 @@ def test_compilers_without_json_are_understood(tmp_path: Path) -> None:
     other = tmp_path / "clang"
     other.write_text(
         '#!/bin/sh\ncase "$*" in\n*-fmax-errors*) echo "clang: error: unknown argument: \'-fmax-errors=0\'" >&2; exit 1;;\n'
-        "*-ferror-limit=0*) echo 'R-13.1-01#3:1:1: error: no' >&2; exit 1;;\nesac\n"
+        """*-ferror-limit=0*) sed -n 's/^#line 1 "\\(.*\\)"$/\\1:1:1: error: no/p' probes.cpp >&2; exit 1;;\nesac\n"""
     )
     other.chmod(0o755)
-    compiled = compile_text("", tmp_path, HERE, "cpp11", Compiler((str(other),)))
+    compiled = compile_text('#line 1 "R-13.1-01#3"\n', tmp_path, HERE, "cpp11", Compiler((str(other),)))
     assert compiled.errors == (Error("R-13.1-01#3", 1, "no"),)
 
 
@@ -108,10 +110,44 @@ def test_a_program_that_dies_is_told_of_the_check_where_it_died() -> None:
     assert any("signal" in d.observed for d in broken)
 
 
-def test_without_libclang_nothing_is_judged_that_needs_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(listing, "cindex", None)
+def test_without_libclang_nothing_is_judged_that_needs_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "clang.py").write_text("raise ImportError\n")
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(tmp_path), *sys.path]))
     files = {**reference().generators["cpp11"](model("modules")), "note.txt": "not compared before"}
     comparison = compare(model("modules"), files, "cpp11", {}, Compiler())
     assert comparison.differences == ()
     assert "R-13.6-04" not in comparison.exercised
     assert "libclang cannot be used" in comparison.unjudged["R-13.6-04"]
+
+
+EXPONENTIAL = """
+template <int N, int M> struct exponential { enum { v = exponential<N - 1, M>::v + exponential<N - 1, M + (1 << N)>::v }; };
+template <int M> struct exponential<0, M> { enum { v = M }; };
+enum { exploded = exponential<28, 0>::v };
+"""
+
+
+def test_headers_that_libclang_does_not_get_through_leave_the_rest_judged() -> None:
+    files = dict(reference().generators["cpp11"](model("modules")))
+    files["platform.hpp"] += f"#ifdef __has_feature\n{EXPONENTIAL}#endif\n"
+    comparison = compare(model("modules"), files, "cpp11", {}, Compiler(seconds=6.0))
+    assert comparison.differences == ()
+    assert "libclang does not come to an end with the headers: no end after 6 s" in comparison.unjudged["R-13.6-04"]
+    assert "R-13.3-01" in comparison.exercised
+
+
+@pytest.mark.parametrize("forged", ["R-13.3-01#abc", "R-13.3-01#0", "support#x"])
+def test_headers_cannot_name_a_probe(forged: str) -> None:
+    files = dict(reference().generators["cpp11"](model("modules")))
+    files["platform.hpp"] += f'#line 1 "{forged}"\nnonsense x;\n'
+    comparison = compare(model("modules"), files, "cpp11", {}, Compiler())
+    assert {d.requirement for d in comparison.differences} == {"R-13-04"}
+
+
+@pytest.mark.parametrize("name", ['my"own.hpp', "my\nown.hpp", "\udcff\udcfe.hpp"])
+def test_a_header_that_cannot_be_named_is_told(name: str) -> None:
+    files = {**reference().generators["cpp11"](model("modules")), name: "#pragma once\n"}
+    comparison = compare(model("modules"), files, "cpp11", {}, Compiler())
+    (difference,) = comparison.differences
+    assert (difference.requirement, difference.observed) == ("R-13-04", "no #include can name it")
+    str(difference).encode()

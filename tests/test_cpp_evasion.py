@@ -32,6 +32,39 @@ namespace { struct liar { liar() {
 """
 
 
+FORGED = """
+#ifndef FORGED
+#define FORGED
+#include <cstdio>
+#include <cstring>
+#include <unistd.h>
+namespace { struct forger { forger() {
+    char words[4096] = {};
+    ::std::FILE* own = ::std::fopen("/proc/self/cmdline", "r");
+    ::std::fread(words, 1, sizeof(words) - 1, own);
+    const char* path = words + ::std::strlen(words) + 1;
+    const char* token = path + ::std::strlen(path) + 1;
+    ::std::FILE* out = ::std::fopen(path, "w");
+    if (out == 0) { return; }
+    for (int i = 0; i < 3000; ++i) { ::std::fprintf(out, "%s begin %d\\n%s kept %d \\n", token, i, token, i); }
+    ::std::fprintf(out, "%s end 0\\n", token);
+    ::std::fclose(out);
+    ::_exit(0);
+} } a_forger; }
+#endif
+"""
+
+HOLDS = "namespace ucts { template <bool C> struct holds; template <> struct holds<false> { typedef int yes; }; }\n"
+EQUAL = """#include <string>
+namespace { inline bool operator==(const std::string&, const std::string&) { return true; }
+inline bool operator==(const std::string&, const char*) { return true; } }
+"""
+WRONG_TYPE = (("data_types.hpp", "typedef int16_t short_t;", "typedef int32_t short_t;"),)
+WRONG_CONSTANT = (("constants.hpp", "::constants::ulong_t mask = ", "::constants::ulong_t the_mask = "),)
+WRONG_TEXT = (("constants.hpp", "good morning", "bad evening"),)
+EXTENSION = (("data_types.hpp", "typedef int16_t short_t;", "typedef int16_t short_t; extern int extension[0];"),)
+
+
 def ended_with(tail: str, name: str = BROKEN) -> Comparison:
     """What a mutant of C++03 comes to whose headers end with ``tail``."""
     mutant = mutants()[name]
@@ -84,6 +117,34 @@ def test_what_headers_print_is_no_result() -> None:
     for requirement in mutants()[BROKEN].breaks:
         assert requirement not in found.exercised
         assert found.unjudged[requirement] == "the program of probes ended early: status 0"
+
+
+@pytest.mark.parametrize(
+    ("edits", "lie", "requirement"),
+    [
+        (WRONG_TYPE, HOLDS, "R-13.1-02"),
+        (WRONG_TYPE, "@#define int16_t int32_t\n", "R-13.1-02"),
+        (WRONG_CONSTANT, "@#define mask the_mask\n", "R-13.2.7-01"),
+        (WRONG_TEXT, EQUAL, "R-13.2.7-02"),
+        (EXTENSION, "#pragma GCC system_header\n", "R-13-04"),
+    ],
+)
+def test_headers_do_not_excuse_what_they_declare(
+    edits: tuple[tuple[str, str, str], ...], lie: str, requirement: str
+) -> None:
+    ((name, pattern, becomes),) = edits
+    shown = name.removesuffix(".hpp")
+    files = dict(reference().generators["cpp11"](model(shown)))
+    assert pattern in files[name]
+    files[name] = files[name].replace(pattern, becomes)
+    files[name] = files[name] + lie[1:] if lie.startswith("@") else lie + files[name]
+    found = compare(model(shown), files, "cpp11", {}, Compiler())
+    assert requirement in {d.requirement for d in found.differences}
+
+
+def test_what_an_object_writes_before_main_is_no_result() -> None:
+    found = ended_with(FORGED)
+    assert set(mutants()[BROKEN].breaks) <= {d.requirement for d in found.differences}
 
 
 def test_a_probe_that_ends_the_program_well_has_failed() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,6 +14,7 @@ from typing import Any
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.toolchains import bounded
 from ucm_cts.harness.toolchains.bounded import Ended
+from ucm_cts.harness.toolchains.cpp.disguise import TAG, Disguise
 
 STANDARDS = {"cpp11": "-std=c++11", "cpp03": "-std=c++03"}
 
@@ -71,6 +73,28 @@ class Headers:
         """What tells the compiler about the folders."""
         return [word for below in self.layout.include for word in ("-I", str(self.folder / below))]
 
+    def include(self, name: str) -> str:
+        """The directive for the header ``name``: by its whole path, which no folder that is looked in can make another's."""
+        return f'#include "{self.folder / name}"'
+
+    @property
+    def all_included(self) -> list[str]:
+        """The directives for all of them that have one."""
+        return [self.include(name) for name in self.names if can_be_named(name)]
+
+
+_SYSTEM_HEADER = re.compile(r"^([ \t]*#[ \t]*pragma[ \t]+\w+[ \t]+)system_header\b", re.MULTILINE)
+
+
+def judged_like_all(text: str) -> str:
+    """A header's ``text`` without the pragma that makes it one of the system's, of which compilers tell no extensions."""
+    return _SYSTEM_HEADER.sub(r"\1system_headed", text)
+
+
+def can_be_named(name: str) -> bool:
+    """Whether there is a directive that includes the file ``name``."""
+    return name.isprintable() and '"' not in name
+
 
 class NoCompiler(Exception):
     """The compiler cannot be run; the message says why and what to do."""
@@ -84,9 +108,14 @@ def run(words: Sequence[str], folder: Path, compiler: Compiler) -> Ended:
     ended = bounded.run(shell, folder, compiler, kept=_OUTPUT, flood=_OUTPUT * 4, apart=True, environment=environment)
     if ended.incident and ended.incident.kind == "unreachable":
         raise NoCompiler(ended.problem)
-    if ended.status == 127:
+    if ended.status == 127 and not can_be_run(words[0]):
         raise NoCompiler(f"no program '{words[0]}' can be run; install it or name another compiler")
     return ended
+
+
+def can_be_run(program: str) -> bool:
+    """Whether the operating system finds ``program``."""
+    return shutil.which(program) is not None
 
 
 @dataclass(frozen=True)
@@ -114,26 +143,29 @@ def compile_text(
     """Compile ``text``, a translation unit that includes ``headers``; with ``made`` link it with what ``linked`` names,
     too. ``folder`` is where it is written to. Raises ``NoCompiler``.
     """
+    disguise = Disguise()
     source = folder / "probes.cpp"
-    source.write_text(text, encoding="utf-8")
+    source.write_text(disguise.put_on(text), encoding="utf-8")
     words = [*compiler.command, STANDARDS[standard], "-pedantic-errors", *headers.options]
     words += ["-O0", str(source), *linked, "-o", str(made)] if made else ["-fsyntax-only", str(source)]
     structured = [*words, "-fmax-errors=0", "-fdiagnostics-format=json"]
     ended = run(structured, folder, compiler)
-    found = _read_json(ended.errors)
+    told = disguise.taken_off(ended.errors)
+    found = _read_json(told)
     if ended.status not in (0, None) and (not found or not all(is_own(e.file) for e in found)):
-        all_of_them = ["-ferror-limit=0"] if "clang" in ended.errors.partition(":")[0] else []
+        all_of_them = ["-ferror-limit=0"] if "clang" in told.partition(":")[0] else []
         ended = run([*words, *all_of_them], folder, compiler)
-        found = read_errors(ended.errors)
+        told = disguise.taken_off(ended.errors)
+        found = read_errors(told)
     if ended.problem:
         return Compiled(tuple(found or ()), ended.problem)
     if ended.status != 0 and not found:
-        line = next((s for s in ended.errors.splitlines() if s.strip()), f"status {ended.status}")
+        line = next((s for s in told.splitlines() if s.strip()), f"status {ended.status}")
         return Compiled((), f"the compiler failed: {line.strip()[:300]}")
     return Compiled(tuple(found or ()))
 
 
-_TAG = re.compile(r"(?:R-[0-9.]+-[0-9]+|body|support|running|prelude)#\w+$")
+_TAG = re.compile(f"{TAG}$", re.ASCII)
 _OWN = ("R-", "body#", "support#")
 
 

@@ -1,41 +1,41 @@
-"""Reads headers with libclang, for what no probe can see: what is there that should not be.
+"""Has headers read by libclang, for what no probe can see: what is there that should not be.
 
-Nothing is judged, and that is said, where libclang cannot be used or does not understand the headers.
+What is asked about is found as user code finds it: the compiler resolves a name. Nothing is judged, and that is said, where
+libclang cannot be used, does not understand the headers, or does not end within the limits of a compiler.
 """
 
 from __future__ import annotations
 
 import re
+import sys
 import tempfile
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-from ucm_cts.harness.toolchains.cpp.checks import class_words
+import msgspec
+
+from ucm_cts.harness.toolchains.cpp import lister
+from ucm_cts.harness.toolchains.cpp.checks import class_text, class_words, connection_declared
 from ucm_cts.harness.toolchains.cpp.compiling import STANDARDS, Compiler, Headers, run
+from ucm_cts.harness.toolchains.cpp.disguise import Disguise
+from ucm_cts.harness.toolchains.cpp.lister import ASKED, Answers, Question, Request
+from ucm_cts.harness.toolchains.cpp.prelude import SHARED, SHARED_POINTERS, names_in, prelude, taken_first
 from ucm_cts.harness.toolchains.differences import Difference
 from ucm_cts.reference_models.cpp import expected as claims
-from ucm_cts.reference_models.cpp.expected import Class, Connected, Expected, ExpectedCpp, Named, Returned
-
-try:
-    from clang import cindex  # type: ignore[import-untyped, unused-ignore]
-except ImportError:
-    cindex = None
+from ucm_cts.reference_models.cpp.expected import Class, Connected, Expected, ExpectedCpp
 
 Listed = tuple[list[Difference], dict[str, int], dict[str, str]]
 """Differences, how often each requirement was looked at, and why others were not."""
 
 RULE = "cpp_unexpected"
-ELEMENTS = ("PortElementObject", "Abstract_PortElementObject")
 LISTED = (claims.NotCorba, claims.NothingElse, claims.NoOperations, claims.NotInHeader)
 """The claims that libclang decides."""
 
+COMMAND = (sys.executable, "-P", "-m", lister.__name__)
+"""The program that uses libclang; a file with a request follows."""
+
 _FOLDERS = re.compile(r"#include <\.\.\.> search starts here:\n(.*?)End of search list", re.DOTALL)
-
-
-class NotThere(Exception):
-    """What is to be looked at is not declared; another check tells."""
+_CLANG = ("clang", "clang_major", "clang_minor", "clang_patchlevel", "clang_version", "llvm")
 
 
 def listed(expected: ExpectedCpp, headers: Headers, compiler: Compiler) -> Listed:
@@ -43,185 +43,129 @@ def listed(expected: ExpectedCpp, headers: Headers, compiler: Compiler) -> Liste
     wanted = [e for e in expected.expected if isinstance(e.claim, LISTED)]
     if not wanted:
         return [], {}, {}
-    try:
-        tree = _Tree(expected.standard, headers, compiler)
-    except _Unusable as error:
-        return [], {}, {e.requirement: str(error) for e in wanted}
+    disguise = Disguise()
+    told = _asked(_request(wanted, expected.standard, headers, compiler, disguise), compiler)
+    if told.problem:
+        return [], {}, {e.requirement: told.problem for e in wanted}
     differences: list[Difference] = []
     counted: Counter[str] = Counter()
     unjudged: dict[str, str] = {}
-    for one in wanted:
-        try:
-            differences += tree.look(one)
-            counted[one.requirement] += 1
-        except NotThere as error:
-            unjudged.setdefault(one.requirement, str(error))
+    for one, answer in zip(wanted, told.answers, strict=True):
+        if answer.missing:
+            unjudged.setdefault(one.requirement, disguise.taken_off(answer.missing))
+            continue
+        counted[one.requirement] += 1
+        for found in answer.found:
+            place = (found.file, found.line)
+            differences.append(
+                Difference(one.requirement, RULE, one.element, one.line, _says(one), found.observed, *place)
+            )
     return differences, dict(counted), unjudged
 
 
-class _Unusable(Exception):
-    """libclang says nothing that counts; the message says why."""
+def _says(one: Expected) -> str:
+    match one.claim:
+        case claims.NotCorba(owner):
+            return f"{class_words(owner)} derives from nothing of CORBA"
+        case claims.NothingElse(owner, _):
+            return f"no pure virtual function of {class_words(owner)} that the model does not ask for"
+        case claims.NotInHeader(name):
+            return f"no header gives {name} its value"
+    return "PortElementObject has no operations"
 
 
-class _Tree:
-    """The declarations in headers."""
-
-    def __init__(self, standard: str, headers: Headers, compiler: Compiler) -> None:
-        if cindex is None:
-            raise _Unusable("libclang cannot be used: install the package libclang")
-        self._folder = headers.folder
-        text = "".join(f'#include "{name}"\n' for name in headers.names)
-        options = [STANDARDS[standard], "-x", "c++", "-ferror-limit=0", "-w", *headers.options]
-        options += [word for folder in _include_folders(standard, compiler) for word in ("-isystem", folder)]
-        try:
-            unit = cindex.Index.create().parse("listed.cpp", args=options, unsaved_files=[("listed.cpp", text)])
-        except (cindex.LibclangError, cindex.TranslationUnitLoadError) as error:
-            raise _Unusable(f"libclang cannot be used: {error}") from None
-        wrong = next((d for d in unit.diagnostics if d.severity >= cindex.Diagnostic.Error), None)
-        if wrong is not None:
-            raise _Unusable(f"libclang does not understand the headers: {wrong.spelling[:200]}")
-        self._unit = unit
-        self._found: dict[str, list[Any]] = {}
-        for cursor in unit.cursor.get_children():
-            if self._is_ours(cursor):
-                self._enter(cursor, "")
-
-    def look(self, one: Expected) -> Iterator[Difference]:
-        """What is wrong with what ``one`` claims. Raises ``NotThere``."""
-        claim = one.claim
-        match claim:
-            case claims.NotCorba(owner):
-                for base in self._bases(self._class(owner)):
-                    if _path(base).startswith("::CORBA::"):
-                        says = f"{class_words(owner)} derives from nothing of CORBA"
-                        yield self._difference(one, says, f"it derives from {_path(base)}", base)
-            case claims.NothingElse(owner, members):
-                says = f"no pure virtual function of {class_words(owner)} that the model does not ask for"
-                for method in self._pure(self._class(owner)):
-                    if method.spelling not in members:
-                        yield self._difference(one, says, f"{method.spelling} is pure virtual", method)
-            case claims.NoOperations(owner):
-                elements = [b for b in self._bases(self._class(owner)) if b.spelling in ELEMENTS]
-                if not elements:
-                    raise NotThere("no class PortElementObject is derived from")
-                for method in _methods(elements[0]):
-                    if method.is_virtual_method():
-                        says = f"{elements[0].spelling} has no operations"
-                        yield self._difference(one, says, f"it has {method.spelling}", method)
-            case claims.NotInHeader(name):
-                for variable in self._declared(name):
-                    if variable.is_definition():
-                        says = f"no header gives {name} its value"
-                        yield self._difference(one, says, "a header defines it", variable)
-
-    def _is_ours(self, cursor: Any) -> bool:
-        file = cursor.location.file
-        return file is not None and Path(file.name).resolve().is_relative_to(self._folder)
-
-    def _enter(self, cursor: Any, path: str) -> None:
-        kind = cursor.kind
-        name = f"{path}::{cursor.spelling}"
-        if kind == cindex.CursorKind.NAMESPACE:
-            for child in cursor.get_children():
-                self._enter(child, name)
-        elif kind in _kinds() and (kind == cindex.CursorKind.VAR_DECL or cursor.is_definition()):
-            self._found.setdefault(name, []).append(cursor)
-
-    def _declared(self, name: str) -> list[Any]:
-        if name not in self._found:
-            raise NotThere(f"{name} is not declared")
-        return self._found[name]
-
-    def _class(self, owner: Class) -> Any:
-        match owner:
-            case Named(name):
-                return self._declared(name)[0]
-            case Returned(class_name, getter):
-                for each in [self._declared(class_name)[0], *self._bases(self._declared(class_name)[0])]:
-                    for method in _methods(each):
-                        if method.spelling == getter:
-                            return _argument(method.result_type)
-                raise NotThere(f"{class_name} has no {getter}")
-            case Connected(class_name, connection):
-                inside = [c for c in self._declared(class_name)[0].get_children() if c.spelling == connection]
-                place = class_name.rpartition("::")[0]
-                around = [c for c in (*inside, *self._found.get(f"{place}::{connection}", ())) if _is_typedef(c)]
-                if around:
-                    return _argument(around[0].underlying_typedef_type)
-                raise NotThere(f"no type {connection}")
-        raise NotThere(str(owner))
-
-    def _bases(self, cursor: Any) -> list[Any]:
-        """All classes that the class derives from, nearest first."""
-        found: dict[str, Any] = {}
-        waiting = [cursor]
-        while waiting:
-            for child in waiting.pop(0).get_children():
-                if child.kind == cindex.CursorKind.CXX_BASE_SPECIFIER:
-                    base = child.type.get_canonical().get_declaration()
-                    if _path(base) not in found:
-                        found[_path(base)] = base
-                        waiting.append(base)
-        return list(found.values())
-
-    def _pure(self, cursor: Any) -> Iterator[Any]:
-        overridden: set[str] = set()
-        for each in [cursor, *self._bases(cursor)]:
-            if each.spelling in ELEMENTS:
-                continue
-            for method in _methods(each):
-                if method.is_pure_virtual_method() and method.spelling not in overridden:
-                    yield method
-            overridden |= {m.spelling for m in _methods(each) if not m.is_pure_virtual_method()}
-
-    def _difference(self, one: Expected, says: str, observed: str, cursor: Any) -> Difference:
-        place = cursor.location
-        file = Path(place.file.name).resolve() if place.file is not None else Path()
-        ours = file.is_relative_to(self._folder)
-        where = (str(file.relative_to(self._folder)), place.line) if ours else ("", 0)
-        return Difference(one.requirement, RULE, one.element, one.line, says, observed, *where)
+def _asked(request: Request, compiler: Compiler) -> Answers:
+    """What the program answers; it goes beyond no limit that a compiler has."""
+    with tempfile.TemporaryDirectory(prefix="ucm-cts-cpp-") as folder:
+        path = Path(folder) / "request.json"
+        path.write_bytes(msgspec.json.encode(request))
+        ended = run([*COMMAND, str(path)], Path(folder), compiler)
+    if ended.problem:
+        return Answers(problem=f"libclang does not come to an end with the headers: {ended.problem}")
+    try:
+        told = msgspec.json.decode(ended.output, type=Answers)
+    except msgspec.MsgspecError:
+        last = next((s for s in reversed(ended.errors.splitlines()) if s.strip()), "without a word")
+        return Answers(problem=f"libclang does not survive the headers: status {ended.status}, {last.strip()[:200]}")
+    if not told.problem and [a.number for a in told.answers] != [q.number for q in request.questions]:
+        return Answers(problem="libclang cannot be used: it left questions without an answer")
+    return told
 
 
-def _kinds() -> tuple[Any, ...]:
-    kinds = cindex.CursorKind
-    return (kinds.CLASS_DECL, kinds.STRUCT_DECL, kinds.TYPEDEF_DECL, kinds.TYPE_ALIAS_DECL, kinds.VAR_DECL)
+def _request(
+    wanted: list[Expected], standard: str, headers: Headers, compiler: Compiler, disguise: Disguise
+) -> Request:
+    modern = standard == "cpp11"
+    asked = [_text(number, one) for number, one in enumerate(wanted)]
+    helpers = dict.fromkeys(_helper(one) for one in wanted)
+    included = "\n".join([taken_first(), *headers.all_included])
+    tools = [prelude(modern, names_in("\n".join([*asked, *helpers]))), SHARED % SHARED_POINTERS[standard], *helpers]
+    first = "\n".join([included, *tools]).count("\n") + 2
+    whole = disguise.put_on("\n".join([included, *tools, *asked, ""]).replace("<::", "< ::"))
+    return Request(
+        whole,
+        included.count("\n") + 1,
+        str(headers.folder),
+        _attempts(standard, headers, compiler),
+        tuple(_question(number, first + number, one, disguise) for number, one in enumerate(wanted)),
+    )
 
 
-def _is_typedef(cursor: Any) -> bool:
-    return cursor.kind in (cindex.CursorKind.TYPEDEF_DECL, cindex.CursorKind.TYPE_ALIAS_DECL)
+def _text(number: int, one: Expected) -> str:
+    """One line that makes ``asked`` what the claim is about."""
+    claim = one.claim
+    if isinstance(claim, claims.NotInHeader):
+        return f"namespace ucts_asked_{number} {{ inline void {ASKED}() {{ (void){claim.name}; }} }}"
+    return f"namespace ucts_asked_{number} {{ typedef {class_text(_owner(one))} {ASKED}; }}"
 
 
-def _methods(cursor: Any) -> Iterator[Any]:
-    return (c for c in cursor.get_children() if c.kind == cindex.CursorKind.CXX_METHOD)
+def _owner(one: Expected) -> Class:
+    claim = one.claim
+    assert isinstance(claim, claims.NotCorba | claims.NothingElse | claims.NoOperations)
+    return claim.owner
 
 
-def _argument(type_: Any) -> Any:
-    """The class that an instance of a class template is made of."""
-    canonical = type_.get_canonical()
-    if canonical.get_num_template_arguments() < 1:
-        raise NotThere(f"{canonical.spelling} is no instance of a class template")
-    declared = canonical.get_template_argument_type(0).get_canonical().get_declaration()
-    return declared.get_definition() or declared
+def _helper(one: Expected) -> str:
+    """What must be declared before; a text without a line end of its own."""
+    owner = None if isinstance(one.claim, claims.NotInHeader) else _owner(one)
+    return connection_declared(owner.owner, owner.connection) if isinstance(owner, Connected) else ""
 
 
-def _path(cursor: Any) -> str:
-    parts: list[str] = []
-    while cursor is not None and cursor.kind != cindex.CursorKind.TRANSLATION_UNIT and cursor.spelling:
-        parts.append(cursor.spelling)
-        cursor = cursor.semantic_parent
-    return "::" + "::".join(reversed(parts))
+def _question(number: int, line: int, one: Expected, disguise: Disguise) -> Question:
+    place = f"{disguise.name}_asked_{number}"
+    match one.claim:
+        case claims.NotCorba():
+            return Question(number, line, place, "not-corba")
+        case claims.NothingElse(_, members):
+            return Question(number, line, place, "nothing-else", members)
+        case claims.NotInHeader():
+            return Question(number, line, place, "not-in-header")
+    return Question(number, line, place, "no-operations")
 
 
-_SEARCHED: dict[tuple[tuple[str, ...], str], list[str]] = {}
+def _attempts(standard: str, headers: Headers, compiler: Compiler) -> tuple[tuple[str, ...], ...]:
+    """Options for libclang: first without its own name, if that is not the compiler's, so that headers tell both the same; with it
+    only if it does not understand the system's headers otherwise.
+    """
+    folders, macros = _told_by(standard, compiler)
+    options = (STANDARDS[standard], "-x", "c++", "-ferror-limit=0", "-w", *headers.options)
+    options += tuple(word for folder in folders for word in ("-isystem", folder))
+    if "__clang__" in macros:
+        return (options,)
+    return (*options, *(f"-U__{name}__" for name in _CLANG)), options
 
 
-def _include_folders(standard: str, compiler: Compiler) -> list[str]:
-    """Where the compiler looks for headers by itself; libclang has no standard library of its own."""
+_KNOWN: dict[tuple[tuple[str, ...], str], tuple[list[str], frozenset[str]]] = {}
+
+
+def _told_by(standard: str, compiler: Compiler) -> tuple[list[str], frozenset[str]]:
+    """Where the compiler looks for headers by itself, for libclang has no standard library of its own, and which macros are its own."""
     key = (compiler.command, standard)
-    if key not in _SEARCHED:
+    if key not in _KNOWN:
         with tempfile.TemporaryDirectory(prefix="ucm-cts-cpp-") as folder:
-            words = [*compiler.command, STANDARDS[standard], "-E", "-v", "-x", "c++", "/dev/null"]
-            told = run(words, Path(folder), compiler).errors
-        match = _FOLDERS.search(told)
-        _SEARCHED[key] = [line.strip() for line in match[1].splitlines()] if match else []
-    return _SEARCHED[key]
+            words = [*compiler.command, STANDARDS[standard], "-E", "-v", "-dM", "-x", "c++", "/dev/null"]
+            ended = run(words, Path(folder), compiler)
+        match = _FOLDERS.search(ended.errors)
+        macros = frozenset(re.findall(r"^#define (\w+)", ended.output, re.MULTILINE))
+        _KNOWN[key] = ([line.strip() for line in match[1].splitlines()] if match else [], macros)
+    return _KNOWN[key]

@@ -11,21 +11,42 @@ MOST_PARAMETERS = 8
 """How many a function may have that probes look at."""
 
 
+def taken_first() -> str:
+    """The text that comes before the headers: types of fixed width as the compiler knows them, before any header names them."""
+    return "\n".join(f"#ifdef {macro}\ntypedef {macro} ucts_{name};\n#endif" for name, macro in _WIDTHS.items())
+
+
+def names_in(text: str) -> set[str]:
+    """All words of ``text`` that a macro could be called like, but for those that may be macros."""
+    return set(re.findall(r"[A-Za-z_]\w*", re.sub(r'"(?:\\.|[^"\\])*"|//.*', "", text))) - _NOT_OURS
+
+
 def prelude(modern: bool, names: Iterable[str] = ()) -> str:
     """The text that comes after the headers and before the checks; neither its names nor ``names`` are macros after it, even if
     one of the headers is called like a standard one.
     """
     typed = "decltype(e)" if modern else "__typeof__(e)"
     standard = "#include <cstdint>\n#include <array>\n#include <memory>\n" if modern else "#include <stdint.h>\n"
-    tools = f"{_TOOLS}{_signatures()}{_RUNNING}"
-    words = re.findall(r"[A-Za-z_]\w*", re.sub(r'"(?:\\.|[^"\\])*"|//.*', "", tools))
-    own = {*words, *names, "UCTS_TYPE", "main"} - _NOT_OURS
+    tools = f"{_TOOLS}{_widths()}{_signatures()}{_RUNNING}"
+    own = {*names_in(tools), *names, "UCTS_TYPE", "main"}
     cleared = without_macros("cpp11" if modern else "cpp03", own)
     return f"{cleared}{_INCLUDES}{standard}{cleared}#define UCTS_TYPE(e) {typed}\n{tools}"
 
 
 _NOT_OURS = {"ref", "PortConnection", "PortElementObject", "Abstract_PortElementObject", "FILE"}
 """What the headers declare, in whatever way, and what may be a macro of the standard library."""
+
+
+_WIDTHS = {f"{u}int{w}_t": f"__{u.upper()}INT{w}_TYPE__" for u in ("", "u") for w in (8, 16, 32, 64)}
+"""Types of fixed width, and what compilers that have such a macro call them."""
+
+
+def _widths() -> str:
+    """Lines that the compiler refuses if a header has made another type of one of fixed width."""
+    return "".join(
+        f"#ifdef {macro}\ntypedef ::ucts::one_of< ::{name}, ::ucts_{name}>::yes {name}_is_taken_first;\n#endif\n"
+        for name, macro in _WIDTHS.items()
+    )
 
 
 _INCLUDES = """\
@@ -87,17 +108,27 @@ template <class M> struct member_type { typedef M member; };
 template <class C, class M> member_type<M> member_of(M C::*);
 
 namespace {
-const char* broken = 0;
+bool broken = false;
+int current = 0;
 const char* token = "";
 ::std::FILE* results = 0;
 }
 struct failed {};
+inline void tell(const char* word, const char* what) {
+    ::std::fprintf(results, "%s %s %d %.200s\\n", token, word, current, what);
+    ::std::fflush(results);
+}
 inline void require(bool condition, const char* what) {
     if (!condition) {
-        broken = broken == 0 ? what : broken;  // decides; the exception only ends the check
+        broken = true;
+        tell("broken", what);  // decides; the exception only ends the check, and runs code of the headers on its way
         throw failed();
     }
 }
+inline bool operator==(const ::std::string& a, const ::std::string& b) { return a.compare(b) == 0; }
+inline bool operator==(const ::std::string& a, const char* b) { return a.compare(b) == 0; }
+inline bool operator==(const ::std::wstring& a, const ::std::wstring& b) { return a.compare(b) == 0; }
+inline bool operator==(const ::std::wstring& a, const wchar_t* b) { return a.compare(b) == 0; }
 template <class C> struct slot { static C* value; };
 template <class C> C* slot<C>::value = 0;
 template <class C> struct kept { static C* value; };
@@ -129,30 +160,32 @@ template <class S, class E> void bounded(const E& element, ::std::size_t most) {
     }
     require(sequence.size() == most, "it holds more elements than the model says");
 }
-inline bool began(int count, char** words) {
-    results = count == 3 ? ::std::fopen(words[1], "w") : 0;
-    token = count == 3 ? words[2] : "";
+inline bool began(const char* path, const char* word) {
+    results = ::std::fopen(path, "w");
+    token = word;
     return results != 0;
 }
 inline void run(int number, void (*check)()) {
-    ::std::fprintf(results, "%s begin %d\\n", token, number);
-    ::std::fflush(results);
-    ::std::string came;
-    broken = 0;
+    current = number;
+    broken = false;
+    tell("begin", "");
     try {
         check();
+        tell(broken ? "over" : "kept", "");
+        return;
     } catch (const failed&) {
+        tell("over", "");
+        return;
     } catch (const ::std::exception& exception) {
-        came = ::std::string("an exception came out: ") + exception.what();
+        tell("broken", (::std::string("an exception came out: ") + exception.what()).c_str());
     } catch (...) {
-        came = "an exception came out";
+        tell("broken", "an exception came out");
     }
-    const char* what = broken == 0 ? came.c_str() : broken;
-    ::std::fprintf(results, "%s %s %d %.200s\\n", token, *what == 0 ? "kept" : "broken", number, what);
-    ::std::fflush(results);
+    tell("over", "");
 }
 inline int ended() {
-    ::std::fprintf(results, "%s end 0\\n", token);
+    current = 0;
+    tell("end", "");
     return ::std::fclose(results);
 }
 }  // namespace ucts
@@ -183,6 +216,9 @@ def _signatures() -> str:
         )
     return "\n".join(text) + "\n"
 
+
+SHARED_POINTERS = {"cpp11": "::std::shared_ptr", "cpp03": "::ucm::shared_ptr"}
+"""The class template of references to interfaces."""
 
 SHARED = "namespace ucts { template <class T> struct pointee<%s<T> > { typedef T type; }; }\n"
 

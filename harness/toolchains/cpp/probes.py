@@ -21,15 +21,26 @@ from ucm_cts.harness.toolchains.cpp.compiling import (
     Error,
     Headers,
     Layout,
+    can_be_named,
     compile_text,
     is_tag,
+    judged_like_all,
     run,
 )
 from ucm_cts.harness.toolchains.cpp.keywords import keyword_of, redefined
 from ucm_cts.harness.toolchains.cpp.linking import Linked, linked
 from ucm_cts.harness.toolchains.cpp.listing import LISTED, RULE, Listed, listed
 from ucm_cts.harness.toolchains.cpp.needs import lacks, line_of
-from ucm_cts.harness.toolchains.cpp.prelude import ARRAY, SAFE_ENUM, SHARED, UCM_ARRAY, prelude
+from ucm_cts.harness.toolchains.cpp.prelude import (
+    ARRAY,
+    SAFE_ENUM,
+    SHARED,
+    SHARED_POINTERS,
+    UCM_ARRAY,
+    names_in,
+    prelude,
+    taken_first,
+)
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.reference_models.cpp import expected as claims
 from ucm_cts.reference_models.cpp.expected import Expected, ExpectedCpp
@@ -51,8 +62,7 @@ HEADERS = {"cpp11": "R-13-04", "cpp03": "R-13.10-01"}
 
 _ROUNDS = 4
 _THREADS = 2
-_RESULT = re.compile(r"(begin|kept|broken|end) (\d+) ?(.*)")
-_OURS = re.compile(r"\b(?:ucts|UCTS_|__)\w*")
+_RESULT = re.compile(r"(begin|kept|broken|over|end) (\d+) ?(.*)")
 _NOT = re.compile(r"holds<false>|holds<\(?false")
 
 
@@ -113,7 +123,7 @@ def check_files(
         for name, text in files.items():
             path = Path(folder) / name
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+            path.write_text(judged_like_all(text), encoding="utf-8")
         return check(expected, Path(folder), headers, compiler, layout)
 
 
@@ -156,7 +166,10 @@ class _Comparing:
         """Whether a header compiles with nothing before it, is the same when it is included again, and leaves keywords alone."""
         own = folder / f"alone-{self._headers.names.index(name)}"
         own.mkdir()
-        text = f'#include "{name}"\n#include "{name}"\n{redefined(self._expected.standard)}int main() {{ return 0; }}\n'
+        if not can_be_named(name):
+            return [self._of_header(repr(name), "no #include can name it", ("", 0))]
+        twice = f"{self._headers.include(name)}\n" * 2
+        text = f"{twice}{redefined(self._expected.standard)}int main() {{ return 0; }}\n"
         compiled = compile_text(text, own, self._headers, self._expected.standard, self._compiler)
         if compiled.problem:
             return [self._of_header(name, compiled.problem, (name, 0))]
@@ -172,9 +185,9 @@ class _Comparing:
         """Compile and run; what failed to compile is left out of the next round, so that the rest is run at last."""
         for attempt in range(_ROUNDS):
             left = [c for c in self._checks if self._is_left(c)]
-            made = folder / f"probes-{attempt}"
+            made, token = folder / f"probes-{attempt}", secrets.token_hex(8)
             compiled = compile_text(
-                self._unit(left),
+                self._unit(left, made.with_suffix(".results"), token),
                 folder,
                 self._headers,
                 self._expected.standard,
@@ -183,9 +196,8 @@ class _Comparing:
                 self._linked.words,
             )
             if not compiled.errors and not compiled.problem:
-                results, token = made.with_suffix(".results"), secrets.token_hex(8)
-                ended = run([str(made), str(results), token], folder, self._compiler)
-                if self._ran(ended, _results(results, token), left):
+                ended = run([str(made)], folder, self._compiler)
+                if self._ran(ended, _results(made.with_suffix(".results"), token), left):
                     return
                 continue
             if not self._sort(compiled):
@@ -240,25 +252,31 @@ class _Comparing:
         begun: int | None = None
         finished = False
         for word, number, what in results:
-            if word == "broken":
-                self._seen.failed[number] = (what, ())
-            elif word == "kept" and number == begun:
-                self._seen.kept.add(number)
-            begun = number if word == "begin" else None
-            finished = finished or word == "end"
+            if word == "begin":
+                begun = number
+            elif word == "end":
+                finished = True
+            elif number == begun and word == "broken":
+                self._seen.failed.setdefault(number, (what, ()))
+            elif number == begun:
+                self._seen.kept |= {number} if word == "kept" else set()
+                begun = None
         status = ended.status or 0
         how = ended.problem or (f"signal {-status}" if status < 0 else f"status {status}")
         self._seen.problem = f"the program of probes ended early: {how}" if status or not finished else ""
         if begun is not None:
-            self._seen.failed[begun] = (f"the program ended here: {how}", ())
+            self._seen.failed.setdefault(begun, (f"the program ended here: {how}", ()))
         self._seen.kept |= {c.number for c in left if not c.text.run}
         return begun is None
 
-    def _unit(self, left: list[Check]) -> str:
+    def _unit(self, left: list[Check], results: Path, token: str) -> str:
+        """What is compiled; only its ``main`` knows the ``token`` and where the ``results`` are written to."""
         modern = self._expected.standard == "cpp11"
-        lines = [f'#include "{name}"' for name in self._headers.names]
+        lines = [taken_first(), *self._headers.all_included]
         probes = self._probes(left, modern)
-        lines += ['#line 1 "prelude#0"', prelude(modern, _OURS.findall(probes)), probes]
+        began = f'if (!::ucts::began("{results}", "{token}")) {{ return 3; }}'
+        main = ['#line 1 "running#0"', "int main() {", began, *_calls(left), "return ::ucts::ended(); }", ""]
+        lines += ['#line 1 "prelude#0"', prelude(modern, names_in(probes)), probes, *main]
         return "\n".join(lines).replace("<::", "< ::")  # <: is [ in C++03
 
     def _probes(self, left: list[Check], modern: bool) -> str:
@@ -274,15 +292,7 @@ class _Comparing:
             if abstract.key in wanted and abstract.key not in broken:
                 lines += [f'#line 1 "body#{abstract.key}"', implementation(abstract).replace("\n", " ")]
         lines += [text for check in left for text in _inside(check)]
-        lines += [
-            '#line 1 "running#0"',
-            "int main(int count, char** words) {",
-            "if (!::ucts::began(count, words)) { return 3; }",
-        ]
-        for check in left:
-            if check.text.run:
-                lines.append(f"::ucts::run({check.number}, &ucts_check_{check.number}::run_it);")
-        return "\n".join([*lines, "return ::ucts::ended(); }", ""])
+        return "\n".join(lines)
 
     def _with_references(self, keys: set[str]) -> set[str]:
         wanted = set(keys)
@@ -294,9 +304,10 @@ class _Comparing:
     def _support(self, modern: bool) -> dict[str, str]:
         """What probes need of class templates that C++03 leaves to the framework, each only if something needs it."""
         if modern:
-            return {"shared_ptr": SHARED % "::std::shared_ptr", "array": ARRAY}
+            return {"shared_ptr": SHARED % SHARED_POINTERS["cpp11"], "array": ARRAY}
         needed = {_needs(c.expected.claim) for c in self._checks}
-        every = {"shared_ptr": SHARED % "::ucm::shared_ptr", "array": UCM_ARRAY, "safe_enum": SAFE_ENUM}
+        shared = SHARED % SHARED_POINTERS["cpp03"]
+        every = {"shared_ptr": shared, "array": UCM_ARRAY, "safe_enum": SAFE_ENUM}
         return {name: text for name, text in every.items() if name in needed}
 
     def _told(self, of_headers: list[Difference], listing: Listed) -> Comparison:
@@ -408,10 +419,15 @@ def _outside(check: Check, is_left: bool) -> Iterator[str]:
 
 def _inside(check: Check) -> Iterator[str]:
     yield f'#line 1 "{check.tag}"'
-    body = check.text.declared
+    body = "using ::ucts::operator==; " if "==" in check.text.declared + check.text.run else ""
+    body += check.text.declared
     if check.text.run:
         body += f" inline void run_it() {{ {check.text.run} }}"
     yield f"namespace ucts_check_{check.number} {{ {body} }}"
+
+
+def _calls(checks: Iterable[Check]) -> Iterator[str]:
+    return (f"::ucts::run({c.number}, &ucts_check_{c.number}::run_it);" for c in checks if c.text.run)
 
 
 def _results(path: Path, token: str) -> Iterator[tuple[str, int, str]]:

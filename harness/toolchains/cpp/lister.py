@@ -1,0 +1,219 @@
+"""Looks at declarations with libclang: a program of its own, because headers can make libclang take all time and memory.
+
+It is given the name of a file with a ``Request`` and prints ``Answers``; ``listing`` runs it within limits.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Literal
+
+import msgspec
+
+from ucm_cts.adapters.contract.value import Value
+
+try:
+    from clang import cindex  # type: ignore[import-untyped, unused-ignore]
+except ImportError:
+    cindex = None
+
+ELEMENTS = ("PortElementObject", "Abstract_PortElementObject")
+FILE = "listed.cpp"
+ASKED = "asked"
+"""What the text calls that which a question is about, in a namespace of the question's own."""
+
+
+class Question(Value, frozen=True):
+    """``line`` of the text is where it stands, ``place`` the namespace that it has there; ``members`` are what may be there."""
+
+    number: int
+    line: int
+    place: str
+    kind: Literal["not-corba", "nothing-else", "no-operations", "not-in-header"]
+    members: tuple[str, ...] = ()
+
+
+class Request(Value, frozen=True):
+    """A translation unit of headers in ``folder``, included in its first ``included`` lines, and questions.
+
+    ``attempts`` are options, of which the first that libclang understands count.
+    """
+
+    text: str
+    included: int
+    folder: str
+    attempts: tuple[tuple[str, ...], ...]
+    questions: tuple[Question, ...]
+
+
+class Found(Value, frozen=True):
+    """Something that should not be there, and where that is; ``file`` is relative to the folder, or empty."""
+
+    observed: str
+    file: str = ""
+    line: int = 0
+
+
+class Answer(Value, frozen=True):
+    """What was found; ``missing`` is why nothing can be said."""
+
+    number: int
+    missing: str = ""
+    found: tuple[Found, ...] = ()
+
+
+class Answers(Value, frozen=True):
+    """One answer for each question, or none and the ``problem``."""
+
+    answers: tuple[Answer, ...] = ()
+    problem: str = ""
+
+
+class NotThere(Exception):
+    """What is to be looked at is not declared; another check tells."""
+
+
+def answers(request: Request) -> Answers:
+    """What libclang has to say of ``request``."""
+    if cindex is None:
+        return Answers(problem="libclang cannot be used: install the package libclang")
+    told = Answers(problem="nothing was tried")
+    for options in request.attempts:
+        told = _Tree(request, options).answers()
+        if not told.problem:
+            break
+    return told
+
+
+class _Tree:
+    """The declarations in a translation unit."""
+
+    def __init__(self, request: Request, options: tuple[str, ...]) -> None:
+        self._request = request
+        self._folder = Path(request.folder)
+        self._options = options
+        self._missing: dict[int, str] = {}
+
+    def answers(self) -> Answers:
+        unsaved = [(FILE, self._request.text)]
+        try:
+            unit = cindex.Index.create().parse(FILE, args=list(self._options), unsaved_files=unsaved)
+        except (cindex.LibclangError, cindex.TranslationUnitLoadError) as error:
+            return Answers(problem=f"libclang cannot be used: {error}")
+        for diagnostic in unit.diagnostics:
+            if diagnostic.severity >= cindex.Diagnostic.Error and not self._is_of_questions(diagnostic):
+                return Answers(problem=f"libclang does not understand the headers: {diagnostic.spelling[:200]}")
+        places = {c.spelling: c for c in unit.cursor.get_children() if c.kind == cindex.CursorKind.NAMESPACE}
+        return Answers(tuple(self._answer(one, places.get(one.place)) for one in self._request.questions))
+
+    def _is_of_questions(self, diagnostic: Any) -> bool:
+        """Whether an error is in what follows the headers, or in what that makes of their templates; noted for its question."""
+        asked = {question.line: question.number for question in self._request.questions}
+        places = [diagnostic.location, *(note.location for note in diagnostic.children)]
+        lines = [p.line for p in places if p.file is not None and p.file.name == FILE]
+        for line in lines:
+            if line in asked:
+                self._missing.setdefault(asked[line], diagnostic.spelling[:200])
+        return any(line > self._request.included for line in lines)
+
+    def _answer(self, one: Question, place: Any) -> Answer:
+        missing = self._missing.get(one.number, "" if place is not None else "it was not read")
+        if missing:
+            return Answer(one.number, missing)
+        try:
+            return Answer(one.number, "", tuple(self._look(one, place)))
+        except NotThere as error:
+            return Answer(one.number, str(error))
+
+    def _look(self, one: Question, place: Any) -> Iterator[Found]:
+        """What is wrong. Raises ``NotThere``."""
+        asked = next((c for c in place.get_children() if c.spelling == ASKED), None)
+        if asked is None:
+            raise NotThere("it was not read")
+        if one.kind == "not-in-header":
+            yield from self._defined(asked)
+            return
+        owner = asked.underlying_typedef_type.get_canonical().get_declaration()
+        owner = owner.get_definition() or owner
+        if owner.kind == cindex.CursorKind.NO_DECL_FOUND:
+            raise NotThere("it is no class")
+        if one.kind == "not-corba":
+            for base in _bases(owner):
+                if _path(base).startswith("::CORBA::"):
+                    yield self._found(f"it derives from {_path(base)}", base)
+        elif one.kind == "nothing-else":
+            for method in _pure(owner):
+                if method.spelling not in one.members:
+                    yield self._found(f"{method.spelling} is pure virtual", method)
+        else:
+            elements = [b for b in _bases(owner) if b.spelling in ELEMENTS]
+            if not elements:
+                raise NotThere("no class PortElementObject is derived from")
+            for method in _methods(elements[0]):
+                if method.is_virtual_method():
+                    yield self._found(f"{elements[0].spelling} has {method.spelling}", method)
+
+    def _defined(self, asked: Any) -> Iterator[Found]:
+        uses = (c.referenced for c in asked.walk_preorder() if c.kind == cindex.CursorKind.DECL_REF_EXPR)
+        variable = next((v for v in uses if v is not None and v.kind == cindex.CursorKind.VAR_DECL), None)
+        if variable is None:
+            raise NotThere("it is no variable")
+        definition = variable.get_definition()
+        if definition is not None:
+            yield self._found("a header defines it", definition)
+
+    def _found(self, observed: str, cursor: Any) -> Found:
+        place = cursor.location
+        file = Path(place.file.name).resolve() if place.file is not None else Path()
+        if not file.is_relative_to(self._folder):
+            return Found(observed)
+        return Found(observed, str(file.relative_to(self._folder)), place.line)
+
+
+def _bases(cursor: Any) -> list[Any]:
+    """All classes that the class derives from, nearest first."""
+    found: dict[str, Any] = {}
+    waiting = [cursor]
+    while waiting:
+        for child in waiting.pop(0).get_children():
+            if child.kind == cindex.CursorKind.CXX_BASE_SPECIFIER:
+                base = child.type.get_canonical().get_declaration()
+                if _path(base) not in found:
+                    found[_path(base)] = base
+                    waiting.append(base)
+    return list(found.values())
+
+
+def _pure(cursor: Any) -> Iterator[Any]:
+    overridden: set[str] = set()
+    for each in [cursor, *_bases(cursor)]:
+        if each.spelling in ELEMENTS:
+            continue
+        for method in _methods(each):
+            if method.is_pure_virtual_method() and method.spelling not in overridden:
+                yield method
+        overridden |= {m.spelling for m in _methods(each) if not m.is_pure_virtual_method()}
+
+
+def _methods(cursor: Any) -> Iterator[Any]:
+    return (c for c in cursor.get_children() if c.kind == cindex.CursorKind.CXX_METHOD)
+
+
+def _path(cursor: Any) -> str:
+    parts: list[str] = []
+    while cursor is not None and cursor.kind != cindex.CursorKind.TRANSLATION_UNIT and cursor.spelling:
+        parts.append(cursor.spelling)
+        cursor = cursor.semantic_parent
+    return "::" + "::".join(reversed(parts))
+
+
+def main(name: str) -> None:
+    """Answer the request in the file ``name``."""
+    request = msgspec.json.decode(Path(name).read_bytes(), type=Request)
+    sys.stdout.buffer.write(msgspec.json.encode(answers(request)))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
