@@ -53,7 +53,7 @@ from ucm_cts.harness.stating.applicability import purposes_for
 from ucm_cts.harness.stating.files import check_subject, stated_by
 from ucm_cts.harness.stating.writing import write_statement, write_toolchain_statement
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
-from ucm_cts.harness.toolchains.command import certify_toolchain
+from ucm_cts.harness.toolchains.command import certify_toolchain, profiles_of
 from ucm_cts.harness.toolchains.description import read_toolchain
 from ucm_cts.reference_models.judgement import Judge
 
@@ -245,7 +245,8 @@ def ics(context: click.Context, adapter: str, out: Path, toolchain: Path | None,
     if toolchain is not None:
         _refuse(context, ("adapter",))
         subject = f"--toolchain {toolchain}"
-        write_toolchain_statement(out, read_toolchain(toolchain), toolchain, force)
+        described = read_toolchain(toolchain)
+        write_toolchain_statement(out, described, profiles_of(described), toolchain, force)
     else:
         with ends_like_interrupts(), Driver(locate(adapter), 0) as driver:
             identity = driver.identity
@@ -279,6 +280,10 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
 
     Exit status 1 if any rule was broken.
     """
+    if file.suffix == ".xml":
+        raise WrongUse(
+            f"{file} is a model and no scenario; the report shows the command that gives it to the tool chain again"
+        )
     scripts = read_scripts(file)
     judge = Judge(load_life_cycle(), stated_by(ics, adapter).claims)
     console = Output()

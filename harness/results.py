@@ -60,6 +60,10 @@ class Execution(Value, frozen=True):
     incident: Incident | None = None
 
 
+MODEL_FILE, OUT_FOLDER = "model.xml", "out"
+"""What commands of tool chains are shown with, for a model and for the folder of what is made of it."""
+
+
 class Processed(Value, frozen=True):
     """One model through one command of a tool chain. ``name`` is the question's, ``task`` what was asked, ``status`` the exit
     status, None if it did not end by itself; ``output`` what it printed. ``twin`` is the legal model that ``model`` was

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import html
 import json
+import re
+import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -142,6 +146,44 @@ def test_a_failure_shows_the_model_and_how_to_try_again(here: Path) -> None:
     assert f"{FAKE} accepts_everything check {finding['model']}" in junit
 
 
+@pytest.mark.parametrize(("task", "arguments"), [("check", "{model}"), ("idl", "{model} {out}")])
+def test_the_command_of_a_failure_runs_in_the_folder_of_the_report(here: Path, task: str, arguments: str) -> None:
+    tool = here / "tool.sh"
+    tool.write_text('#!/bin/sh\ntest -f "$1" && test -d "${2:-.}" && echo "$1:1: note"\n')
+    tool.chmod(0o755)
+    words = json.dumps(["./tool.sh", *arguments.split()])
+    (here / "t.toml").write_text(f'product = "p"\nversion = "1"\n[{task}]\ncommand = {words}\n')
+    profile = "pim" if task == "check" else task
+    selected = CASE if task == "check" else "constants"
+    assert ucm_cts("run", "--toolchain", "t.toml", "--profile", profile, "-k", selected, "--out", "out").status == 1
+    junit = html.unescape((here / "out" / "junit.xml").read_text())
+    told = re.findall(r"again, in the folder of this report: +(.+)", junit)
+    assert told
+    for command in told[:3]:
+        done = subprocess.run(["sh", "-c", command], cwd=here / "out", capture_output=True, text=True, check=False)
+        assert (done.returncode, done.stderr) == (0, ""), command
+        assert re.fullmatch(r"failures/R-\S+\.xml:1: note\n", done.stdout)
+
+
+def test_a_model_is_no_scenario_to_replay(here: Path) -> None:
+    (here / "R-9.2.4.3-02.xml").write_text("<Model/>")
+    outcome = ucm_cts("replay", "R-9.2.4.3-02.xml", "reference-py")
+    assert (outcome.status, outcome.err.count("\n")) == (2, 1)
+    assert "is a model and no scenario" in outcome.err
+
+
+def test_a_statement_claims_what_the_tool_chain_can_do(here: Path) -> None:
+    toolchain = describe(here / "t.toml", ["true", "{model}"])
+    assert ucm_cts("ics", "--toolchain", toolchain, "--out", "ics.toml").status == 0
+    stated = tomllib.loads((here / "ics.toml").read_text())
+    assert stated["profiles"] == ["pim"]
+    assert not [option for option in stated["readings"] if option.startswith(("idl-", "cpp-"))]
+    (here / "none.toml").write_text('product = "p"\nversion = "1"\n')
+    outcome = ucm_cts("ics", "--toolchain", "none.toml", "--out", "other.toml")
+    assert (outcome.status, outcome.err.count("\n")) == (2, 1)
+    assert "says of no task how it is done" in outcome.err
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
@@ -155,6 +197,13 @@ def test_a_failure_shows_the_model_and_how_to_try_again(here: Path) -> None:
         ('product = "p"\nversion = "1"\n[dialect.attributes]\n"Structure.nam" = "x"', "did you mean"),
         ('product = "p"\nversion = "1"\n[check]\ncommand = ["true"]', "does not name {model}"),
         ('product = "p"\nversion = "1"\n[check]\ncommand = []', "is empty"),
+        ('product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}", "{models}"]', "{model} and {models}"),
+        ('product = "p"\nversion = "1"\n[check]\ncommand = ["true", "-i{models}"]', "as a word of its own"),
+        ('product = "p"\nversion = "1"\n[idl]\ncommand = ["true", "{models}", "{out}"]', "only checkers take several"),
+        (
+            'product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\nheaders = ["x.hpp"]',
+            "it belongs in [cpp11] or [cpp03]",
+        ),
         ('product = "p"\nversion = "1"\n[idl]\ncommand = ["true", "{model}"]', "does not name {out}"),
         ('product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\nrefuses = [0]', "0 accepts it"),
         (

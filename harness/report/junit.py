@@ -90,7 +90,9 @@ def _story(result: RequirementResult, report: Report) -> str:
             parts[-1] += failure_text(finding, failed.execution)
         if failed.processed is not None:
             file = file_name(result.id, number, "xml")
-            parts[-1] += f"again:    {command_text(failed.processed, file)}\n\n{processed_text(failed.processed)}"
+            parts[-1] += (
+                f"again, in the folder of this report:    {command_text(failed.processed, file)}\n\n{processed_text(failed.processed)}"
+            )
         if failed.steady is not None:
             parts.append(f"not shown when it was run again:\n\n{to_text(excerpt(failed.steady))}")
     if len(shortest) > FINDINGS:

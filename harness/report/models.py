@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ucm_cts.harness.results import Processed
+from ucm_cts.harness.results import MODEL_FILE, OUT_FOLDER, Processed
 
 AROUND = 4
 """Lines shown before and after each one that was changed."""
@@ -53,8 +53,10 @@ def model_text(lines: Sequence[ModelLine]) -> str:
 
 
 def command_text(processed: Processed, file: str) -> str:
-    """The command that processes ``file``, the saved model, again."""
-    return shlex.join(word.replace("model.xml", file) for word in processed.command)
+    """The command that processes ``file``, the saved model, again, from the report's folder."""
+    words = [word.replace(MODEL_FILE, file) for word in processed.command]
+    folder = "" if processed.task == "check" else f"mkdir -p {OUT_FOLDER} && "
+    return folder + shlex.join(words)
 
 
 def ending(processed: Processed) -> str:

@@ -28,9 +28,11 @@ def write_statement(out: Path, identity: Identity, adapter: str, force: bool = F
     _write(out, msgspec.structs.replace(known, models=models, profiles=profiles), identity, adapter, force)
 
 
-def write_toolchain_statement(out: Path, identity: Identity, description: Path, force: bool = False) -> None:
-    """The same for the vendor of the tool chain that the file ``description`` describes. Raises ``WrongUse``."""
-    statement = msgspec.structs.replace(default_statement(), profiles=TOOLCHAIN_PROFILES)
+def write_toolchain_statement(
+    out: Path, identity: Identity, profiles: tuple[str, ...], description: Path, force: bool = False
+) -> None:
+    """The same for the vendor of the tool chain that the file ``description`` describes, which claims ``profiles``. Raises ``WrongUse``."""
+    statement = msgspec.structs.replace(default_statement(), profiles=profiles)
     _write(out, statement, identity, f"--toolchain {description}", force)
 
 
@@ -67,7 +69,8 @@ def to_toml(statement: Statement, adapter: str, file: str) -> str:
     environment.filters["comment"] = _comment
     families = [f for f in (FRAMEWORK_PROFILES, TOOLCHAIN_PROFILES) if set(f).intersection(statement.profiles)]
     profiles = [profile for family in families for profile in family]
-    parts = {part for profile in profiles for part in PARTS[profile]}
+    asked = {*FRAMEWORK_PROFILES, *statement.profiles}.intersection(profiles)
+    parts = {part for profile in asked for part in PARTS[profile]}
     return environment.get_template("ics.toml.jinja").render(
         statement=statement,
         adapter=adapter,

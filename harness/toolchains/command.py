@@ -17,7 +17,7 @@ from ucm_cts.harness.stating.files import check_subject, read_statement
 from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.harness.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
-from ucm_cts.harness.toolchains.description import read_toolchain
+from ucm_cts.harness.toolchains.description import ToolChain, read_toolchain
 from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.processing import CommandLine
@@ -71,6 +71,14 @@ def certify_toolchain(
         console.print("interrupted: the report holds what was measured so far")
     status = NOT_CONFORMANT if outdated or interrupted or not succeeded(report) else CONFORMANT
     leave(console, status, f"; the report is in {out}")
+
+
+def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:
+    """The profiles that ``toolchain`` says a command for. Raises ``WrongUse`` if there is none."""
+    profiles = tuple(p for p in TOOLCHAIN_PROFILES if toolchain.command_for(TASKS[p]) is not None)
+    if not profiles:
+        raise WrongUse(f"{toolchain.source} says of no task how it is done; there is [check], [idl], [cpp11], [cpp03]")
+    return profiles
 
 
 def _conduct(campaign: ToolChainCampaign, models: int, console: Output) -> bool:

@@ -108,6 +108,10 @@ _OURS = ("folder", "source")
 """Fields that no file gives."""
 
 
+_OF_CPP = ("compiler", "include", "headers", "sources", "libraries")
+"""Fields of a command that only tasks of C++ have."""
+
+
 def _check_keys(path: Path, document: dict[str, Any], lines: dict[str, int]) -> None:
     """Tell keys that mean nothing, and commands that are no lists, before their values are looked at."""
     tables = {"": (document, ToolChain)} | {
@@ -122,6 +126,9 @@ def _check_keys(path: Path, document: dict[str, Any], lines: dict[str, int]) -> 
                 close = difflib.get_close_matches(str(key), known, 1)
                 hint = f"did you mean '{close[0]}'?" if close else f"there is {', '.join(known)}"
                 raise DocumentError(path, lines.get(f"{prefix}{key}"), f"there is no key '{str(key)[:60]}'; {hint}")
+            if key in _OF_CPP and prefix in ("check.", "idl."):
+                told = f"{key} says how C++ is compiled; it belongs in [cpp11] or [cpp03]"
+                raise DocumentError(path, lines.get(f"{prefix}{key}"), told)
         if isinstance(table.get("command"), str):
             told = "a command is a list: write each word in quotes, with commas between them, in brackets"
             raise DocumentError(path, lines.get(f"{prefix}command"), told)
@@ -156,6 +163,15 @@ def _check(path: Path, task: Task, command: Command | None, lines: dict[str, int
     if not command.command:
         raise wrong("command", f"the command for {task} is empty; write the program and its arguments, each in quotes")
     several = task == "check" and MODELS in command.command
+    if several and MODEL in words:
+        raise wrong(
+            "command", f"the command for check names {MODEL} and {MODELS}; write {MODELS} if it takes several at once"
+        )
+    if MODELS in words and not several:
+        instead = (
+            f"write {MODELS} as a word of its own" if task == "check" else f"only checkers take several; write {MODEL}"
+        )
+        raise wrong("command", f"the command for {task} names {MODELS}; {instead}")
     if MODEL not in words and not several:
         raise wrong("command", f"the command for {task} does not name {MODEL}, which stands for the model's file")
     if task != "check" and OUT not in words:

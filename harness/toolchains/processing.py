@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 import signal
-import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
 from ucm_cts.adapters.toolchain.program import Program
-from ucm_cts.harness.results import Incident, Processed
-from ucm_cts.harness.toolchains.bounded import Ended, run
+from ucm_cts.harness.results import MODEL_FILE, OUT_FOLDER, Incident, Processed
+from ucm_cts.harness.toolchains.bounded import Ended, own_folder, run
 from ucm_cts.harness.toolchains.description import MODEL, MODELS, OUT, Command, Task, ToolChain, program
-
-MODEL_FILE = "model.xml"
 
 SEVERAL = 40
 """Models for one call that takes several."""
@@ -23,6 +23,9 @@ SEVERAL = 40
 _OUTPUT = 1 << 18
 _FILES = 2_000
 _FILES_BYTES = 64 << 20
+_ENTRIES = 20_000
+_DEEPEST = 50
+"""Levels of folders below the folder for files that are looked into."""
 
 
 @dataclass(frozen=True)
@@ -72,12 +75,12 @@ class CommandLine:
 
     def _together(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made] | None:
         command, words = self._programs[task]
-        with tempfile.TemporaryDirectory(prefix="ucm-cts-") as folder:
-            files = [Path(folder) / f"model-{number}.xml" for number in range(len(models))]
+        with own_folder() as folder:
+            files = [folder / f"model-{number}.xml" for number in range(len(models))]
             for file, (_, text) in zip(files, models, strict=True):
                 file.write_text(text, encoding="utf-8")
             filled = [str(f) for word in words for f in (files if word == MODELS else (word,))]
-            ended = run(filled, Path(folder), self._toolchain)
+            ended = run(filled, folder, self._toolchain)
         if ended.incident or _odd_status(ended.status, command) or _died(ended):
             return None
         told: dict[str, list[str]] = {str(file): [] for file in files}
@@ -91,7 +94,7 @@ class CommandLine:
                 told[named].append(line.replace(named, MODEL_FILE))
         if (ended.status == 0) == any(told.values()):
             return None
-        shown = tuple(word.replace(MODELS, MODEL_FILE) for word in command.command)
+        shown = tuple(word.replace(MODELS, MODEL_FILE) for word in _by_hand(command, words))
         made = []
         for (name, text), lines in zip(models, told.values(), strict=True):
             output = "".join(f"{line}\n" for line in lines)
@@ -101,14 +104,14 @@ class CommandLine:
 
     def process(self, task: Task, name: str, text: str) -> Made:
         command, words = self._programs[task]
-        with tempfile.TemporaryDirectory(prefix="ucm-cts-") as folder:
-            model, out = Path(folder) / MODEL_FILE, Path(folder) / "out"
+        with own_folder() as folder:
+            model, out = folder / MODEL_FILE, folder / OUT_FOLDER
             model.write_text(text, encoding="utf-8")
             out.mkdir()
             filled = [_filled(word, str(model), str(out)) for word in words]
-            ended = run(filled, Path(folder), self._toolchain)
+            ended = run(filled, folder, self._toolchain)
             output = ended.output.replace(f"{folder}/", "")
-            shown = tuple(_filled(word, MODEL_FILE, "out") for word in command.command)
+            shown = tuple(_filled(word, MODEL_FILE, OUT_FOLDER) for word in _by_hand(command, words))
             incident = ended.incident or _odd_status(ended.status, command) or _died(ended)
             processed = Processed(name, task, text, shown, ended.status, output, incident)
             if incident is not None:
@@ -116,6 +119,13 @@ class CommandLine:
             accepted = ended.status == 0
             lines = named_lines(output, command.diagnostic, text)
             return Made(processed, accepted, lines, _files(out) if accepted else {})
+
+
+def _by_hand(command: Command, words: Sequence[str]) -> tuple[str, ...]:
+    """``command`` as it can be typed in any folder; ``words`` are the same with the program as it was found."""
+    name = command.command[0]
+    on_the_path = "/" not in name and shutil.which(name) is not None
+    return (name if on_the_path else words[0], *words[1:])
 
 
 def _filled(word: str, model: str, out: str) -> str:
@@ -166,9 +176,18 @@ def _odd_status(status: int | None, command: Command) -> Incident | None:
     if status is None or status == 0 or status in command.refuses:
         return None
     if status < 0:
-        return Incident("crash", f"killed by {signal.Signals(-status).name}")
+        return Incident("crash", f"killed by {_signal_name(-status)}")
     listed = ", ".join(map(str, command.refuses))
     return Incident("exit", f"exit status {status}, which neither accepts (0) nor refuses ({listed})")
+
+
+def _signal_name(number: int) -> str:
+    """Real-time signals have no names of their own."""
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        beyond = number - signal.SIGRTMIN
+        return f"SIGRTMIN+{beyond}" if beyond > 0 else f"signal {number}"
 
 
 _REMARK = re.compile(r"\s*(warning|note|info|information|remark|hint)\b", re.IGNORECASE)
@@ -188,14 +207,32 @@ def _died(ended: Ended) -> Incident | None:
 
 
 def _files(out: Path) -> dict[str, str]:
-    """The text files below ``out``; links and what is beyond the limits are left out."""
+    """The text files below ``out``; links, what cannot be read and what is beyond the limits are left out."""
     found: dict[str, str] = {}
     left = _FILES_BYTES
-    for path in sorted(out.rglob("*")):
-        if len(found) == _FILES or path.is_symlink() or not path.is_file():
-            continue
-        left -= path.stat().st_size
-        if left < 0:
+    for path in sorted(_paths(out)):
+        if len(found) == _FILES:
             break
-        found[str(path.relative_to(out))] = path.read_text(encoding="utf-8", errors="replace")
+        with suppress(OSError):
+            left -= path.stat().st_size
+            if left < 0:
+                break
+            found[str(path.relative_to(out))] = path.read_text(encoding="utf-8", errors="replace")
     return found
+
+
+def _paths(out: Path) -> Iterator[Path]:
+    """The plain files below ``out``, as far as its folders nest and hold entries within the limits."""
+    waiting = [] if out.is_symlink() else [(out, 0)]
+    entries = 0
+    while waiting:
+        folder, depth = waiting.pop()
+        with suppress(OSError), os.scandir(folder) as inside:
+            for entry in inside:
+                entries += 1
+                if entries > _ENTRIES:
+                    return
+                if entry.is_dir(follow_symlinks=False) and depth < _DEEPEST:
+                    waiting.append((Path(entry.path), depth + 1))
+                elif entry.is_file(follow_symlinks=False):
+                    yield Path(entry.path)
