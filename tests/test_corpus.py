@@ -8,7 +8,9 @@ from lxml import etree
 from ucm_cts.adapters.toolchain.program import reference
 from ucm_cts.harness.catalogue import SUITE, load_requirements
 from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.harness.toolchains.acceptance import Answer, Judgement, judge
 from ucm_cts.harness.toolchains.corpus import Question, load_operators, questions
+from ucm_cts.harness.toolchains.unprinted import CONSTRUCTS
 
 PROGRAM = reference()
 REQUIREMENTS = {r.id: r for r in load_requirements()}
@@ -72,3 +74,30 @@ def test_the_suite_s_own_models_are_legal() -> None:
         model, told = PROGRAM.check(text, "model.xml")
         assert model is not None
         assert not told, "\n".join(map(str, told))
+
+
+ASKED = [q for asked in DEFAULT.values() for q in asked]
+
+
+def test_all_that_is_not_printed_is_in_some_legal_model() -> None:
+    legal = "\n\n".join(q.text for q in ASKED if q.due == "accept")
+    elements = {name: pattern for name, pattern in CONSTRUCTS.items() if not name.startswith("root")}
+    assert not [name for name, pattern in elements.items() if not pattern.search(legal)]
+
+
+@pytest.mark.parametrize("construct", CONSTRUCTS)
+def test_who_does_not_know_our_spelling_neither_fails_nor_passes(construct: str) -> None:
+    judged = _judged_without({q.name for q in ASKED if CONSTRUCTS[construct].search(q.text)})
+    assert not [j.question.name for j in judged if j.outcome == "broken"]
+    assert any(j.outcome == "unclear" and not j.elsewhere for j in judged)
+
+
+@pytest.mark.parametrize("construct", CONSTRUCTS)
+def test_who_knows_our_spelling_elsewhere_is_held_to_it(construct: str) -> None:
+    having = [q for q in ASKED if q.due == "accept" and not q.twin and CONSTRUCTS[construct].search(q.text)]
+    assert any(j.outcome == "broken" for j in _judged_without({min(having, key=lambda q: len(q.text)).name}))
+
+
+def _judged_without(refused: set[str]) -> list[Judgement]:
+    """What becomes of a tool chain that answers as it must, but refuses the models of these names."""
+    return judge(ASKED, {q.name: Answer(q.due == "accept" and q.name not in refused) for q in ASKED})
