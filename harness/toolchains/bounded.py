@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+import secrets
 import select
+import shutil
 import signal
 import subprocess
+import tempfile
 import time
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
@@ -55,16 +58,18 @@ def run(
     apart: bool = False,
     environment: Mapping[str, str] | None = None,
 ) -> Ended:
-    """Run ``words`` in ``folder`` in a process group of its own, none of which is left afterwards.
+    """Run ``words`` in ``folder`` in a process group of its own, of which no process is left afterwards, nor any that has left the
+    group and still has the environment it began with. One that leaves the group and its environment both is not found.
 
     Of what it prints the first ``kept`` bytes are told, and more than ``flood`` end it. With ``apart`` errors are told
     apart from output. Never raises for what the command does.
     """
+    mark = secrets.token_hex(16)
     try:
         process = subprocess.Popen(
             words,
             cwd=folder,
-            env=environment,
+            env={**(os.environ if environment is None else environment), _MARK: mark},
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE if apart else subprocess.STDOUT,
@@ -79,7 +84,8 @@ def run(
         finally:
             with suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
-        status = process.wait()
+            status = process.wait()
+            _end_strays(process.pid, mark)
     return Ended(status if incident is None else None, *watch.told, incident)
 
 
@@ -138,6 +144,55 @@ class _Watch:
             return False
         self._looked = now
         return _resident(self._process.pid) > self._limits.memory * _MIB
+
+
+_MARK = "UCM_CTS_RUN"
+"""The variable in the environment by which all processes of a run are known."""
+
+_ROUNDS = 50
+"""How often strays are looked for that start others while they are ended."""
+
+
+def _end_strays(first: int, mark: str) -> None:
+    """End the processes with ``mark`` in their environment, all of which began after the one with the number ``first``."""
+    wanted = f"{_MARK}={mark}".encode()
+    for _ in range(_ROUNDS):
+        strays = [number for number in _since(first) if wanted in _environment_of(number)]
+        if not strays:
+            return
+        for number in strays:
+            with suppress(OSError):
+                os.kill(number, signal.SIGKILL)
+        time.sleep(0.001)
+
+
+def _since(first: int) -> Iterator[int]:
+    """The processes with numbers that have been given since ``first``; all of them if counting has begun anew."""
+    last = int(Path("/proc/loadavg").read_text().split()[-1])
+    for name in os.listdir("/proc"):
+        if name.isdecimal() and (last < first or int(name) > first):
+            yield int(name)
+
+
+def _environment_of(number: int) -> list[bytes]:
+    """With what environment a process began; nothing if it is gone or somebody else's."""
+    with suppress(OSError), open(f"/proc/{number}/environ", "rb") as stream:
+        return stream.read().split(b"\0")
+    return []
+
+
+@contextmanager
+def own_folder() -> Iterator[Path]:
+    """A new folder for a run, of which nothing is left afterwards, however deep the run has nested it."""
+    folder = Path(tempfile.mkdtemp(prefix="ucm-cts-"))
+    try:
+        yield folder
+    finally:
+        try:
+            shutil.rmtree(folder)
+        except (OSError, RecursionError):
+            for command in (("chmod", "-R", "u+rwx"), ("rm", "-rf")):
+                subprocess.run([*command, "--", str(folder)], stderr=subprocess.DEVNULL, check=False)
 
 
 def _resident(group: int) -> int:
