@@ -92,6 +92,16 @@ FREEDOMS: Mapping[str, Freedom] = {
     "accessors_for_constants": Freedom(
         [(r"(virtual \S+ (?:name|age|serial|level|weight|remark)\(\)) = 0", r"\1 const = 0")]
     ),
+    "functions_defined_by_a_sister": Freedom(
+        [
+            (
+                r"class Abstract_unrelated \{\n  public:\n",
+                "struct Identified {\n    virtual ~Identified() {}\n    virtual int identity() = 0;\n};\n"
+                "struct Numbered : virtual Identified {\n    virtual int identity() { return 1; }\n};\n"
+                "class Abstract_unrelated : public virtual Identified, public Numbered {\n  public:\n",
+            )
+        ]
+    ),
     "sizes_without_sign": Freedom(
         [(r"template <class T, ::std::size_t N>", "template <class T, unsigned N>")], ("cpp03",)
     ),

@@ -71,6 +71,21 @@ VALUES: Mapping[str, Wrong] = {
     ),
 }
 
+_SETTERS = {
+    "read_only_is_read_into": "::interfaces::text_t&",
+    "read_only_is_written_from_anywhere": "const void*",
+    "read_only_is_written_as_characters": "const char*",
+    "read_only_is_written_as_something": "const ::interfaces::record_t&",
+}
+SETTERS: Mapping[str, Wrong] = {
+    name: Wrong(
+        "interfaces",
+        "R-13.5-05",
+        [(r"(    virtual ::interfaces::text_t name\(\) = 0;\n)", rf"\1    virtual void name({taken}) {{}}\n")],
+    )
+    for name, taken in _SETTERS.items()
+}
+
 ROOTS: Mapping[str, Wrong] = {
     "system_exceptions_are_the_users": Wrong(
         "interfaces",
@@ -154,5 +169,5 @@ REPLACEMENTS: Mapping[str, Wrong] = {
     ),
 }
 
-for _wrong in (VALUES, ROOTS, REPLACEMENTS):
+for _wrong in (VALUES, SETTERS, ROOTS, REPLACEMENTS):
     register(_wrong)

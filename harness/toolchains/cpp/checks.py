@@ -358,12 +358,8 @@ def _of_classes(claim: claims.Claim) -> Text | None:
             says = f"{what} of {class_words(owner)}::{method} is {_words(types)}"
             return Text(says, f"{_function(claim)} {_one_of(found, types)}", of_functions=True)
         case claims.NoMutator(owner, method, type_):
-            declared = (
-                f"template <class T> ::ucts::yes_type has(char (*)[sizeof((::ucts::make<T>().{method}("
-                f"::ucts::make<const {type_} >()), 0))]); template <class T> ::ucts::no_type has(...);"
-            )
-            absent = _holds(f"sizeof(has<{class_text(owner)} >(0)) == sizeof(::ucts::no_type)")
-            return Text(f"{class_words(owner)} has no function that sets {method}", f"{declared} {absent}")
+            says = f"{class_words(owner)} has no function that sets {method}"
+            return Text(says, _no_mutator(class_text(owner), method, type_))
         case claims.InheritsElement(owner):
             type_ = class_text(owner)
             base = f"::ucts::port_element<{type_} >::type"
@@ -383,6 +379,25 @@ def _no_member(owner: Class, member: str) -> tuple[str]:
     type_ = class_text(owner)
     neither = (f"sizeof({how}<{type_}>(0)) == sizeof(::ucts::no_type)" for how in ("has", "calls"))
     return (f"{declared} {_holds(' && '.join(neither))}",)
+
+
+_ANYTHING = (
+    "struct any_value { template <class X> operator X() const; };"
+    " struct any_variable { template <class X> operator X&() const; };"
+)
+
+
+def _no_mutator(owner: str, method: str, type_: str) -> str:
+    """No call with one argument is understood, whatever that is: of several that take anything none is chosen."""
+    given = (f"const {type_}", type_, "const char* const", "const void* const", "const int", "const any_value")
+    text, absent = _ANYTHING, []
+    for number, argument in enumerate((*given, "const any_variable")):
+        text += (
+            f" template <class T> ::ucts::yes_type takes_{number}(char (*)[sizeof((::ucts::make<T>().{method}("
+            f"::ucts::make<{argument} >()), 0))]); template <class T> ::ucts::no_type takes_{number}(...);"
+        )
+        absent.append(f"sizeof(takes_{number}<{owner} >(0)) == sizeof(::ucts::no_type)")
+    return f"{text} {_holds(' && '.join(absent))}"
 
 
 def _of_components(claim: claims.Claim) -> Text | None:

@@ -329,9 +329,17 @@ class _Comparing:
                 told = "; ".join([error.message, *self._linked.left_out])
                 differences.append(self._of_header("what is generated", told, self._place(error)))
         found, counted, missing = listing
+        found = [d for d in found if not self._is_refuted(d)]
         exercised.update(counted)
         unjudged = {**missing, **unjudged}
         return Comparison(dict(exercised), (*differences, *found), unjudged=unjudged, remarks=self._linked.left_out)
+
+    def _is_refuted(self, found: Difference) -> bool:
+        """Whether a function that libclang found to be pure is defined somewhere: the class could be implemented without it."""
+        asked = {e.requirement for e in self._expected.expected if isinstance(e.claim, claims.NothingElse)}
+        bodies = (c for c in self._checks if isinstance(c.expected.claim, claims.Implemented))
+        of_class = [c for c in bodies if c.expected.element == found.element and found.requirement in asked]
+        return any(c.number in self._seen.kept and not self._not_judged(c) for c in of_class)
 
     def _observed_of(self, one: Check) -> tuple[str, tuple[tuple[str, int], ...]] | None:
         if one.text.key in self._seen.bodies:
