@@ -16,7 +16,8 @@ from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.harness.toolchains.cpp.probes import CHECKS
 from ucm_cts.harness.toolchains.cpp.standing import not_asked, stand_for
 from ucm_cts.reference_models.cpp import expected as claims
-from ucm_cts.reference_models.cpp.expected import Claim, ExpectedCpp, Named, Standard
+from ucm_cts.reference_models.cpp.classes import Named
+from ucm_cts.reference_models.cpp.expected import Claim, ExpectedCpp, Standard
 from ucm_cts.reference_models.cpp.mapping import expected_cpp
 
 PROFILES: Mapping[Standard, tuple[str, ...]] = {"cpp11": ("cpp", "cpp11"), "cpp03": ("cpp", "cpp03")}

@@ -8,33 +8,35 @@ from dataclasses import dataclass
 from ucm_cts.adapters.contract.metamodel import components, contracts, interactions
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
-from ucm_cts.reference_models.cpp.context import DATA, INTERFACES, Context, expect, plain, spelled
-from ucm_cts.reference_models.cpp.expected import (
+from ucm_cts.reference_models.cpp.classes import (
     Abstract,
-    Arity,
-    Claim,
     Class,
     Connected,
     Connection,
+    Forms,
+    Getter,
+    Method,
+    Named,
+    Returned,
+)
+from ucm_cts.reference_models.cpp.context import DATA, INTERFACES, Context, expect, plain, spelled
+from ucm_cts.reference_models.cpp.expected import (
+    Arity,
+    Claim,
     ConnectionShape,
     ConnectionTemplate,
     ConnectionTo,
     Declares,
     DeclaresConnection,
     Expected,
-    Forms,
-    Getter,
     Implemented,
     InheritsElement,
     IsAbstract,
-    Method,
-    Named,
     NoOperations,
     NotCorba,
     NothingElse,
     Passed,
     Pure,
-    Returned,
     ReturnsReference,
     Runs,
     Startup,

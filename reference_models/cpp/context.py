@@ -9,7 +9,8 @@ from ucm_cts.adapters.contract.metamodel import contracts
 from ucm_cts.adapters.contract.metamodel.common import Named
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import SEPARATOR, Declared, Names, Scope, each_element
-from ucm_cts.reference_models.cpp.expected import Claim, Expected, Sample, Standard
+from ucm_cts.reference_models.cpp.classes import Sample
+from ucm_cts.reference_models.cpp.expected import Claim, Expected, Standard
 
 DATA = (contracts.DataType, contracts.AbstractDataType)
 INTERFACES = (contracts.Interface, contracts.AbstractInterface)

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from ucm_cts.adapters.contract.metamodel import contracts
 from ucm_cts.adapters.contract.metamodel.modules import MODULES
 from ucm_cts.adapters.contract.metamodel.names import Declared
+from ucm_cts.reference_models.cpp.classes import Named
 from ucm_cts.reference_models.cpp.context import (
     ABSTRACT,
     DATA,
@@ -37,7 +38,6 @@ from ucm_cts.reference_models.cpp.expected import (
     IsAbstract,
     IsClass,
     IsConstant,
-    Named,
     Namespace,
     NoMember,
     NotCorba,

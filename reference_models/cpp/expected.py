@@ -1,109 +1,16 @@
-"""The values of the C++ mapping: claims about C++ names, and the abstract classes that user code implements."""
+"""What the C++ mapping makes of a model: claims about C++ names."""
 
 from __future__ import annotations
 
-import itertools
 from typing import Literal
 
 from ucm_cts.adapters.contract.value import Value
+from ucm_cts.reference_models.cpp.classes import Abstract, Class, Forms, Sample
 
 Standard = Literal["cpp11", "cpp03"]
 
 StructForm = Literal["accessors", "plain"]
 """How fields are read and written: functions of the field's name, or data members."""
-
-
-class Named(Value, frozen=True):
-    """A class that C++ code can name."""
-
-    name: str
-
-
-class Returned(Value, frozen=True):
-    """The class that the reference points to which the function ``getter`` of ``owner`` returns."""
-
-    owner: str
-    getter: str
-
-
-class Connected(Value, frozen=True):
-    """The class that a member ``ref`` of the connection type points to; ``connection`` is looked up in the class ``owner``."""
-
-    owner: str
-    connection: str
-
-
-Class = Named | Returned | Connected
-
-
-class Sample(Value, frozen=True):
-    """Two different values of ``type`` as C++ expressions; ``comparable`` if ``==`` tells them apart."""
-
-    type: str
-    first: str
-    second: str
-    comparable: bool
-
-
-class Parameter(Value, frozen=True):
-    """``types`` are all ways in which it may be passed; ``written`` if the callee gives it a value."""
-
-    types: tuple[str, ...]
-    sample: Sample
-    written: bool
-
-
-class Method(Value, frozen=True):
-    """A member function; ``result`` is None for void; ``constant`` says whether it may be ``const``, or not."""
-
-    name: str
-    result: Sample | None
-    parameters: tuple[Parameter, ...]
-    constant: tuple[bool, ...] = (False,)
-
-    def signatures(self) -> list[tuple[str, ...]]:
-        """The types of the parameters in every way in which they may be passed."""
-        return list(itertools.product(*(p.types for p in self.parameters)))
-
-
-class Forms(Value, frozen=True):
-    """The declarations that a function may have: one of ``results``, the types of one of ``signatures``, ``const`` or not."""
-
-    results: tuple[str, ...] = ()
-    signatures: tuple[tuple[str, ...], ...] = ()
-    constant: tuple[bool, ...] = (False,)
-
-
-class Getter(Value, frozen=True):
-    """A member function that returns a reference to an interface; ``interface`` is the key of what is implemented."""
-
-    name: str
-    interface: str
-
-
-class Connection(Value, frozen=True):
-    """The type that connections of a required port element have."""
-
-    name: str
-    interface: str
-
-
-class Abstract(Value, frozen=True):
-    """What a class that user code implements consists of, with all that it inherits; ``key`` is unique in the model.
-
-    The first so many ``methods`` are ``inherited``.
-    Components have ``life_cycle``; ``startup`` lists what it is connected to, ``more`` what policies may add to that.
-    ``owner`` is the class of a component.
-    """
-
-    key: str
-    methods: tuple[Method, ...] = ()
-    getters: tuple[Getter, ...] = ()
-    life_cycle: bool = False
-    startup: tuple[Connection, ...] = ()
-    more: tuple[str, ...] = ()
-    inherited: int = 0
-    owner: str = ""
 
 
 # claims about names and types

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from ucm_cts.adapters.contract.metamodel import contracts
 from ucm_cts.adapters.contract.metamodel.common import Named as NamedElement
 from ucm_cts.adapters.contract.metamodel.names import Declared
+from ucm_cts.reference_models.cpp.classes import Abstract, Class, Forms, Method, Named, Parameter, Sample
 from ucm_cts.reference_models.cpp.context import (
     ABSTRACT,
     DATA,
@@ -22,25 +23,18 @@ from ucm_cts.reference_models.cpp.context import (
 )
 from ucm_cts.reference_models.cpp.data_types import is_abstract
 from ucm_cts.reference_models.cpp.expected import (
-    Abstract,
     Arity,
     Claim,
-    Class,
     Declares,
     Derives,
     Expected,
-    Forms,
     Implemented,
     IsAbstract,
-    Method,
-    Named,
     NoMutator,
     NotCorba,
     NothingElse,
-    Parameter,
     Passed,
     Pure,
-    Sample,
     Works,
 )
 
