@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from pathlib import Path
 
@@ -10,10 +11,15 @@ from test_cpp_compiling import HERE
 from test_cpp_mapping import model
 
 from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import LAYOUT, Compiler, Layout, compile_text
-from ucm_cts.harness.toolchains.description import read_toolchain
+from ucm_cts.harness.toolchains.description import Command, ToolChain, read_toolchain
 from ucm_cts.harness.toolchains.differences import Comparison
+from ucm_cts.harness.toolchains.dressing import Dress
+from ucm_cts.harness.toolchains.examinations import examination_for
+from ucm_cts.harness.toolchains.processing import CommandLine
 
 DEMONSTRATION = '#include "constants.hpp"\nint main() { return 0; }\n'
 UNFINISHED = "void to_be_written();\nvoid body() { to_be_written(); }\n"
@@ -80,6 +86,42 @@ def test_the_description_names_sources_and_libraries(
     assert described is not None
     assert described.sources == sources
     assert described.libraries == (str(tmp_path / "lib/mine.a"), "-lm", "/opt/x.a")
+
+
+def test_a_compiler_beside_the_description_is_found(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        'product = "p"\nversion = "1"\n[cpp11]\ncommand = ["c", "{model}", "{out}"]\ncompiler = ["./c++", "-I./x"]\n'
+    )
+    described = read_toolchain(path).cpp11
+    assert described is not None
+    assert described.compiler == (str(tmp_path / "c++"), "-I./x")
+
+
+def test_without_any_compiler_the_profile_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "/nowhere")
+    with pytest.raises(WrongUse, match=re.escape("no compiler 'g++' can be run; install it, or name another")):
+        examination_for("cpp03", default_statement(), Dress(0))
+
+
+@pytest.mark.parametrize("include", [("include",), ("include", "."), (".", "include"), ("include", "include/inner")])
+def test_headers_are_found_below_any_folder(include: tuple[str, ...]) -> None:
+    inner = {f"include/inner/{name}": text for name, text in generated().items()}
+    name = "include/inner/constants.hpp"
+    inner[name] = re.sub(r'#include "(ucm_support.hpp)"', r"#include <inner/\1>", inner[name])
+    if include == (".", "include"):
+        inner["inner/constants.hpp"] = "#error another header of that name\n"
+    headers = ("include/**/*.hpp",)
+    assert compared(inner, Layout(include=include, headers=headers)).differences == ()
+
+
+def test_files_with_names_of_other_encodings_are_read(tmp_path: Path) -> None:
+    generator = tmp_path / "generator"
+    generator.write_text("#!/bin/sh\necho '#pragma once' > \"$2/$(printf '\\377\\376').hpp\"\n")
+    generator.chmod(0o755)
+    command = Command(command=(str(generator), "{model}", "{out}"))
+    made = CommandLine(ToolChain("p", "1", cpp11=command)).process("cpp11", "m", "<m/>")
+    assert made.files == {"\\xff\\xfe.hpp": "#pragma once\n"}
 
 
 def test_old_compilers_of_long_long_are_told_so(tmp_path: Path) -> None:

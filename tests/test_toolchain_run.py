@@ -213,6 +213,10 @@ def test_a_statement_claims_what_the_tool_chain_can_do(here: Path) -> None:
         ('product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\ndiagnostic = "x"', "(?P<line>...)"),
         ('product = "p"\nversion = "1"\n[check]\ncommand = ["no-such-tool", "{model}"]', "no program 'no-such-tool'"),
         (
+            'product = "p"\nversion = "1"\n[cpp11]\ncommand = ["true", "{model}", "{out}"]\ncompiler = ["nonesuch++"]',
+            "no compiler 'nonesuch++' can be run; correct 'compiler'",
+        ),
+        (
             'product = "p"\nversion = "1"\n[chekc]\ncommand = ["true", "{model}"]',
             "there is no key 'chekc'; did you mean 'check'?",
         ),
@@ -222,7 +226,8 @@ def test_a_statement_claims_what_the_tool_chain_can_do(here: Path) -> None:
 )
 def test_wrong_descriptions_are_wrong_use(here: Path, text: str, told: str) -> None:
     (here / "wrong.toml").write_text(text)
-    outcome = ucm_cts("run", "--toolchain", "wrong.toml")
+    profile = "cpp11" if "[cpp11]" in text else "pim"
+    outcome = ucm_cts("run", "--toolchain", "wrong.toml", "--profile", profile)
     assert outcome.status == 2
     assert told in outcome.err
     assert "wrong.toml" in outcome.err

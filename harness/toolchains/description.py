@@ -97,11 +97,12 @@ def read_toolchain(path: Path) -> ToolChain:
 
 
 def _beside(folder: Path, command: Command | None) -> Command | None:
-    """``command`` with libraries that have a slash as files below ``folder``."""
+    """``command`` with libraries, and a compiler, that have a slash as files below ``folder``."""
     if command is None:
         return None
     files = (str(folder / w) if "/" in w and not w.startswith("-") else w for w in command.libraries)
-    return msgspec.structs.replace(command, libraries=tuple(files))
+    first = (str(folder / w) if "/" in w else w for w in command.compiler[:1])
+    return msgspec.structs.replace(command, libraries=tuple(files), compiler=(*first, *command.compiler[1:]))
 
 
 _OURS = ("folder", "source")
@@ -191,8 +192,11 @@ def program(toolchain: ToolChain, command: Command) -> list[str]:
     """The words of ``command`` with the program as the operating system finds it.
 
     A program with a slash is looked for below the description's folder, any other on the path and beside this Python. Raises
-    ``DocumentError`` if there is none.
+    ``DocumentError`` if there is none, or no compiler that is named.
     """
+    compiler = command.compiler[0] if command.compiler else None
+    if compiler is not None and shutil.which(compiler) is None:
+        raise DocumentError(Path(toolchain.source), None, f"no compiler '{compiler}' can be run; correct 'compiler'")
     name = command.command[0]
     beside = str(Path(sys.executable).parent)
     at = str(Path(toolchain.folder) / name) if "/" in name else name

@@ -14,7 +14,7 @@ from ucm_cts.harness.toolchains.campaign import TASKS, Examination
 from ucm_cts.harness.toolchains.corpus import questions
 from ucm_cts.harness.toolchains.cpp import standing
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
-from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout
+from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout, can_be_run
 from ucm_cts.harness.toolchains.cpp.probes import CHECKS, GENERATED
 from ucm_cts.harness.toolchains.description import Command, Task
 from ucm_cts.harness.toolchains.differences import Comparison
@@ -64,6 +64,11 @@ def examination_for(
         return Generation(compare, ("R-12-01", "idl_generated"), dress, expression, models, not_asked(statement))
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
     how = command or Command(command=())
+    if not can_be_run(_compiler(how).command[0]):
+        compiler = _compiler(how).command[0]
+        raise WrongUse(
+            f"no compiler '{compiler}' can be run; install it, or name another: compiler = [...] in [{task}]"
+        )
     compare = functools.partial(_compare_cpp, standard, statement.readings, how)
     return Generation(compare, GENERATED, dress, expression, models, standing.not_asked(statement))
 
@@ -85,6 +90,9 @@ def _compare_idl(readings: Mapping[str, str], model: Model, files: Mapping[str, 
 def _compare_cpp(
     standard: Standard, readings: Mapping[str, str], how: Command, model: Model, files: Mapping[str, str]
 ) -> Comparison:
-    compiler = Compiler(how.compiler) if how.compiler else Compiler()
     layout = Layout(how.include, how.headers, how.sources, how.libraries)
-    return compare_cpp(model, files, standard, readings, compiler, layout)
+    return compare_cpp(model, files, standard, readings, _compiler(how), layout)
+
+
+def _compiler(how: Command) -> Compiler:
+    return Compiler(how.compiler) if how.compiler else Compiler()

@@ -217,7 +217,8 @@ def _files(out: Path) -> dict[str, str]:
             left -= path.stat().st_size
             if left < 0:
                 break
-            found[str(path.relative_to(out))] = path.read_text(encoding="utf-8", errors="replace")
+            name = os.fsencode(path.relative_to(out)).decode(errors="backslashreplace")
+            found[name] = path.read_text(encoding="utf-8", errors="replace")
     return found
 
 
