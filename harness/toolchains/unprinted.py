@@ -47,7 +47,9 @@ CONSTRUCTS: Mapping[str, re.Pattern[str]] = {
     "root around several outermost modules": re.compile(r"\A(?:\s|<\?.*?\?>|<!--.*?-->)*<Model\b", re.DOTALL),
     **{f"element {tag}": re.compile(rf"<{tag}\b") for tag in _ELEMENTS},
     **{f"attribute {a} of {tag}": re.compile(rf"<{tag}\b[^>]*\s{a}\s*=") for tag, a in _ATTRIBUTES},
-    "attribute of a component type": re.compile(r"<ComponentType\b(?:(?!</ComponentType>).)*<Attribute\b", re.DOTALL),
+    "attribute of a component type": re.compile(
+        r"<ComponentType\b[^>]*(?<!/)>(?:(?!</ComponentType>).)*<Attribute\b", re.DOTALL
+    ),
 }
 """Each of them, and how it is found in the text of a model that a tool chain gets."""
 
