@@ -9,7 +9,10 @@ from idl_subjects import TELLER, TELLER_IDL, model_of
 
 from ucm_cts.harness.toolchains.differences import Difference
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS, compare
+from ucm_cts.harness.toolchains.idl.scopes import Scope
 from ucm_cts.harness.toolchains.idl.standard import printed
+from ucm_cts.harness.toolchains.idl.values import worth as value_of
+from ucm_cts.reference_models.idl.declarations import Literal
 from ucm_cts.reference_models.idl.expectations import RULE_OF, STANDS_FOR, Declares, Getter, Templated
 from ucm_cts.reference_models.idl.mapping import expected_idl
 
@@ -143,6 +146,75 @@ def test_circles_of_names_end() -> None:
 def test_all_that_clause_12_prints_belongs_to_a_requirement() -> None:
     requirements = {requirement for requirement, _ in printed()}
     assert requirements == set(STANDS_FOR["idl_standard"])
+
+
+CALLED_OTHERWISE = (
+    ("typedef sequence<Property> Properties;", "typedef sequence<Property, 4> Properties;",
+     "R-12.10-29", "typedef sequence<Property> Properties", "typedef sequence<Property, 4> Properties"),
+    ("struct Property { string name; string value; };", "struct Property { string value; string name; };",
+     "R-12.10-29", "struct Property { string name; string value; }", "struct Property { string value; string name; }"),
+    ("exception NOT_FOUND { };", "exception NOT_FOUND { long why; };",
+     "R-12.10-31", "exception NOT_FOUND { }", "exception NOT_FOUND { long why; }"),
+    ("void on_connect(in string p, in PortElementObject r);", "void on_connect(in string p);",
+     "R-12.10-36", "void on_connect(in string, in PortElementObject) in interface Connectable", "void on_connect(in string p)"),
+    ("void on_disconnect(in string p); };", "void on_disconnect(in string p); void more(); };",
+     "R-12.10-36", "no operation more in interface Connectable", "void more()"),
+    ("interface Connectable {", "interface Connectable : PortElementObject {",
+     "R-12.10-36", "interface Connectable without ancestors", "PortElementObject"),
+)  # fmt: skip
+
+PRINTED = """
+struct Property { string name; string value; }; typedef sequence<Property> Properties; exception NOT_FOUND { };
+interface Connectable { void on_connect(in string p, in PortElementObject r); void on_disconnect(in string p); };
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "requirement", "expected", "observed"), CALLED_OTHERWISE, ids=[row[4] for row in CALLED_OTHERWISE]
+)
+def test_differences_of_printed_declarations_are_told_as_idl(
+    old: str, new: str, requirement: str, expected: str, observed: str
+) -> None:
+    assert PRINTED.count(old) == 1
+    assert differences(TELLER_IDL + PRINTED) == []
+    (difference,) = differences(TELLER_IDL + PRINTED.replace(old, new))
+    assert (difference.requirement, difference.expected, difference.observed) == (requirement, expected, observed)
+
+
+CALLS = """<ContractModule name="m"><PrimitiveInteger name="t" kind="LONG"/><Interface name="i"><Method name="f">
+<Parameter name="a" direction="IN" type="t"/><Parameter name="b" direction="IN" type="t"/></Method></Interface></ContractModule>"""
+
+
+@pytest.mark.parametrize(
+    ("taken", "reading", "broken"),
+    [
+        ("in t a, in t b", "kept", set()),
+        ("in t x, in t y", "free", set()),
+        ("in t x, in t y", "kept", {"R-12.6-05"}),
+        ("in t b, in t a", "free", {"R-12.6-05"}),
+        ("in t x, out t y", "free", {"R-12.6-05"}),
+        ("in t x, in short y", "free", {"R-12.6-06"}),
+        ("in t x", "free", {"R-12.6-05"}),
+    ],
+)
+def test_names_of_parameters_count_only_if_the_vendor_says_so(taken: str, reading: str, broken: set[str]) -> None:
+    text = f"module m {{ typedef long t; interface i {{ void f({taken}); }}; }};"
+    told = compare(expected_idl(model_of(CALLS)), {"m.idl": text}, {"idl-parameter-names": reading}).differences
+    assert {one.requirement for one in told} == broken
+
+
+@pytest.mark.parametrize(
+    ("written", "worth"),
+    [
+        (r"a\x41\101\u0041\n\?\"\\", 'aAAA\n?"\\'),
+        (r"\N{DIGIT ONE}", None),
+        (r"\xZZ", None),
+        (r"\u", None),
+        ("plain", "plain"),
+    ],
+)
+def test_escape_sequences_are_those_of_idl(written: str, worth: str | None) -> None:
+    assert value_of(Literal("text", written), Scope()) == worth
 
 
 LINES = TELLER_IDL.splitlines(keepends=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import json
+import os
 import re
 import subprocess
 import sys
@@ -221,6 +222,34 @@ def test_a_statement_claims_what_the_tool_chain_can_do(here: Path) -> None:
             "there is no key 'chekc'; did you mean 'check'?",
         ),
         ('product = "p"\nversion = "1"\n', "does not say how 'check' is done"),
+        (
+            'product = "p"\nversion = "1"\n[cpp11]\ncommand = ["true", "{model}", "{out}"]\ncompiler = "g++"',
+            "compiler is a list: write each word in quotes",
+        ),
+        ('product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\nrefuses = 2', "refuses is a list"),
+        (
+            'product = "p"\nversion = "1"\n[check]\ncommand = ["true", "{model}"]\nrefuses = [1, 1000, -9]',
+            "wrong.toml:5: refuses lists exit statuses, which are from 1 to 255",
+        ),
+        (
+            'product = "p"\nversion = "1"\n[check]\ncommand = ["true", "a\\u0000b", "{model}"]',
+            "wrong.toml:4: a command holds the character U+0000",
+        ),
+        ('product = "p"\nversion = "1"\n[dialect]\nshort-strings = true', "did you mean 'short_strings'?"),
+        (
+            'product = "p"\nversion = "1"\n[dialect.tags]\nAlias = "a b"',
+            "wrong.toml:4: 'a b' for Alias is no name of XML",
+        ),
+        ('product = "p"\nversion = "1"\n[dialect.tags]\nAlias = "1x"', "'1x' for Alias is no name of XML"),
+        ('product = "p"\nversion = "1"\n[dialect.tags]\nAlias = ""', "'' for Alias is no name of XML"),
+        ('product = "p"\nversion = "1"\n[dialect.tags]\nAlias = "x:y"', "'x:y' for Alias is no name of XML"),
+        ('product = "p"\nversion = "1"\n[dialect.attributes]\nname = "a b"', "'a b' for name is no name of XML"),
+        ('product = "p"\nversion = "1"\n[dialect.attributes]\nname = ""', "'' for name is no name of XML"),
+        (
+            'product = "p"\nversion = "1"\n[dialect.attributes]\nname = "type"',
+            "wrong.toml:4: name and type of Alias are both called 'type'",
+        ),
+        ('product = "p"\nversion = "1"\n[dialect.literals]\nLONG = "a\\u0001"', "a character that is not printed"),
         ("product = ", "not TOML"),
     ],
 )
@@ -232,6 +261,13 @@ def test_wrong_descriptions_are_wrong_use(here: Path, text: str, told: str) -> N
     assert told in outcome.err
     assert "wrong.toml" in outcome.err
     assert outcome.err.count("\n") == 1
+
+
+def test_a_description_is_a_plain_file(here: Path) -> None:
+    os.mkfifo(here / "pipe.toml")
+    outcome = ucm_cts("run", "--toolchain", "pipe.toml")
+    assert outcome.status == 2
+    assert "pipe.toml: is no plain file" in outcome.err
 
 
 def test_what_belongs_to_adapters_is_wrong_use(here: Path) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
+from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS
 from ucm_cts.adapters.contract.metamodel.writing import CANONICAL, Dialect
@@ -80,6 +81,8 @@ class ToolChain(Value, frozen=True):
 
 def read_toolchain(path: Path) -> ToolChain:
     """The tool chain that the file at ``path`` describes. Raises ``DocumentError`` for whatever is wrong with it."""
+    if path.exists() and not path.is_file():
+        raise DocumentError(path, None, "is no plain file; give the name of a file that describes the tool chain")
     document, lines = read_toml(path, LARGEST)
     _check_keys(path, document, lines)
     places = {"$": 1} | {f"$.{place}": line for place, line in lines.items()}
@@ -115,11 +118,12 @@ _OF_CPP = ("compiler", "include", "headers", "sources", "libraries")
 
 def _check_keys(path: Path, document: dict[str, Any], lines: dict[str, int]) -> None:
     """Tell keys that mean nothing, and commands that are no lists, before their values are looked at."""
-    tables = {"": (document, ToolChain)} | {
-        f"{task}.": (document[task], Command)
-        for task in ("check", "idl", "cpp11", "cpp03")
-        if isinstance(document.get(task), dict)
+    kinds: dict[str, type[msgspec.Struct]] = {
+        **dict.fromkeys(("check", "idl", "cpp11", "cpp03"), Command),
+        "dialect": Dialect,
     }
+    tables: dict[str, tuple[dict[str, Any], type[msgspec.Struct]]] = {"": (document, ToolChain)}
+    tables |= {f"{key}.": (document[key], kind) for key, kind in kinds.items() if isinstance(document.get(key), dict)}
     for prefix, (table, kind) in tables.items():
         known = [field.name for field in msgspec.structs.fields(kind) if field.name not in _OURS]
         for key in table:
@@ -130,9 +134,24 @@ def _check_keys(path: Path, document: dict[str, Any], lines: dict[str, int]) -> 
             if key in _OF_CPP and prefix in ("check.", "idl."):
                 told = f"{key} says how C++ is compiled; it belongs in [cpp11] or [cpp03]"
                 raise DocumentError(path, lines.get(f"{prefix}{key}"), told)
-        if isinstance(table.get("command"), str):
-            told = "a command is a list: write each word in quotes, with commas between them, in brackets"
-            raise DocumentError(path, lines.get(f"{prefix}command"), told)
+        if kind is Command:
+            _check_lists(path, prefix, table, lines)
+
+
+_LISTS = ("command", "compiler", "include", "headers", "sources", "libraries", "refuses")
+
+
+def _check_lists(path: Path, prefix: str, table: dict[str, Any], lines: dict[str, int]) -> None:
+    for key in _LISTS:
+        value = table.get(key, [])
+        called = "a command" if key == "command" else key
+        place = lines.get(f"{prefix}{key}")
+        if isinstance(value, (str, int, float)):
+            each = "the numbers" if key == "refuses" else "each word in quotes"
+            told = f"{called} is a list: write {each}, with commas between them, in brackets"
+            raise DocumentError(path, place, told)
+        if isinstance(value, list) and any(isinstance(word, str) and "\0" in word for word in value):
+            raise DocumentError(path, place, f"{called} holds the character U+0000, which no word can; take it out")
 
 
 def _check_dialect(path: Path, dialect: Dialect, lines: dict[str, int]) -> None:
@@ -151,6 +170,40 @@ def _check_dialect(path: Path, dialect: Dialect, lines: dict[str, int]) -> None:
                 hint = f"did you mean '{close[0]}'?" if close else "it maps clause 9's spelling to yours"
                 line = lines.get(f"dialect.{table}.{key}") or lines.get(f"dialect.{table}")
                 raise DocumentError(path, line, f"clause 9 spells nothing '{key[:60]}'; {hint}")
+    for table, given in (("tags", dialect.tags), ("attributes", dialect.attributes)):
+        for key, name in given.items():
+            if not _is_name(name):
+                line = lines.get(f"dialect.{table}.{key}") or lines.get(f"dialect.{table}")
+                told = f"'{name[:60]}' for {key} is no name of XML; write letters, digits, '_', '-' and '.', a letter first"
+                raise DocumentError(path, line, told)
+    for key, word in dialect.literals.items():
+        if not word.isprintable():
+            line = lines.get(f"dialect.literals.{key}") or lines.get("dialect.literals")
+            raise DocumentError(path, line, f"the word for {key} holds a character that is not printed; take it out")
+    _check_distinct(path, dialect, lines)
+
+
+def _is_name(text: str) -> bool:
+    """Whether it is a name of XML without a prefix."""
+    try:
+        return "{" not in text and etree.QName(text).localname == text
+    except ValueError:
+        return False
+
+
+def _check_distinct(path: Path, dialect: Dialect, lines: dict[str, int]) -> None:
+    """No element may have two attributes of one name."""
+    for spelling in SPELLINGS.values():
+        called: dict[str, str] = {}
+        for attribute in spelling.attributes:
+            keys = [key for key in (f"{spelling.tag}.{attribute}", attribute) if key in dialect.attributes]
+            name = dialect.attributes[keys[0]] if keys else attribute
+            if name in called:
+                key = keys[0] if keys else next(k for k, v in dialect.attributes.items() if v == name)
+                line = lines.get(f"dialect.attributes.{key}") or lines.get("dialect.attributes")
+                told = f"{called[name]} and {attribute} of {spelling.tag} are both called '{name}'; give them two names"
+                raise DocumentError(path, line, told)
+            called[name] = attribute
 
 
 def _check(path: Path, task: Task, command: Command | None, lines: dict[str, int]) -> None:
@@ -179,6 +232,8 @@ def _check(path: Path, task: Task, command: Command | None, lines: dict[str, int
         raise wrong("command", f"the command for {task} does not name {OUT}, which stands for the folder to write to")
     if 0 in command.refuses or not command.refuses:
         raise wrong("refuses", "refuses lists the exit statuses that refuse a model; 0 accepts it")
+    if not all(0 < status < 256 for status in command.refuses):
+        raise wrong("refuses", "refuses lists exit statuses, which are from 1 to 255; take the others out")
     try:
         groups = re.compile(command.diagnostic, re.MULTILINE).groupindex
     except re.error as error:

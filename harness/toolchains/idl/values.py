@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import ast
 import math
 import operator
+import re
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -113,11 +113,24 @@ def whole(text: str) -> int:
     return int(text, 8) if len(text) > 1 and text.startswith("0") else int(text)
 
 
+_ESCAPE = re.compile(r"\\(?:x([0-9A-Fa-f]{1,2})|u([0-9A-Fa-f]{1,4})|([0-7]{1,3})|(.?))", re.DOTALL)
+
+_ESCAPED = dict(zip("ntvbrfa\\?'\"", "\n\t\v\b\r\f\a\\?'\"", strict=True))
+"""What IDL's escape sequences of one letter stand for."""
+
+
 def _unescaped(text: str) -> str:
-    if "\\" not in text:
-        return text
-    quote = '"""' if '"""' not in text and not text.endswith('"') else "'''"
-    return str(ast.literal_eval(f"{quote}{text}{quote}"))
+    """Raises ``ValueError`` for a sequence that IDL does not have."""
+
+    def character(match: re.Match[str]) -> str:
+        hexadecimal, universal, octal, letter = match.groups()
+        if letter is None:
+            return chr(int(octal, 8) if octal else int(hexadecimal or universal, 16))
+        if letter not in _ESCAPED:
+            raise ValueError(match[0])
+        return _ESCAPED[letter]
+
+    return _ESCAPE.sub(character, text)
 
 
 def _of_name(name: str, scope: Scope, steps: int) -> Worth | None:
