@@ -53,7 +53,9 @@ def _references(element: Any) -> Iterator[Reference]:
 _SAY_MEMBERS = (ConnectorPort, ItemBinding, PortRoleSpec, ComponentTechnicalPolicy, ComponentPortTechnicalPolicy)
 
 
-def _naming_by_owner(program: Program) -> Program:
+def naming_by_owner(program: Program) -> Program:
+    """``program``, but members are known by the name of the element that declares them only."""
+
     def look(element: Element, scope: Scope) -> Iterator[Complaint]:
         for reference, kind, field in _references(element):
             name, _, member = reference.rpartition(MEMBER)
@@ -68,18 +70,17 @@ def _naming_by_owner(program: Program) -> Program:
 @variant(task="check")
 def members_have_their_owner_s_name(program: Program) -> Program:
     """Knows members by the name of the element that declares them, as all printed ones are, and says nothing of it."""
-    return _naming_by_owner(program)
+    return naming_by_owner(program)
 
 
 @variant(task="check", declares=("inherited-member-names=owner",))
 def inherited_members_have_their_owner_s_name(program: Program) -> Program:
     """The same, and says so."""
-    return _naming_by_owner(program)
+    return naming_by_owner(program)
 
 
-@variant(task="check", declares=("inherited-member-names=heir",))
-def inherited_members_have_their_heir_s_name(program: Program) -> Program:
-    """Knows roles and items of a connector by the name of its own pattern only."""
+def naming_by_heir(program: Program) -> Program:
+    """``program``, but roles and items of a connector are known by the name of its own pattern only."""
 
     def look(connector: ConnectorDefinition, scope: Scope) -> Iterator[Complaint]:
         pattern = scope.find(connector.pattern, InteractionPattern)
@@ -91,6 +92,12 @@ def inherited_members_have_their_heir_s_name(program: Program) -> Program:
 
     known = Rule("members_are_named_by_the_pattern", "", (ConnectorDefinition,), look)
     return replace(program, rules={**program.rules, known.name: known})
+
+
+@variant(task="check", declares=("inherited-member-names=heir",))
+def inherited_members_have_their_heir_s_name(program: Program) -> Program:
+    """Knows roles and items of a connector by the name of its own pattern only, and says so."""
+    return naming_by_heir(program)
 
 
 @variant(task="check")
