@@ -112,6 +112,15 @@ FREEDOMS: Mapping[str, Freedom] = {
         ],
         ("cpp03",),
     ),
+    "elements_are_named_by_typedef": Freedom(
+        [
+            (
+                r"class PortElementObject \{\n  public:\n    virtual ~PortElementObject\(\) \{\}\n\};\n",
+                "class Element {\n  public:\n    virtual ~Element() {}\n};\ntypedef Element PortElementObject;\n",
+            )
+        ]
+    ),
+    "enumerators_have_synonyms": Freedom([(r"circle = 30\n", "circle = 30,\n        round = 30\n")]),
     "elements_are_abstract_by_name": Freedom([(r"\bPortElementObject\b", "Abstract_PortElementObject")]),
 }
 

@@ -169,5 +169,56 @@ REPLACEMENTS: Mapping[str, Wrong] = {
     ),
 }
 
-for _wrong in (VALUES, SETTERS, ROOTS, REPLACEMENTS):
+_WRAPPED = "template <class T> struct wrap : public T {{}};\nnamespace {0} {{ class {1} {{}}; }}\n"
+UNEXPECTED: Mapping[str, Wrong] = {
+    "one_enumerator_more": Wrong(
+        "data_types", "R-13.2.3-02", [(r"circle = 30\n", "circle = 30,\n        pentagon = 40\n")], tasks=CPP11
+    ),
+    "one_safe_enumerator_more": Wrong(
+        "data_types", "R-13.10.2-02", [(r"circle = 30\n", "circle = 30,\n        pentagon = 40\n")], tasks=CPP03
+    ),
+    "interfaces_wrap_corba": Wrong(
+        "interfaces",
+        "R-13-03",
+        [
+            (r"namespace interfaces \{ \}\n", _WRAPPED.format("CORBA", "Object") + "namespace interfaces { }\n"),
+            (r"class Abstract_root \{", "class Abstract_root : public virtual wrap< ::CORBA::Object> {"),
+        ],
+    ),
+    "interfaces_are_of_another_corba": Wrong(
+        "interfaces",
+        "R-13-03",
+        [
+            (
+                r"namespace interfaces \{ \}\n",
+                "namespace version { namespace CORBA { class Object {}; } }\nnamespace interfaces { }\n",
+            ),
+            (r"class Abstract_root \{", "class Abstract_root : public virtual ::version::CORBA::Object {"),
+        ],
+    ),
+    "exceptions_wrap_corba": Wrong(
+        "interfaces",
+        "R-13.4-06",
+        [
+            (r"namespace UCM \{\n", _WRAPPED.format("CORBA", "UserException") + "namespace UCM {\n"),
+            (
+                r"class UserException : public Exception \{",
+                "class UserException : public Exception, public wrap< ::CORBA::UserException> {",
+            ),
+        ],
+    ),
+    "port_elements_inherit_an_operation": Wrong(
+        "bindings",
+        "R-13.8-03",
+        [
+            (
+                r"class PortElementObject \{",
+                "class Pinged {\n  public:\n    virtual ~Pinged() {}\n    virtual void ping() {}\n};\n"
+                "class PortElementObject : public Pinged {",
+            )
+        ],
+    ),
+}
+
+for _wrong in (UNEXPECTED, VALUES, SETTERS, ROOTS, REPLACEMENTS):
     register(_wrong)

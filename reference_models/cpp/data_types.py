@@ -40,6 +40,7 @@ from ucm_cts.reference_models.cpp.expected import (
     IsConstant,
     Namespace,
     NoMember,
+    NoOtherEnumerators,
     NotCorba,
     NotDerived,
     NotInHeader,
@@ -246,6 +247,9 @@ def _enumeration(declared: Declared, enumeration: contracts.Enumeration, context
         yield expect(member, declared, found, enumerator)
         if enumerator.value is not None:
             yield expect(value, declared, EnumeratorValue(owner, plain(enumerator.name), enumerator.value), enumerator)
+    if len(sayable) == len(enumeration.enumerators):
+        whole = NoOtherEnumerators(owner if context.modern else f"{owner}::type", tuple(plain(e.name) for e in sayable))
+        yield expect(member if context.modern else value, declared, whole)
     if not context.modern and len(sayable) > 1:
         yield from _safe_enum(declared, tuple(f"{name}::{plain(e.name)}" for e in sayable[:2]), sayable)
 

@@ -131,6 +131,13 @@ class EnumeratorValue(Value, frozen=True):
     value: int
 
 
+class NoOtherEnumerators(Value, frozen=True):
+    """All values of the enumeration ``name`` are called by one of ``enumerators``."""
+
+    name: str
+    enumerators: tuple[str, ...]
+
+
 class SafeEnum(Value, frozen=True):
     """``name`` is an instance of ``ucm::safe_enum`` with ``definition`` as its first parameter."""
 
@@ -372,6 +379,7 @@ Claim = (
     | Underlying
     | EnumeratorOf
     | EnumeratorValue
+    | NoOtherEnumerators
     | SafeEnum
     | SafeEnumInner
     | Works

@@ -360,11 +360,6 @@ def _of_classes(claim: claims.Claim) -> Text | None:
         case claims.NoMutator(owner, method, type_):
             says = f"{class_words(owner)} has no function that sets {method}"
             return Text(says, _no_mutator(class_text(owner), method, type_))
-        case claims.InheritsElement(owner):
-            type_ = class_text(owner)
-            base = f"::ucts::port_element<{type_} >::type"
-            says = f"{class_words(owner)} derives from PortElementObject"
-            return Text(says, f"typedef {base} base; {_holds(f'__is_base_of(base, {type_})')}")
     return None
 
 

@@ -31,7 +31,7 @@ class Question(Value, frozen=True):
     number: int
     line: int
     place: str
-    kind: Literal["not-corba", "nothing-else", "no-operations", "not-in-header"]
+    kind: Literal["not-corba", "nothing-else", "is-element", "no-operations", "not-in-header", "no-other-enumerators"]
     members: tuple[str, ...] = ()
 
 
@@ -95,6 +95,7 @@ class _Tree:
         self._folder = Path(request.folder)
         self._options = options
         self._missing: dict[int, str] = {}
+        self._descent: dict[int, list[Any]] = {}
 
     def answers(self) -> Answers:
         unsaved = [(FILE, self._request.text)]
@@ -106,6 +107,7 @@ class _Tree:
             if diagnostic.severity >= cindex.Diagnostic.Error and not self._is_of_questions(diagnostic):
                 return Answers(problem=f"libclang does not understand the headers: {diagnostic.spelling[:200]}")
         places = {c.spelling: c for c in unit.cursor.get_children() if c.kind == cindex.CursorKind.NAMESPACE}
+        self._descent = self._descended(unit)
         return Answers(tuple(self._answer(one, places.get(one.place)) for one in self._request.questions))
 
     def _is_of_questions(self, diagnostic: Any) -> bool:
@@ -117,6 +119,36 @@ class _Tree:
             if line in asked:
                 self._missing.setdefault(asked[line], diagnostic.spelling[:200])
         return any(line > self._request.included for line in lines)
+
+    def _descended(self, unit: Any) -> dict[int, list[Any]]:
+        """For each question what its class derives from of CORBA, or as a port element: the compiler knows it of templates, too."""
+        corba, elements = [], []
+        for cursor in _declared(unit.cursor):
+            if "::CORBA::" in _path(cursor) and cursor.kind in _classes() and cursor.is_definition():
+                corba.append(cursor)
+            elif cursor.spelling in ELEMENTS and (cursor.kind not in _classes() or cursor.is_definition()):
+                elements.append(cursor)
+        bases = {"not-corba": corba, "is-element": elements, "no-operations": elements}
+        pairs = [(one, base) for one in self._request.questions for base in bases.get(one.kind, ())]
+        if not pairs:
+            return {}
+        name = f"{pairs[0][0].place}_descends"
+        lines = (f"{name}_{i} = __is_base_of({_path(b)}, ::{q.place}::{ASKED})," for i, (q, b) in enumerate(pairs))
+        text = "\n".join([self._request.text, f"enum {name} {{", *lines, "};", ""])
+        again = cindex.Index.create().parse(FILE, args=list(self._options), unsaved_files=[(FILE, text)])
+        wrong = {d.location.line for d in again.diagnostics if d.severity >= cindex.Diagnostic.Error}
+        enums = (c for c in again.cursor.get_children() if c.spelling == name)
+        holds = {
+            c.spelling
+            for enum in enums
+            for c in enum.get_children()
+            if c.enum_value == 1 and c.location.line not in wrong
+        }
+        found: dict[int, list[Any]] = {}
+        for number, (one, base) in enumerate(pairs):
+            if f"{name}_{number}" in holds:
+                found.setdefault(one.number, []).append(base)
+        return found
 
     def _answer(self, one: Question, place: Any) -> Answer:
         missing = self._missing.get(one.number, "" if place is not None else "it was not read")
@@ -140,20 +172,34 @@ class _Tree:
         if owner.kind == cindex.CursorKind.NO_DECL_FOUND:
             raise NotThere("it is no class")
         if one.kind == "not-corba":
-            for base in _bases(owner):
-                if _path(base).startswith("::CORBA::"):
-                    yield self._found(f"it derives from {_path(base)}", base)
+            for base in self._descent.get(one.number, ()):
+                yield self._found(f"it derives from {_path(base)}", base)
         elif one.kind == "nothing-else":
             for method in _pure(owner):
                 if method.spelling not in one.members:
                     yield self._found(f"{method.spelling} is pure virtual", method)
+        elif one.kind == "no-other-enumerators":
+            yield from self._others(owner, one.members)
         else:
-            elements = [b for b in _bases(owner) if b.spelling in ELEMENTS]
+            elements = self._descent.get(one.number, [])
+            if one.kind == "is-element":
+                yield from [] if elements else [self._found("it does not", owner)]
+                return
             if not elements:
                 raise NotThere("no class PortElementObject is derived from")
-            for method in _methods(elements[0]):
+            element = elements[0].type.get_canonical().get_declaration()
+            for method in (m for each in [element, *_bases(element)] for m in _methods(each)):
                 if method.is_virtual_method():
                     yield self._found(f"{elements[0].spelling} has {method.spelling}", method)
+
+    def _others(self, owner: Any, names: tuple[str, ...]) -> Iterator[Found]:
+        """Enumerators with values that none of ``names`` has; other names of the same values add nothing."""
+        if owner.kind != cindex.CursorKind.ENUM_DECL:
+            raise NotThere("it is no enumeration")
+        values = {c.enum_value for c in owner.get_children() if c.spelling in names}
+        for other in owner.get_children():
+            if other.kind == cindex.CursorKind.ENUM_CONSTANT_DECL and other.enum_value not in values:
+                yield self._found(f"it has {other.spelling}", other)
 
     def _defined(self, asked: Any) -> Iterator[Found]:
         uses = (c.referenced for c in asked.walk_preorder() if c.kind == cindex.CursorKind.DECL_REF_EXPR)
@@ -170,6 +216,19 @@ class _Tree:
         if not file.is_relative_to(self._folder):
             return Found(observed)
         return Found(observed, str(file.relative_to(self._folder)), place.line)
+
+
+def _declared(cursor: Any) -> Iterator[Any]:
+    """All types that are declared in namespaces, and in classes of namespaces CORBA."""
+    for child in cursor.get_children():
+        if child.kind in (cindex.CursorKind.NAMESPACE, cindex.CursorKind.LINKAGE_SPEC):
+            yield from _declared(child)
+        elif child.kind in (*_classes(), cindex.CursorKind.TYPEDEF_DECL, cindex.CursorKind.TYPE_ALIAS_DECL):
+            yield child
+
+
+def _classes() -> tuple[Any, ...]:
+    return (cindex.CursorKind.CLASS_DECL, cindex.CursorKind.STRUCT_DECL)
 
 
 def _bases(cursor: Any) -> list[Any]:

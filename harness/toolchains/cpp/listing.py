@@ -29,7 +29,14 @@ Listed = tuple[list[Difference], dict[str, int], dict[str, str]]
 """Differences, how often each requirement was looked at, and why others were not."""
 
 RULE = "cpp_unexpected"
-LISTED = (claims.NotCorba, claims.NothingElse, claims.NoOperations, claims.NotInHeader)
+LISTED = (
+    claims.NotCorba,
+    claims.NothingElse,
+    claims.InheritsElement,
+    claims.NoOperations,
+    claims.NotInHeader,
+    claims.NoOtherEnumerators,
+)
 """The claims that libclang decides."""
 
 COMMAND = (sys.executable, "-P", "-m", lister.__name__)
@@ -72,6 +79,10 @@ def _says(one: Expected) -> str:
             return f"no pure virtual function of {class_words(owner)} that the model does not ask for"
         case claims.NotInHeader(name):
             return f"no header gives {name} its value"
+        case claims.NoOtherEnumerators(name, names):
+            return f"{name} has no values but {', '.join(names)}"
+        case claims.InheritsElement(owner):
+            return f"{class_words(owner)} derives from PortElementObject"
     return "PortElementObject has no operations"
 
 
@@ -117,18 +128,19 @@ def _text(number: int, one: Expected) -> str:
     claim = one.claim
     if isinstance(claim, claims.NotInHeader):
         return f"namespace ucts_asked_{number} {{ inline void {ASKED}() {{ (void){claim.name}; }} }}"
-    return f"namespace ucts_asked_{number} {{ typedef {class_text(_owner(one))} {ASKED}; }}"
+    asked = claim.name if isinstance(claim, claims.NoOtherEnumerators) else class_text(_owner(claim))
+    return f"namespace ucts_asked_{number} {{ typedef {asked} {ASKED}; }}"
 
 
-def _owner(one: Expected) -> Class:
-    claim = one.claim
-    assert isinstance(claim, claims.NotCorba | claims.NothingElse | claims.NoOperations)
+def _owner(claim: claims.Claim) -> Class:
+    assert isinstance(claim, claims.NotCorba | claims.NothingElse | claims.InheritsElement | claims.NoOperations)
     return claim.owner
 
 
 def _helper(one: Expected) -> str:
     """What must be declared before; a text without a line end of its own."""
-    owner = None if isinstance(one.claim, claims.NotInHeader) else _owner(one)
+    of_class = not isinstance(one.claim, claims.NotInHeader | claims.NoOtherEnumerators)
+    owner = _owner(one.claim) if of_class else None
     return connection_declared(owner.owner, owner.connection) if isinstance(owner, Connected) else ""
 
 
@@ -141,6 +153,10 @@ def _question(number: int, line: int, one: Expected, disguise: Disguise) -> Ques
             return Question(number, line, place, "nothing-else", members)
         case claims.NotInHeader():
             return Question(number, line, place, "not-in-header")
+        case claims.NoOtherEnumerators(_, names):
+            return Question(number, line, place, "no-other-enumerators", names)
+        case claims.InheritsElement():
+            return Question(number, line, place, "is-element")
     return Question(number, line, place, "no-operations")
 
 
