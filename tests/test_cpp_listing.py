@@ -43,8 +43,14 @@ LEGAL = {
     ),
 }  # fmt: skip
 
+EXPONENTIAL = """
+template <int N, int M> struct exponential { enum { v = exponential<N - 1, M>::v + exponential<N - 1, M + (1 << N)>::v }; };
+template <int M> struct exponential<0, M> { enum { v = M }; };
+enum { exploded = exponential<28, 0>::v };
+"""
 
-def look(folder: Path, name: str, *edits: tuple[str, str]) -> Listed:
+
+def look(folder: Path, name: str, *edits: tuple[str, str], seconds: float = 60.0) -> Listed:
     """What is listed for the C++11 of a model after ``edits``, each of which must change something."""
     files = dict(reference().generators["cpp11"](model(name)))
     for pattern, becomes in edits:
@@ -54,7 +60,7 @@ def look(folder: Path, name: str, *edits: tuple[str, str]) -> Listed:
     for file, text in files.items():
         (folder / file).write_text(text)
     headers = Headers(folder, tuple(n for n in sorted(files) if n.endswith(".hpp")))
-    return listed(expectations(name), headers, Compiler())
+    return listed(expectations(name), headers, Compiler(seconds=seconds))
 
 
 @pytest.mark.parametrize("way", LEGAL)
@@ -80,3 +86,10 @@ def test_what_is_not_declared_is_not_judged(tmp_path: Path) -> None:
     differences, _, unjudged = look(tmp_path, "interfaces", (r"Abstract_root\b", "Abstract_stem"))
     assert differences == []
     assert "Abstract_root" in unjudged["R-13.6-04"]
+
+
+def test_what_libclang_does_not_get_through_is_not_judged(tmp_path: Path) -> None:
+    look(tmp_path, "modules")  # after which it is known where the system's headers are
+    differences, counted, unjudged = look(tmp_path, "modules", (r"#endif\n$", f"{EXPONENTIAL}#endif\n"), seconds=0.5)
+    assert (differences, counted) == ([], {})
+    assert unjudged["R-13.6-04"] == "libclang does not come to an end with the headers: no end after 0.5 s"
