@@ -91,6 +91,19 @@ def test_a_missing_compiler_is_told(tmp_path: Path) -> None:
         compile_text("", tmp_path, HERE, "cpp11", Compiler(("no-such-compiler",)))
 
 
+def test_a_compiler_that_a_header_keeps_busy_is_not_asked_any_more(tmp_path: Path) -> None:
+    (tmp_path / "asked").touch()
+    slow = tmp_path / "slow"
+    slow.write_text(f"#!/bin/sh\necho asked >> {tmp_path}/asked\nsleep 60\n")
+    slow.chmod(0o755)
+    files = {f"header_{number}.hpp": "#pragma once\n" for number in range(6)}
+    comparison = compare(model("modules"), files, "cpp11", {}, Compiler((str(slow),), seconds=0.3))
+    assert {d.requirement for d in comparison.differences} == {"R-13-04"}
+    for requirement in ("R-13.3-01", "R-13.6-04"):
+        assert "no end after 0.3 s" in comparison.unjudged[requirement]
+    assert (tmp_path / "asked").read_text().count("asked") <= 2
+
+
 def test_headers_that_do_not_compile_hide_nothing_silently() -> None:
     files = {"m.hpp": '#include "not_there.hpp"\n'}
     comparison = compare(model("modules"), files, "cpp11", {}, Compiler())

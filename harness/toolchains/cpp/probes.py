@@ -139,11 +139,14 @@ class _Comparing:
 
     def compared(self) -> Comparison:
         with tempfile.TemporaryDirectory(prefix="ucm-cts-probes-") as folder, ThreadPoolExecutor(_THREADS) as threads:
-            alone = [threads.submit(self._alone, name, Path(folder)) for name in self._headers.names]
+            alone = list(threads.map(lambda name: self._alone(name, Path(folder)), self._headers.names))
+            of_headers = [found for one in alone for found in one]
+            if self._seen.problem:
+                wanted = (e.requirement for e in self._expected.expected if isinstance(e.claim, LISTED))
+                return self._told(of_headers, ([], {}, dict.fromkeys(wanted, self._seen.problem)))
             listing = threads.submit(listed, self._expected, self._headers, self._compiler)
             self._linked = linked(self._headers, self._expected.standard, self._compiler, Path(folder))
             self._probe(Path(folder))
-            of_headers = [found for one in alone for found in one.result()]
             return self._told(of_headers, listing.result())
 
     def _rendered(self) -> Iterator[Check]:
@@ -164,6 +167,8 @@ class _Comparing:
 
     def _alone(self, name: str, folder: Path) -> list[Difference]:
         """Whether a header compiles with nothing before it, is the same when it is included again, and leaves keywords alone."""
+        if self._seen.problem:
+            return []  # another one took the compiler too long, or too far, for anything more to be asked of it
         own = folder / f"alone-{self._headers.names.index(name)}"
         own.mkdir()
         if not can_be_named(name):
@@ -172,6 +177,7 @@ class _Comparing:
         text = f"{twice}{redefined(self._expected.standard)}int main() {{ return 0; }}\n"
         compiled = compile_text(text, own, self._headers, self._expected.standard, self._compiler)
         if compiled.problem:
+            self._seen.problem = f"{name}: {compiled.problem}"
             return [self._of_header(name, compiled.problem, (name, 0))]
         return [self._of_header(name, _told_by(e), self._place_in(name, e)) for e in compiled.errors[:1]]
 
