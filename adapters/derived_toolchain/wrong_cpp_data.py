@@ -159,7 +159,7 @@ ENUMERATIONS: Mapping[str, Wrong] = {
         "data_types",
         "R-13.10.2-01",
         [(r"shape_t_def\b", "shape_t_definition")],
-        also="R-13.10.2-02 R-13.10.2-03 R-13.10.2-05",
+        also="R-13.10.2-02 R-13.10.2-03 R-13.10.2-04 R-13.10.2-05",
         tasks=CPP03,
     ),
     "safe_enumerator_with_another_value": Wrong(
