@@ -27,6 +27,8 @@ TRIED = (
     "getter_returns_a_pointer_cpp11",
     "connections_lead_nowhere_cpp03",
     "null_is_nullptr_cpp03",
+    "copy_of_structure_is_empty_cpp11",
+    "interfaces_wrap_corba_cpp03",
 )
 """One mutant for each way in which defects are found; ucm-cts selftest tries all."""
 
@@ -34,6 +36,8 @@ SPARED = (
     ("plain_members_cpp11", "data_types"),
     ("connections_in_another_order_cpp03", "ports"),
     ("ancestors_not_virtual_cpp11", "interfaces"),
+    ("overloads_of_startup_cpp11", "ports"),
+    ("connections_derived_cpp03", "refinement"),
 )
 
 
