@@ -164,3 +164,18 @@ def bare_text(program: Program) -> Program:
             yield from program.rules["constants_follow_the_grammar"].look(constant, scope)
 
     return replacing_rule(replacing_rule(program, name, look), "constants_follow_the_grammar", follows)
+
+
+_SETS_ONCE = ("selector_values_have_one_case", "sets_parameters_once", "parameters_receive_one_value")
+
+
+@variant(task="check")
+def one_of_several_counts(program: Program) -> Program:
+    """Takes the first case of a selector value and the last value of a parameter, and says nothing of it."""
+    return without(program, *_SETS_ONCE)
+
+
+@variant(task="check", declares=("repeated-selector-values=accepted", "repeated-parameter-values=accepted"))
+def one_of_several_is_said_to_count(program: Program) -> Program:
+    """The same, and says so."""
+    return without(program, *_SETS_ONCE)

@@ -91,7 +91,7 @@ def value_of_nothing_known(policy: etree._Element) -> None:
     etree.SubElement(policy, "ConfigurationParameterValue", configurationParameter=name, value="1")
 
 
-@breaks("R-9.5.4.2-09", at="ConfigurationParameterValue")
+@breaks("R-9.5.4.2-09", at="ConfigurationParameterValue", under=("repeated-parameter-values=refused",))
 def parameter_with_two_values(value: etree._Element) -> bool:
     """A parameter of a policy receives two values."""
     policy = value.getparent()

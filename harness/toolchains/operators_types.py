@@ -180,7 +180,7 @@ def selector_value_of_nothing_known(value: etree._Element) -> None:
     value.set("enumerator", NOWHERE)
 
 
-@breaks("R-9.2.4.6-05", at="Union")
+@breaks("R-9.2.4.6-05", at="Union", under=("repeated-selector-values=refused",))
 def selector_value_again(union: etree._Element) -> bool:
     """Two cases have one selector value."""
     values = [value for case in union.findall("UnionCase")[:2] for value in case.findall("SelectorValue")[:1]]
