@@ -38,6 +38,8 @@ def _is_shared(pattern: InteractionPattern) -> bool:
     "R-9.3.1-05",
     task="check",
     also=(
+        "R-9.5.5.4-02",
+        "R-9.5.5.4-04",
         "R-9.3.3.1-01",
         "R-9.5.5.4-03",
     ),
@@ -51,7 +53,7 @@ def a_connector_has_ports_of_one_role(program: Program) -> Program:
     return refusing(program, ConnectorDefinition, several)
 
 
-@breaks("R-9.3.1-06", task="check")
+@breaks("R-9.3.1-06", task="check", also=("R-9.2.2.7-01",))
 def connectors_with_ports_are_hardly_configured(program: Program) -> Program:
     """Takes the second configuration parameter of a connector that has several ports for an error."""
     return refusing(program, ConnectorDefinition, lambda one, _: len(one.ports) > 1 < len(one.configuration_parameters))

@@ -189,7 +189,14 @@ def names_of_definitions_come_first(program: Program) -> Program:
     return refusing_text(program, rb"<TechnicalPolicyDefinition\s+applicability")
 
 
-@breaks("R-9.4.3.4-02", task="check")
+@breaks(
+    "R-9.4.3.4-02",
+    task="check",
+    also=(
+        "R-9.4.2.1-02",
+        "R-9.4.2.1-03",
+    ),
+)
 def languages_do_not_come_first(program: Program) -> Program:
     """Takes a list of languages before all else in its module for an error."""
 

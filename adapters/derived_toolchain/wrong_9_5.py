@@ -124,7 +124,14 @@ def one_component_a_policy(program: Program) -> Program:
     return refusing(program, ComponentTechnicalPolicy, two_types)
 
 
-@breaks("R-9.5.4.2-07", task="check", also=("R-9.2.2.14-01",))
+@breaks(
+    "R-9.5.4.2-07",
+    task="check",
+    also=(
+        "R-9.2.2.7-01",
+        "R-9.2.2.14-01",
+    ),
+)
 def parameters_have_values(program: Program) -> Program:
     """Takes a policy that gives values to some parameters of its definition, but not to all, for an error."""
 

@@ -62,7 +62,14 @@ def ports_of_composites(program: Program) -> Program:
     return overhearing(program, "misplaced element", "Port", "stand")
 
 
-@breaks("R-9.5.5.3-04", task="check", also=("R-9.1.4.1-01",))
+@breaks(
+    "R-9.5.5.3-04",
+    task="check",
+    also=(
+        "R-9.1.4.1-03",
+        "R-9.1.4.1-01",
+    ),
+)
 def no_part_of_the_own_type(program: Program) -> Program:
     """Takes a part of the composite's own component type for an error."""
 

@@ -116,7 +116,7 @@ def refined_ports_are_near(program: Program) -> Program:
     return refusing(program, ComponentType, far)
 
 
-@breaks("R-9.5.4.3-04", task="check", declares=("inherited-member-names=heir",))
+@breaks("R-9.5.4.3-04", task="check", also=("R-9.5.3.1-05",), declares=("inherited-member-names=heir",))
 def inherited_ports_are_not_managed(program: Program) -> Program:
     """Takes a policy on an inherited port for an error."""
 
@@ -176,7 +176,7 @@ def _inside(composite: Declared) -> list[Declared]:
     return [one for one in found if one is not None]
 
 
-@breaks("R-9.5.5.5-02", task="check")
+@breaks("R-9.5.5.5-02", task="check", also=("R-9.5.5.4-04",))
 def composites_have_no_ports(program: Program) -> Program:
     """Takes a connection that ends at a part that is a composite for an error."""
 

@@ -30,7 +30,12 @@ PRIMITIVES: Mapping[str, Wrong] = {
 }
 
 DATA_TYPES: Mapping[str, Wrong] = {
-    "type_renamed": Wrong("data_types", "R-13.2-01", [(r"uint64_t ulonglong_t;", "uint64_t ulonglong;")]),
+    "type_renamed": Wrong(
+        "data_types",
+        "R-13.2-01",
+        [(r"uint64_t ulonglong_t;", "uint64_t ulonglong;")],
+        also="R-13-04 R-13.10-01 R-13.2.1-03 R-13.2.7-01 R-13.2.7-02 R-13.5-02 R-13.5-03 R-13.6.1-02 R-13.7-13",
+    ),
     "alias_of_another_type": Wrong(
         "data_types", "R-13.2-02", [(r"typedef ::data_types::long_t distance_t", "typedef int16_t distance_t")]
     ),
@@ -112,7 +117,10 @@ DATA_TYPES: Mapping[str, Wrong] = {
         "data_types", "R-13.2.6-01", _typedef("label_t", "::std::string", "const char*")
     ),
     "wide_string_is_narrow": Wrong(
-        "data_types", "R-13.2.6-02", _typedef("wide_text_t", "::std::wstring", "::std::string")
+        "data_types",
+        "R-13.2.6-02",
+        _typedef("wide_text_t", "::std::wstring", "::std::string"),
+        also="R-13.2.1-03 R-13.2.2-03 R-13.2.2-04 R-13.4-07 R-13.6-03 R-13.7-02 R-13.9-01 R-13.9-04",
     ),
     "constant_is_a_variable": Wrong(
         "constants", "R-13.2.7-01", [(r"(?:constexpr|const) (::constants::boolean_t enabled)", r"static \1")]
