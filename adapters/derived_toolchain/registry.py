@@ -7,15 +7,20 @@ rule; all others register themselves in ``wrong_*.py`` and ``variants*.py``.
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
-from ucm_cts.adapters.toolchain.checking import Rule
+from ucm_cts.adapters.contract.metamodel.names import Scope
+from ucm_cts.adapters.toolchain.checking import Complaint, Rule
 from ucm_cts.adapters.toolchain.program import Program, reference
 
 Derive = Callable[[Program], Program]
+
+Holds = Callable[[Any, Any, Scope, str], bool]
+"""Whether a complaint counts: what is wrong, the element that was looked at, where it stands, and the message."""
 
 
 @dataclass(frozen=True)
@@ -80,6 +85,19 @@ def replacing_rule(program: Program, name: str, look: Callable[..., object] | No
     if look is not None:
         rules[name] = replace(program.rules[name], look=look)  # type: ignore[arg-type] # mutants need not be exact
     return replace(program, rules=rules)
+
+
+def complaining_where(program: Program, name: str, holds: Holds) -> Program:
+    """``program``, in which the complaints of rule ``name`` count only where ``holds``."""
+    assert name in program.rules, f"there is no rule {name}"
+    look = program.rules[name].look
+
+    def half(element: Any, scope: Scope) -> Iterator[Complaint]:
+        for wrong, message in look(element, scope):
+            if holds(wrong, element, scope, message):
+                yield wrong, message
+
+    return replacing_rule(program, name, half)
 
 
 @functools.cache

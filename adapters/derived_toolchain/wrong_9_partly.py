@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 from ucm_cts.adapters.contract.metamodel.common import Named
@@ -16,21 +15,13 @@ from ucm_cts.adapters.contract.metamodel.interactions import (
 )
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, parent_of
-from ucm_cts.adapters.derived_toolchain.registry import breaks, replacing_rule
-from ucm_cts.adapters.toolchain.checking import Complaint
+from ucm_cts.adapters.derived_toolchain.registry import breaks, complaining_where
 from ucm_cts.adapters.toolchain.program import Program
 
 
 def _only_if(program: Program, name: str, holds: Any) -> Program:
     """``program``, in which the complaints of rule ``name`` count only if ``holds(wrong, element, scope)``."""
-    look = program.rules[name].look
-
-    def half(element: Any, scope: Scope) -> Iterator[Complaint]:
-        for wrong, message in look(element, scope):
-            if holds(wrong, element, scope):
-                yield wrong, message
-
-    return replacing_rule(program, name, half)
+    return complaining_where(program, name, lambda wrong, element, scope, _message: holds(wrong, element, scope))
 
 
 def _is_declared(scope: Scope, reference: str) -> bool:

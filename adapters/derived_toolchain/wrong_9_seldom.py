@@ -2,44 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from typing import Any
 
 from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.components import (
     ComponentPortTechnicalPolicy,
     ComponentType,
-    CompositeComponentImplementation,
 )
 from ucm_cts.adapters.contract.metamodel.contracts import (
     INTEGER_RANGES,
     Alias,
-    Array,
-    Enumeration,
     PrimitiveFloat,
 )
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.derived_toolchain.registry import MUTANTS, Mutant, replacing_rule
+from ucm_cts.adapters.derived_toolchain.registry import MUTANTS, Holds, Mutant, complaining_where
 from ucm_cts.adapters.toolchain.actual_types import actual_type
-from ucm_cts.adapters.toolchain.checking import Complaint
 from ucm_cts.adapters.toolchain.program import Program
-
-Holds = Callable[[Any, Any, Scope, str], bool]
-"""Whether a complaint counts: what is wrong, the element that was looked at, where it stands, and the message."""
 
 
 def _seldom(name: str, lie: str, requirement: str, rule: str, holds: Holds, *also: str) -> None:
     """Register a mutant in which the complaints of ``rule`` count only where ``holds``."""
 
     def derive(program: Program) -> Program:
-        look = program.rules[rule].look
-
-        def half(element: Any, scope: Scope) -> Iterator[Complaint]:
-            for wrong, message in look(element, scope):
-                if holds(wrong, element, scope, message):
-                    yield wrong, message
-
-        return replacing_rule(program, rule, half)
+        return complaining_where(program, rule, holds)
 
     derive.__doc__ = lie
     assert name not in MUTANTS, f"two mutants are called {name}"
@@ -135,14 +120,14 @@ def _is_among_the_first(members: str) -> Holds:
     return lambda wrong, element, _scope, _message: wrong in getattr(element, members)[:2]
 
 
-_FIRST_TWO: tuple[tuple[str, str, str, type[Element]], ...] = (
-    ("ports_differ", "ports", "R-9.1.4.1-02", ComponentType),
-    ("parts_differ", "parts", "R-9.1.4.1-02", CompositeComponentImplementation),
-    ("index_values_are_in_range", "enumerators", "R-9.2.4.8-03", Enumeration),
-    ("sizes_are_in_range", "dimensions", "R-9.2.4.11-03", Array),
+_FIRST_TWO = (
+    ("ports_differ", "ports", "R-9.1.4.1-02"),
+    ("parts_differ", "parts", "R-9.1.4.1-02"),
+    ("index_values_are_in_range", "enumerators", "R-9.2.4.8-03"),
+    ("sizes_are_in_range", "dimensions", "R-9.2.4.11-03"),
 )
 
-for _rule, _members, _requirement, _owner in _FIRST_TWO:
+for _rule, _members, _requirement in _FIRST_TWO:
     _seldom(
         f"first_two_{_members}",
         f"Looks at the first two {_members} only.",

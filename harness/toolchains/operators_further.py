@@ -9,7 +9,7 @@ from lxml import etree
 from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
 from ucm_cts.harness.toolchains.declarations import NOWHERE
 from ucm_cts.harness.toolchains.operators import breaks
-from ucm_cts.harness.toolchains.operators_modules import DECLARED, MEMBERS, module_of
+from ucm_cts.harness.toolchains.operators_modules import DECLARED, MEMBERS, is_returned, module_of
 
 NOT_AGAIN = ("Language", "Enumerator", "Method", "ExceptionField")
 """Whose names have requirements of their own, or none."""
@@ -24,8 +24,10 @@ def declared_again(element: etree._Element) -> None:
 @breaks("R-9.1.4.1-02", at=tuple(tag for tag in MEMBERS if tag not in NOT_AGAIN))
 def member_again(element: etree._Element) -> bool:
     """Two members of one kind have one name."""
+    if is_returned(element):
+        return False
     element.addnext(copy.deepcopy(element))
-    return str(element.get("direction")).lower() != "return"
+    return True
 
 
 @breaks("R-9.2.7.2-03", at="Method")
@@ -61,27 +63,24 @@ def further_enumerator_beyond_its_index(enumeration: etree._Element) -> bool:
 @breaks("R-9.1.4.1-02", at="CompositeComponentImplementation")
 def last_parts_of_one_name(composite: etree._Element) -> bool:
     """The third part and the fourth have one name."""
-    parts = composite.findall("Part")
-    if len(parts) < 2:
-        return False
-    for _ in range(2):
-        again = copy.deepcopy(parts[-1])
-        again.set("name", "part_of_one_name")
-        parts[-1].addnext(again)
-    return True
+    return _two_more_of_one_name(composite, "Part")
 
 
 @breaks("R-9.1.4.1-02", at="ComponentType")
 def last_ports_of_one_name(component: etree._Element) -> bool:
     """The third port and the fourth have one name."""
-    ports = component.findall("Port")
-    if len(ports) < 2:
+    return _two_more_of_one_name(component, "Port")
+
+
+def _two_more_of_one_name(owner: etree._Element, tag: str) -> bool:
+    members = owner.findall(tag)
+    if len(members) < 2:
         return False
     for _ in range(2):
-        again = copy.deepcopy(ports[-1])
+        again = copy.deepcopy(members[-1])
         again.attrib.pop("refinesPort", "")
-        again.set("name", "port_of_one_name")
-        ports[-1].addnext(again)
+        again.set("name", "of_one_name")
+        members[-1].addnext(again)
     return True
 
 

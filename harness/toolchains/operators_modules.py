@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import re
 
 from lxml import etree
@@ -56,7 +55,7 @@ def in_the_same_module(element: etree._Element, name: str, *tags: str) -> etree.
 @breaks("R-9.1.4.1-01", at=NAMED)
 def without_name(element: etree._Element) -> bool:
     """It has no name."""
-    if _is_named_elsewhere(element) or _is_returned(element):
+    if _is_named_elsewhere(element) or is_returned(element):
         return False
     del element.attrib["name"]
     return True
@@ -65,7 +64,7 @@ def without_name(element: etree._Element) -> bool:
 @breaks("R-9.1.4.1-01", at=NAMED)
 def with_an_empty_name(element: etree._Element) -> bool:
     """Its name is empty."""
-    if _is_named_elsewhere(element) or _is_returned(element):
+    if _is_named_elsewhere(element) or is_returned(element):
         return False
     element.set("name", "")
     return True
@@ -78,39 +77,15 @@ def _is_named_elsewhere(element: etree._Element) -> bool:
     return any(name in re.split(r"[^\w-]+", str(value)) for one in others for value in one.attrib.values())
 
 
-def _is_returned(element: etree._Element) -> bool:
+def is_returned(element: etree._Element) -> bool:
     """What a method returns is its only parameter of that direction."""
     return str(element.get("direction")).lower() == "return"
-
-
-@breaks("R-9.1.4.1-02", at="Enumeration")
-def enumeration_again(enumeration: etree._Element) -> None:
-    """The module has two enumerations of one name."""
-    enumeration.addnext(copy.deepcopy(enumeration))
 
 
 @breaks("R-9.1.4.1-02", at="PrimitiveInteger")
 def integer_and_boolean_of_one_name(integer: etree._Element) -> None:
     """The module has two data types of one name, although of two sorts."""
     beside(integer, "PrimitiveBoolean", name=str(integer.get("name")))
-
-
-@breaks("R-9.1.4.1-02", at="TechnicalPolicyDefinition")
-def policy_definition_again(definition: etree._Element) -> None:
-    """The module has two policy definitions of one name."""
-    definition.addnext(copy.deepcopy(definition))
-
-
-@breaks("R-9.1.4.1-02", at="ConfigurationParameter")
-def configuration_parameter_again(parameter: etree._Element) -> None:
-    """The owner has two configuration parameters of one name."""
-    parameter.addnext(copy.deepcopy(parameter))
-
-
-@breaks("R-9.1.4.1-02", at="Port")
-def port_again(port: etree._Element) -> None:
-    """The component type has two ports of one name."""
-    port.addnext(copy.deepcopy(port))
 
 
 @keeps("R-9.1.4.1-03", at="PrimitiveInteger")
