@@ -20,18 +20,18 @@ from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
-from ucm_cts.adapters.reference_cpp import COMMAND
+from ucm_cts.adapters.reference.cpp import COMMAND
 
 ROOT = Path(__file__).parent.parent
-SDK = ROOT / "adapters" / "cpp"
-FRAMEWORK = ROOT / "adapters" / "reference_cpp" / "framework"
+SDK = ROOT / "adapters" / "sdk" / "cpp"
+FRAMEWORK = ROOT / "adapters" / "reference" / "cpp" / "framework"
 NATIVE = Path(__file__).parent / "native"
 GUIDE = ROOT / "docs" / "adapter-cpp.md"
 PACKAGE = Path(ucm_cts.__file__).parent
 
 STRICT = ["-std=c++11", "-pedantic-errors", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
-ADAPTER = ROOT / "adapters" / "reference_cpp" / "adapter.cpp"
-TYPED_BODIES = ROOT / "adapters" / "reference_cpp" / "typed" / "bodies.cpp"
+ADAPTER = ROOT / "adapters" / "reference" / "cpp" / "adapter.cpp"
+TYPED_BODIES = ROOT / "adapters" / "reference" / "cpp" / "typed" / "bodies.cpp"
 FRAMEWORK_SOURCES = sorted((FRAMEWORK / "src").glob("*.cpp"))
 
 RUDE = """

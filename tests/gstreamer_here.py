@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-_ADAPTER = "ucm_cts.adapters.gstreamer.adapter"
+_ADAPTER = "ucm_cts.adapters.integrations.gstreamer.adapter"
 _ASK = """
 import sys, gi
 gi.require_version("Gst", "1.0")
@@ -19,7 +19,7 @@ print(*sys.version_info[:2], sep=".")
 
 
 def gstreamer_adapter() -> Any:
-    """The module ``ucm_cts.adapters.gstreamer.adapter``. Skips the test where GStreamer is not installed."""
+    """The module ``ucm_cts.adapters.integrations.gstreamer.adapter``. Skips the test where GStreamer is not installed."""
     if _version_of_the_system() == f"{sys.version_info.major}.{sys.version_info.minor}":
         return importlib.import_module(_ADAPTER)
     return pytest.importorskip(_ADAPTER, exc_type=ImportError)

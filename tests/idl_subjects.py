@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
-from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.catalogue import SUITE
-from ucm_cts.reference_models.idl.expectations import ExpectedIdl
-from ucm_cts.reference_models.idl.mapping import expected_idl
+from ucm_cts.adapters.reference.toolchain.program import reference
+from ucm_cts.harness.catalogue.requirements import SUITE
+from ucm_cts.reference_models.mapping.idl.expectations import ExpectedIdl
+from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
 
 class Subject(NamedTuple):

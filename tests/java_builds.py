@@ -27,7 +27,7 @@ class JavaBuilds:
         self.folder = folder
         self.adapters = folder / "adapters"
         leave = shutil.ignore_patterns("target")
-        for name in ("java", "julia"):
+        for name in ("sdk/java", "integrations/julia"):
             shutil.copytree(ROOT / "adapters" / name, self.adapters / name, ignore=leave)
         shutil.copy(ROOT / "adapters" / "pom.xml", self.adapters)
         quickly = {**os.environ, "MAVEN_OPTS": "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"}
@@ -35,8 +35,8 @@ class JavaBuilds:
             run(["mvn", "-q", "-o", "-f", "adapters", "package"], cwd=folder, env=quickly)
         except AssertionError:  # what it takes is not all there yet
             run(["mvn", "-q", "-f", "adapters", "package"], cwd=folder, env=quickly)
-        self.julia = self.adapters / "julia" / "julia-adapter"
-        shutil.copytree(self.adapters / "julia" / "target" / "lib", folder / "lib")
+        self.julia = self.adapters / "integrations" / "julia" / "julia-adapter"
+        shutil.copytree(self.adapters / "integrations" / "julia" / "target" / "lib", folder / "lib")
         for name, text in guide_files().items():
             (folder / name).write_text(text)
         (folder / "beans-adapter").chmod(0o755)

@@ -32,8 +32,9 @@ from ucm_cts.adapters.contract.trace import (
     Request,
     Return,
 )
-from ucm_cts.harness.catalogue import Requirement
-from ucm_cts.harness.results import (
+from ucm_cts.harness.catalogue.requirements import Requirement
+from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.results.values import (
     Execution,
     FailedExecution,
     Incident,
@@ -42,9 +43,8 @@ from ucm_cts.harness.results import (
     RequirementResult,
     TransitionResult,
 )
-from ucm_cts.harness.stating.statement import default_statement
 from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.life_cycle import LifeCycleTable, Outcome, Row
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Outcome, Row
 
 HOSTILE = "</script><script>alert(1)</script>\"'><img src=x onerror=alert(2)>\x00\x1b[31m\u202e\ud800{{ 7*7 }}"
 

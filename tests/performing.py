@@ -11,9 +11,9 @@ from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import FromHost, Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.execution.integrity import contradiction
 
 SINK = {"provides": ["in"]}
 SOURCE = {"requires": ["out"], "connectable": True}

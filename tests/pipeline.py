@@ -11,15 +11,15 @@ from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.payloads import Payloads
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.reference_models.claims import Claims
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.monitor import Judge
 
 _TIME = re.compile(rb'"t":\d+')
 

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
-from ucm_cts.adapters.derived import MUTANTS
-from ucm_cts.adapters.derived.registry import Base, bind
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.adapters.reference_py.framework import ContainerManager, Failures, Member
+from ucm_cts.adapters.mutants.python import MUTANTS
+from ucm_cts.adapters.mutants.python.registry import Base, bind
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.framework import ContainerManager, Failures, Member
 
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:

@@ -53,9 +53,9 @@ def test_reference_models_are_pure() -> None:
 
 
 def test_the_reference_framework_does_not_know_the_sdk() -> None:
-    own = "ucm_cts.adapters.reference_py"
+    own = "ucm_cts.adapters.reference.python"
     for name in ("framework", "policies", "container_services", "connectors"):
-        path = PACKAGE / "adapters" / "reference_py" / f"{name}.py"
+        path = PACKAGE / "adapters" / "reference" / "python" / f"{name}.py"
         inner = {m for m in imported(path) if m.startswith("ucm_cts") and not m.startswith(own)}
         assert inner <= {
             f"ucm_cts.adapters.contract.{model}" for model in ("programming_model", "scenario", "data_types")
@@ -63,14 +63,17 @@ def test_the_reference_framework_does_not_know_the_sdk() -> None:
 
 
 def test_rules_look_in_their_order_whichever_module_is_imported_first() -> None:
-    told = "from ucm_cts.reference_models.ledger import RULES; print(*RULES)"
+    told = "from ucm_cts.reference_models.verdicts import RULES; print(*RULES)"
     orders = {
         subprocess.run(
-            [sys.executable, "-c", f"{first}; import ucm_cts.reference_models.judgement; {told}"],
+            [sys.executable, "-c", f"{first}; import ucm_cts.reference_models.monitor; {told}"],
             capture_output=True,
             text=True,
             check=True,
         ).stdout
-        for first in ("pass", "import ucm_cts.reference_models.rules_values, ucm_cts.reference_models.rules_trace")
+        for first in (
+            "pass",
+            "import ucm_cts.reference_models.properties.values, ucm_cts.reference_models.properties.trace",
+        )
     }
     assert len(orders) == 1

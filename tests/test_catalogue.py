@@ -7,8 +7,9 @@ from collections.abc import Iterator
 
 import pytest
 
-import ucm_cts.reference_models.judgement  # noqa: F401 - registers the rules
-from ucm_cts.harness.catalogue import (
+import ucm_cts.reference_models.monitor  # noqa: F401 - registers the rules
+from ucm_cts.harness.catalogue.profiles import PARTS, PROFILES
+from ucm_cts.harness.catalogue.requirements import (
     SUITE,
     Requirement,
     in_the_making,
@@ -18,12 +19,11 @@ from ucm_cts.harness.catalogue import (
     load_requirements,
 )
 from ucm_cts.harness.models.core_models import CHECKS, checked
-from ucm_cts.harness.profiles import PARTS, PROFILES
-from ucm_cts.harness.scenarios.life_cycle import generated_purposes
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.harness.toolchains.corpus import questions
+from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.examinations import TOOLCHAIN_CHECKS, stand_for
-from ucm_cts.reference_models.ledger import RULES
+from ucm_cts.reference_models.verdicts import RULES
 
 REQUIREMENTS = {r.id: r for r in load_requirements()}
 STANDS_FOR = {rule.name: rule.stands_for for rule in RULES.values()} | checked() | stand_for()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from ucm_cts.adapters.derived import CHEATS, UNSEEN, Cheat
+from ucm_cts.adapters.mutants.python import CHEATS, UNSEEN, Cheat
 from ucm_cts.harness.selftest.cheating import examine_cheat
 
 

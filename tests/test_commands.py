@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 from command_line import Outcome, report_of, ucm_cts, within
 
-from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_requirements
+from ucm_cts.harness.catalogue.requirements import Requirement, load_interpretations, load_requirements
 
 SUBJECT, REQUIREMENT = "subjects:stops_in_startup_order", "R-11.2.2.1-13"
 OTHER = "R-11.2.3-15"
@@ -238,7 +238,7 @@ def test_verdict_that_flips_between_runs_is_unstable(here: Path) -> None:
 
 OTHERWISE_LATER = """
 from pathlib import Path
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 
 class Later(ReferenceAdapter):
     pass

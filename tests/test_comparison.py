@@ -17,9 +17,9 @@ from made_up_run import CATALOGUE, HOSTILE, sample
 from ucm_cts.harness.report import comparison
 from ucm_cts.harness.report.comparison import compare
 from ucm_cts.harness.report.comparison_page import to_html
-from ucm_cts.harness.report.foreign import clean_report
 from ucm_cts.harness.report.json_report import FindingEntry, ReportEntry, RequirementEntry, to_json
-from ucm_cts.harness.results import Verdict
+from ucm_cts.harness.results.foreign import clean_report
+from ucm_cts.harness.results.values import Verdict
 
 ROOT = Path(__file__).parent.parent
 SAMPLE = msgspec.json.decode(to_json(clean_report(sample()), CATALOGUE), type=ReportEntry)

@@ -14,18 +14,18 @@ from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
 from ucm_cts.adapters.contract.scenario import PORT_TRACE, Policy, Scenario
 from ucm_cts.adapters.contract.trace import Event, LogRecord, Paused, Reply, Request, Return
-from ucm_cts.adapters.derived import container_services as variants
-from ucm_cts.adapters.derived.registry import Base, bind
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.adapters.reference_py.framework import Member
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.reference_models.claims import Claims
-from ucm_cts.reference_models.clock_readings import SECOND, passed
-from ucm_cts.reference_models.judgement import Judge
-from ucm_cts.reference_models.ledger import Ledger
+from ucm_cts.adapters.mutants.python import container_services as variants
+from ucm_cts.adapters.mutants.python.registry import Base, bind
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.reference_models.model.clock_readings import SECOND, passed
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.verdicts import Ledger
 
 Adapter = type[ReferenceAdapter]
 MILLISECOND = 1_000_000

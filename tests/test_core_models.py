@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from ucm_cts.adapters.reference_cpp import STATEMENT
-from ucm_cts.harness.documents import DocumentError
+from ucm_cts.adapters.reference.cpp import STATEMENT
+from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.models import core_models
 from ucm_cts.harness.models.core_models import CORE, Declaration, compare
 from ucm_cts.harness.selftest.spoilt_models import declarations, element_of, repeating, spoilt_results
-from ucm_cts.harness.stating.files import read_statement
+from ucm_cts.harness.statement.files import read_statement
 
 DECLARATIONS = declarations()
 each_declaration = pytest.mark.parametrize("declaration", DECLARATIONS.values(), ids=DECLARATIONS.keys())

@@ -10,14 +10,14 @@ from performing import answer
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Burst, Scenario
-from ucm_cts.adapters.derived import CORE, Mutant, Variant, mutants_of, variants_of
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.reference_models.claims import Claims
+from ucm_cts.adapters.mutants.python import CORE, Mutant, Variant, mutants_of, variants_of
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.monitor import Judge
 
 SHORT = 0.2
 """Of the patience of scenarios. What a mutant never does is not waited for longer; a burst takes its time."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 from lxml import etree
 
-from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.catalogue import SUITE, load_requirements
-from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.adapters.reference.toolchain.program import reference
+from ucm_cts.harness.catalogue.requirements import SUITE, load_requirements
+from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.toolchains.acceptance import Answer, Judgement, judge
-from ucm_cts.harness.toolchains.corpus import Question, load_operators, questions
-from ucm_cts.harness.toolchains.unprinted import CONSTRUCTS
+from ucm_cts.harness.toolchains.corpus.selection import Question, load_operators, questions
+from ucm_cts.harness.toolchains.unspecified_spellings import CONSTRUCTS
 
 PROGRAM = reference()
 REQUIREMENTS = {r.id: r for r in load_requirements()}

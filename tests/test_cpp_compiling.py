@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from test_cpp_mapping import model
 
-from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.toolchains.cpp import compiling
 from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Error, Headers, NoCompiler, compile_text

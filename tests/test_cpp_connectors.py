@@ -12,12 +12,12 @@ from command_line import within
 from cpp_builds import Builds
 
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.running.driver import Driver
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.reference_models.claims import Claims
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.monitor import Judge
 
 SHORT_PATIENCE = 500
 """Milliseconds. Scenarios that wait for what must not come take no longer."""

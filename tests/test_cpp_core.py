@@ -17,7 +17,7 @@ from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
-from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.harness.execution.integrity import contradiction
 
 ULONG, TEXT = d.Integer("ULONG"), d.String("CHAR32")
 PROBLEM = d.Structure("problem", {"why": TEXT, "codes": d.Sequence(d.Integer("ULONGLONG"))})

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 from test_cpp_mapping import model
 
-from ucm_cts.adapters.derived_toolchain.registry import mutants
-from ucm_cts.adapters.derived_toolchain.rewriting_cpp import SHOWN_BY
-from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.adapters.mutants.toolchain.registry import mutants
+from ucm_cts.adapters.mutants.toolchain.rewriting_cpp import SHOWN_BY
+from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout
 from ucm_cts.harness.toolchains.differences import Comparison
-from ucm_cts.reference_models.cpp.expected import Standard
+from ucm_cts.reference_models.mapping.cpp.expected import Standard
 
 BROKEN = "less_or_equal_is_less_cpp03"
 """Found out when the program of probes runs."""

@@ -10,16 +10,16 @@ import pytest
 from test_cpp_compiling import HERE
 from test_cpp_mapping import model
 
-from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import LAYOUT, Compiler, Layout, compile_text
 from ucm_cts.harness.toolchains.description import Command, ToolChain, read_toolchain
 from ucm_cts.harness.toolchains.differences import Comparison
-from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.processing import CommandLine
+from ucm_cts.harness.toolchains.renaming import Dress
 
 DEMONSTRATION = '#include "constants.hpp"\nint main() { return 0; }\n'
 UNFINISHED = "void to_be_written();\nvoid body() { to_be_written(); }\n"

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from test_cpp_mapping import expectations, model
 
-from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Headers
 from ucm_cts.harness.toolchains.cpp.listing import LISTED, Listed, listed
 

@@ -10,15 +10,15 @@ import pytest
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
-from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.catalogue import SUITE, load_interpretations, load_requirements
-from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.adapters.reference.toolchain.program import reference
+from ucm_cts.harness.catalogue.requirements import SUITE, load_interpretations, load_requirements
+from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.toolchains.cpp.applicability import not_asked, stand_for
 from ucm_cts.harness.toolchains.cpp.probes import CHECKS
-from ucm_cts.harness.toolchains.cpp.standing import not_asked, stand_for
-from ucm_cts.reference_models.cpp import expected as claims
-from ucm_cts.reference_models.cpp.classes import Named
-from ucm_cts.reference_models.cpp.expected import Claim, ExpectedCpp, Standard
-from ucm_cts.reference_models.cpp.mapping import expected_cpp
+from ucm_cts.reference_models.mapping.cpp import expected as claims
+from ucm_cts.reference_models.mapping.cpp.classes import Named
+from ucm_cts.reference_models.mapping.cpp.expected import Claim, ExpectedCpp, Standard
+from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 
 PROFILES: Mapping[Standard, tuple[str, ...]] = {"cpp11": ("cpp", "cpp11"), "cpp03": ("cpp", "cpp03")}
 

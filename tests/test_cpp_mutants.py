@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from cpp_builds import Builds
 
-from ucm_cts.adapters.derived_cpp import VARIABLE, NativeMutant, native_mutants
-from ucm_cts.harness.catalogue import load_requirements
-from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.adapters.mutants.cpp import VARIABLE, NativeMutant, native_mutants
+from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.killing import Thoroughness, examine_mutant, native_subject
 
 QUICK = {

@@ -7,15 +7,15 @@ import functools
 import pytest
 from test_cpp_mapping import PROFILES, model
 
-from ucm_cts.adapters.derived_toolchain.registry import Mutant, Variant, mutants, variants
-from ucm_cts.adapters.derived_toolchain.rewriting_cpp import SHOWN_BY
-from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.adapters.mutants.toolchain.registry import Mutant, Variant, mutants, variants
+from ucm_cts.adapters.mutants.toolchain.rewriting_cpp import SHOWN_BY
+from ucm_cts.adapters.reference.toolchain.program import reference
+from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler
 from ucm_cts.harness.toolchains.differences import Comparison
-from ucm_cts.reference_models.cpp.expected import Standard
-from ucm_cts.reference_models.cpp.mapping import expected_cpp
+from ucm_cts.reference_models.mapping.cpp.expected import Standard
+from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 
 KNOWN = mutants()
 

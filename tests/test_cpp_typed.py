@@ -15,16 +15,16 @@ from typed_files import COMMAND, GENERATED, generated
 
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.reference_cpp import TYPED_COMMAND, TYPED_STATEMENT
-from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.adapters.reference.cpp import TYPED_COMMAND, TYPED_STATEMENT
+from ucm_cts.adapters.reference.toolchain.program import reference
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.running.driver import Answer, Driver
-from ucm_cts.harness.scenarios.probes import PROBE_MODEL, load_probe_types
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.harness.stating.files import read_statement
-from ucm_cts.reference_models.claims import Claims
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.harness.purposes.probes import PROBE_MODEL, load_probe_types
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.harness.statement.files import read_statement
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.monitor import Judge
 
 BODIES = "UCM_CTS_LWUCM_BODIES"
 README = FRAMEWORK / "README.md"

@@ -10,15 +10,15 @@ import pytest
 from command_line import within
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.harness.documents import DocumentError
+from ucm_cts.harness.catalogue.documents import DocumentError
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.results import FailedExecution
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.running.driver import Driver
-from ucm_cts.harness.scenarios.data import data_purposes
-from ucm_cts.harness.scenarios.purposes import load_purposes, select
-from ucm_cts.harness.scenarios.scripts import Script, problems, read_scripts
+from ucm_cts.harness.purposes.data.scenarios import data_purposes
+from ucm_cts.harness.purposes.scripts import Script, problems, read_scripts
+from ucm_cts.harness.purposes.selection import load_purposes, select
+from ucm_cts.harness.results.values import FailedExecution
 
 PURPOSES = data_purposes()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from lxml import etree
 
-from ucm_cts.harness.toolchains.declarations import member, path, resolved, spare_like, spare_unlike
+from ucm_cts.harness.toolchains.corpus.declarations import member, path, resolved, spare_like, spare_unlike
 
 MODEL = """\
 <Model>

@@ -27,7 +27,7 @@ from ucm_cts.adapters.contract.trace import Call, Create, Dependency, Event, Log
 from ucm_cts.harness.report import sequence, sequence_svg
 from ucm_cts.harness.report.excerpt import compare
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
-from ucm_cts.harness.results import Execution, Incident
+from ucm_cts.harness.results.values import Execution, Incident
 from ucm_cts.reference_models.findings import Arrow, Finding
 
 

@@ -11,14 +11,14 @@ from subjects import Parrot
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Raise, Trace
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.reference_models.monitor import Judge
 
 SPELLING = "{port}_{element}"
 SCENARIO = msgspec.convert(

@@ -27,23 +27,23 @@ import ucm_cts as package
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.metamodel.writing import Dialect
-from ucm_cts.adapters.derived import MUTANTS
-from ucm_cts.adapters.derived_toolchain.registry import mutants as wrong_tool_chains
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
-from ucm_cts.harness.commands import cli
-from ucm_cts.harness.profiles import PARTS, TOOLCHAIN_PROFILES
-from ucm_cts.harness.results import Verdict
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.probes import load_probe_types
-from ucm_cts.harness.scenarios.scripts import read_scripts, to_scenario
+from ucm_cts.adapters.mutants.python import MUTANTS
+from ucm_cts.adapters.mutants.toolchain.registry import mutants as wrong_tool_chains
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
+from ucm_cts.harness.cli.commands import cli
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.probes import load_probe_types
+from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
+from ucm_cts.harness.results.values import Verdict
 from ucm_cts.harness.selftest.matrix import Matrix
 from ucm_cts.harness.toolchains.description import Command, ToolChain
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.reference_models.monitor import Judge
 
 ROOT = Path(__file__).parent.parent
-FRAMEWORK = ROOT / "adapters" / "reference_cpp" / "framework"
+FRAMEWORK = ROOT / "adapters" / "reference" / "cpp" / "framework"
 PAGES = [ROOT / "README.md", FRAMEWORK / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 ROOMS = {"suite", "reference_models", "harness", "adapters", "docs", "src", "tests"}
 PACKAGE = Path(package.__file__).parent
@@ -320,7 +320,7 @@ def test_python_guide_other_ways(here: Path) -> None:
     write_files("docs/scenarios.md")
     (debugged,) = [c for c in commands("ucm-cts replay") if "my_adapter" in c]
     assert "no rule was broken" in shell(debugged.replace("FILE", "example.yaml"))
-    (served,) = commands("python -m ucm_cts.adapters.python.host")
+    (served,) = commands("python -m ucm_cts.adapters.sdk.python.host")
     command = [sys.executable, *served.replace(":4000", ":0").split()[1:]]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         assert server.stdout
@@ -349,7 +349,7 @@ def vendor(here: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (here / "acme" / "ucm.hpp").write_text("#include <lwucm/runtime.hpp>\nnamespace acme = lwucm;\n")
     (here / "acmeConfig.cmake").write_text("add_library(acme::ucm INTERFACE IMPORTED)\n")
     monkeypatch.setenv("acme_DIR", str(here))
-    headers = (here, FRAMEWORK / "include", ROOT / "adapters" / "cpp" / "example")
+    headers = (here, FRAMEWORK / "include", ROOT / "adapters" / "sdk" / "cpp" / "example")
     monkeypatch.setenv("CPLUS_INCLUDE_PATH", ":".join(map(str, headers)))
     monkeypatch.setenv("LIBRARY_PATH", str(here))
     return here

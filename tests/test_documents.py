@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from ucm_cts.harness.documents import LARGEST, DocumentError
-from ucm_cts.harness.known_failures import KnownFailure, load_known_failures, waiver_for
-from ucm_cts.harness.scenarios.scripts import read_scripts
+from ucm_cts.harness.catalogue.documents import LARGEST, DocumentError
+from ucm_cts.harness.purposes.scripts import read_scripts
+from ucm_cts.harness.results.known_failures import KnownFailure, load_known_failures, waiver_for
 from ucm_cts.reference_models.findings import Finding
 
 GOOD = """\

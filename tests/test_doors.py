@@ -19,16 +19,16 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Refused, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Return, Siblings, Trace
-from ucm_cts.adapters.reference_cpp import COMMAND
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.adapters.reference.cpp import COMMAND
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.running.driver import Driver
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.harness.scenarios.scripts import load_scripts
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.harness.purposes.scripts import load_scripts
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.reference_models.monitor import Judge
 
 GENERATED = 60
-PYTHON = "ucm_cts.adapters.reference_py.adapter:ReferenceAdapter"
+PYTHON = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ REFUSED: dict[str, int | None] = {
 
 def test_hosts_refuse_the_same_and_say_which_message() -> None:
     lines = "".join(f"{line}\n\n" for line in REFUSED)
-    for command in [COMMAND], [sys.executable, "-m", "ucm_cts.adapters.python.host", PYTHON]:
+    for command in [COMMAND], [sys.executable, "-m", "ucm_cts.adapters.sdk.python.host", PYTHON]:
         done = subprocess.run(command, input=lines, capture_output=True, text=True, check=True)
         answers = [from_host_decoder().decode(line) for line in done.stdout.splitlines()]
         assert len(answers) == len(REFUSED)

@@ -9,11 +9,11 @@ from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.contract.metamodel.writing import Dialect
-from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.adapters.reference.toolchain.program import reference
+from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.toolchains.acceptance import dressed
-from ucm_cts.harness.toolchains.corpus import questions
-from ucm_cts.harness.toolchains.dressing import Dress, drawn_name, printed_names
+from ucm_cts.harness.toolchains.corpus.selection import questions
+from ucm_cts.harness.toolchains.renaming import Dress, drawn_name, printed_names
 
 ASKED = [q for q in questions() if all(map(default_statement().meets, q.under))]
 PROGRAM = reference()

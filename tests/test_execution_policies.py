@@ -11,11 +11,11 @@ import pytest
 from command_line import within
 
 from ucm_cts.adapters.contract.trace import Settled
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.running.driver import Driver
-from ucm_cts.harness.scenarios.schedules import overlap_purposes
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
+from ucm_cts.reference_models.monitor import Judge
 
 EXCLUSION = {f"R-10.1.3.2-{number}" for number in ("06", "09", "10", "13", "16")}
 

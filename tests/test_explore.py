@@ -23,26 +23,26 @@ from rich.console import Console
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.exploring.changing import LONGEST, changed
 from ucm_cts.harness.exploring.core_writer import CoreWriter
 from ucm_cts.harness.exploring.exploration import IN_VAIN, Exploration
-from ucm_cts.harness.exploring.foresight import transitions
 from ucm_cts.harness.exploring.memory import Memory, Remembered
 from ucm_cts.harness.exploring.novelty import Guide
-from ucm_cts.harness.exploring.telling import found_text
+from ucm_cts.harness.exploring.predicted_coverage import transitions
+from ucm_cts.harness.exploring.printing import found_text
 from ucm_cts.harness.exploring.writer import Writer
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.results import Execution, Incident, IncidentKind
-from ucm_cts.harness.running.driver import Driver, Limits
-from ucm_cts.harness.running.incident_causes import DistinctIncidents, cause_of_incident
-from ucm_cts.harness.running.incidents import may_wait
-from ucm_cts.harness.scenarios.scripts import Script, problems, to_scenario
-from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.harness.purposes.scripts import Script, problems, to_scenario
+from ucm_cts.harness.results.incident_causes import DistinctIncidents, cause_of_incident
+from ucm_cts.harness.results.incidents import may_wait
+from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.results.values import Execution, Incident, IncidentKind
 
 SUBJECT, REQUIREMENT = "subjects:stops_in_startup_order", "R-11.2.2.1-13"
 MENDED = "subjects:Mended"
-REFERENCE = "ucm_cts.adapters.reference_py.adapter:ReferenceAdapter"
+REFERENCE = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 
 
 @pytest.fixture(autouse=True)
@@ -125,7 +125,7 @@ def test_conformant_frameworks_are_not_failed(here: Path) -> None:
 
 
 def test_calls_may_wait_for_a_start_that_never_comes(here: Path) -> None:
-    variant = "ucm_cts.adapters.derived:calls_wait_for_the_start"
+    variant = "ucm_cts.adapters.mutants.python:calls_wait_for_the_start"
     arguments = "--budget", "12scenarios", "--seed", "4", "--timeout", "0.5", "--out", "out"
     outcome = ucm_cts("explore", variant, *arguments)
     assert (outcome.status, outcome.err) == (0, "")

@@ -8,12 +8,11 @@ from types import ModuleType
 
 import pytest
 
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.documents import DocumentError
-from ucm_cts.harness.scenarios.purposes import select
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.catalogue.documents import DocumentError
+from ucm_cts.harness.purposes.selection import select
 from ucm_cts.harness.selftest.generated import cpp_programs, python_programs
-from ucm_cts.harness.selftest.generated.glance import Glancer
 from ucm_cts.harness.selftest.generated.mutants import (
     DUPLICATE,
     GENERATED,
@@ -24,6 +23,7 @@ from ucm_cts.harness.selftest.generated.mutants import (
     generate,
 )
 from ucm_cts.harness.selftest.generated.page import Tally, page
+from ucm_cts.harness.selftest.generated.quick_trial import Glancer
 from ucm_cts.harness.selftest.generated.record import Result, append, read_equivalents, read_results
 from ucm_cts.harness.selftest.generated.trial import Outcome, ordered, stated
 
@@ -195,7 +195,7 @@ def test_figures_of_a_page() -> None:
     ("listed", "sources"),
     [
         (python_programs.EQUIVALENTS, python_programs.HOME),
-        (cpp_programs.EQUIVALENTS, ROOT / "adapters" / "reference_cpp" / "framework" / "src"),
+        (cpp_programs.EQUIVALENTS, ROOT / "adapters" / "reference" / "cpp" / "framework" / "src"),
     ],
     ids=["python", "cpp"],
 )

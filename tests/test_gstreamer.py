@@ -264,7 +264,7 @@ def test_one_line_says_what_is_missing(tmp_path: Path) -> None:
     """In an interpreter that sees no packages of the system, at a place where there are none."""
     (tmp_path / "gi.py").write_text("raise ImportError('no such thing')")
     done = subprocess.run(
-        [sys.executable, "-m", "ucm_cts.adapters.python.host", "ucm_cts.adapters.gstreamer.adapter:GStreamerAdapter"],
+        [sys.executable, "-m", "ucm_cts.adapters.sdk.python.host", "ucm_cts.adapters.integrations.gstreamer.adapter:GStreamerAdapter"],
         env={"PYTHONPATH": f"{tmp_path}:{':'.join(sys.path)}"}, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 2

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ucm_cts.adapters.contract.trace import Opened, Trace
-from ucm_cts.harness.running.host_clock import DRIFT, GRAIN, HostClock
+from ucm_cts.harness.execution.host_clock import DRIFT, GRAIN, HostClock
 
 MS = 1_000_000
 BEHIND = 7_000 * MS

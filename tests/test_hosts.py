@@ -19,13 +19,13 @@ from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.adapters.contract.trace import Call, Create
 from ucm_cts.harness.hosting.hosts import Answer, Hosts, HostUnavailable, Limits
 from ucm_cts.harness.hosting.locate import WrongUse, locate
-from ucm_cts.harness.results import Incident
+from ucm_cts.harness.results.values import Incident
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "hostile"))
 import speakers
 
-REFERENCE = "ucm_cts.adapters.reference_py.adapter:ReferenceAdapter"
+REFERENCE = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 CALM = Scenario({"calm": Declaration()}, (s.AddComponent("calm"), s.Start()))
 TRIGGER = Scenario({"calm": Declaration(), "trigger": Declaration()}, (s.AddComponent("trigger"),))
 IN_THREAD = Scenario({"trigger": Declaration()}, (s.AddComponent("trigger", thread="w"),), patience=20)
@@ -282,7 +282,7 @@ def test_listening_host(tmp_path: Path, address: str) -> None:
     command = [
         sys.executable,
         "-m",
-        "ucm_cts.adapters.python.host",
+        "ucm_cts.adapters.sdk.python.host",
         "misbehaving:Aborts",
         "--listen",
         address.format(tmp_path),

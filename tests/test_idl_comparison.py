@@ -12,9 +12,9 @@ from ucm_cts.harness.toolchains.idl.comparing import CHECKS, compare
 from ucm_cts.harness.toolchains.idl.scopes import Scope
 from ucm_cts.harness.toolchains.idl.standard import printed
 from ucm_cts.harness.toolchains.idl.values import worth as value_of
-from ucm_cts.reference_models.idl.declarations import Literal
-from ucm_cts.reference_models.idl.expectations import RULE_OF, STANDS_FOR, Declares, Getter, Templated
-from ucm_cts.reference_models.idl.mapping import expected_idl
+from ucm_cts.reference_models.mapping.idl.declarations import Literal
+from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF, STANDS_FOR, Declares, Getter, Templated
+from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
 EXPECTED = expected_idl(model_of(TELLER))
 

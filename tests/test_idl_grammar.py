@@ -18,7 +18,7 @@ from ucm_cts.harness.toolchains.idl.reading import (
 )
 from ucm_cts.harness.toolchains.idl.scopes import build
 from ucm_cts.harness.toolchains.idl.values import Worth, worth
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotation,
     ArrayOf,
     Attribute,

@@ -9,16 +9,16 @@ from hypothesis import HealthCheck, given, settings
 from idl_subjects import Subject, subjects
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
-from ucm_cts.adapters.derived_toolchain.registry import Mutant, Variant, mutants, variants
-from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.adapters.mutants.toolchain.registry import Mutant, Variant, mutants, variants
+from ucm_cts.adapters.reference.toolchain.program import reference
+from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.toolchains.corpus.legal_models import legal_models
 from ucm_cts.harness.toolchains.idl.comparing import compare
 from ucm_cts.harness.toolchains.idl.omniidl import opinion
 from ucm_cts.harness.toolchains.idl.reading import read_files
-from ucm_cts.harness.toolchains.legal_models import legal_models
-from ucm_cts.reference_models.idl.declarations import Module
-from ucm_cts.reference_models.idl.expectations import RULE_OF
-from ucm_cts.reference_models.idl.mapping import expected_idl
+from ucm_cts.reference_models.mapping.idl.declarations import Module
+from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF
+from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
 MUTANTS = {name: mutant for name, mutant in mutants().items() if mutant.task == "idl"}
 VARIANTS = {name: variant for name, variant in variants().items() if variant.task == "idl"}

@@ -13,14 +13,14 @@ from command_line import report_of, ucm_cts, within
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Skip
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.results import Incident
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.driver import Driver, Limits
-from ucm_cts.harness.running.incidents import Patience
-from ucm_cts.harness.scenarios.purposes import load_purposes, select
-from ucm_cts.harness.stating.applicability import purposes_for
-from ucm_cts.harness.stating.files import stated_by
+from ucm_cts.harness.purposes.selection import load_purposes, select
+from ucm_cts.harness.results.incidents import Patience
+from ucm_cts.harness.results.values import Incident
+from ucm_cts.harness.statement.applicability import purposes_for
+from ucm_cts.harness.statement.files import stated_by
 
 STARTS = Scenario({}, (s.Start(),))
 STOPS = Scenario({}, (s.Start(), s.Stop()))
@@ -142,7 +142,7 @@ def test_threads_that_never_come_back_fail_the_requirement_that_forbids_it() -> 
     statement = msgspec.structs.replace(statement, ixit={**statement.ixit, "patience": 200})
     some = [p for p in purposes_for(statement, "core") if "R-10.1.3.2-17" in p.requirements][:3]
     assert some
-    with Driver(locate("ucm_cts.adapters.derived:forgets_who_waits"), seed=1) as driver:
+    with Driver(locate("ucm_cts.adapters.mutants.python:forgets_who_waits"), seed=1) as driver:
         campaign = Campaign(driver, "core", (), statement)
         for _ in campaign.check(some):
             pass

@@ -11,9 +11,9 @@ import pytest
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.scenario import Hook, Scenario
 from ucm_cts.adapters.contract.trace import Call, Enter, Event, Exit, Held, Opened, Reference, Return, Skip, Timeout
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.running.integrity import contradiction
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.execution.integrity import contradiction
 
 CALL = {"do": "call", "port": "out", "value": 5}
 RICH = msgspec.convert(

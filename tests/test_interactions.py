@@ -13,17 +13,17 @@ from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.adapters.contract.trace import Call, Enter, Exit, Reply, Request, Return
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.adapters.reference_py.connectors import Link
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.scenarios.payloads import Payloads
-from ucm_cts.harness.scenarios.purposes import load_purposes, select
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.connectors import Link
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.selection import load_purposes, select
 from ucm_cts.harness.selftest.generated.python_programs import HOME
-from ucm_cts.harness.stating.files import read_statement
-from ucm_cts.reference_models.executions import BusinessCall
-from ucm_cts.reference_models.interactions import Delivery, Interactions, MethodCall
-from ucm_cts.reference_models.judgement import Judge
-from ucm_cts.reference_models.runtime import Container, Member, Runtime
+from ucm_cts.harness.statement.files import read_statement
+from ucm_cts.reference_models.model.executions import BusinessCall
+from ucm_cts.reference_models.model.interactions import Delivery, Interactions, MethodCall
+from ucm_cts.reference_models.model.runtime import Container, Member, Runtime
+from ucm_cts.reference_models.monitor import Judge
 
 EMITTER = Declaration(("in.api",), ("out.api",), ports={"out.api": "numbers"})
 RECEIVER = Declaration(("in.api", "aux.api"), ports={"in.api": "numbers", "aux.api": "numbers"})

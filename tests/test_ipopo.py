@@ -13,16 +13,16 @@ import pytest
 from ucm_cts.adapters.contract import programming_model as ucm
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.trace import Raise
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.python.probe import PlannedFailure
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.scenarios.scripts import load_scripts, to_scenario
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.adapters.sdk.python.probe import PlannedFailure
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.purposes.scripts import load_scripts, to_scenario
 
 pytest.importorskip("pelix")
 
 from pelix.framework import FrameworkFactory
 
-from ucm_cts.adapters.ipopo.adapter import IpopoAdapter
+from ucm_cts.adapters.integrations.ipopo.adapter import IpopoAdapter
 
 
 class Body(ucm.ComponentObject, ucm.Connectable, ucm.PortElementObject):

@@ -23,10 +23,10 @@ from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.selection import load_purposes
 
 __all__ = ["java"]
 
@@ -321,7 +321,7 @@ def test_julia_shows_its_habits(java: JavaBuilds, monkeypatch: pytest.MonkeyPatc
     monkeypatch.chdir(java.folder)
     habits = HABITS["Fractal Julia 2.5.2"]
     told = " or ".join(sorted({habit.requirement for habit in habits} | {"R-12.10-17"}))  # where a container is null
-    outcome = ucm_cts("run", "adapters/julia/julia-adapter", "-k", told, "--out", "julia")
+    outcome = ucm_cts("run", "adapters/integrations/julia/julia-adapter", "-k", told, "--out", "julia")
     assert (outcome.status, outcome.err) == (1, "")
     report = report_of(java.folder / "julia")
     failing = {one["id"] for one in report["requirements"] if one["verdict"] == "fail"}
@@ -339,9 +339,9 @@ def test_julia_adapter_says_what_it_lacks(tmp_path: Path) -> None:
     for name in ("sh", "dirname", "readlink"):
         (tools / name).symlink_to(shutil.which(name) or name)
     environment = {name: value for name, value in os.environ.items() if name != "JAVA_HOME"}
-    adapter = tmp_path / "adapters" / "julia" / "julia-adapter"
+    adapter = tmp_path / "adapters" / "integrations" / "julia" / "julia-adapter"
     adapter.parent.mkdir(parents=True)
-    shutil.copy(ROOT / "adapters" / "julia" / "julia-adapter", adapter)
+    shutil.copy(ROOT / "adapters" / "integrations" / "julia" / "julia-adapter", adapter)
 
     def said() -> tuple[int, str]:
         done = subprocess.run(
@@ -356,7 +356,7 @@ def test_julia_adapter_says_what_it_lacks(tmp_path: Path) -> None:
 
 
 def test_julia_adapter_stays_thin() -> None:
-    files = [*(ROOT / "adapters" / "julia").rglob("*.java")]
+    files = [*(ROOT / "adapters" / "integrations" / "julia").rglob("*.java")]
     assert 0 < sum(len(file.read_text().splitlines()) for file in files) <= 300
 
 

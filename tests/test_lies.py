@@ -12,12 +12,12 @@ from hostile import lying
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.report.write import save_report
-from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Report
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.driver import Driver, Limits
-from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Report
 
 LIES = st.lists(
     st.tuples(st.sampled_from(lying.KINDS), st.integers(0, 200), st.integers(0, 200)), min_size=1, max_size=4

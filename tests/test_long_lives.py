@@ -10,9 +10,9 @@ import pytest
 
 from ucm_cts.adapters.contract.trace import Enter, Event, Reply
 from ucm_cts.harness.bench.long_life import LongLife
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.reference_models.monitor import Judge
 
 MEGABYTE = 2**20
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.adapters.reference.toolchain.program import reference
 
 PROGRAM = reference()
 

@@ -12,9 +12,9 @@ from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.contract.metamodel.spelling import IGNORED, SPELLINGS, Spelling, contained
 from ucm_cts.adapters.contract.metamodel.writing import write_model
-from ucm_cts.harness.catalogue import SUITE
+from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.models.core_models import CORE
-from ucm_cts.harness.toolchains.corpus import questions
+from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.schema import SCHEMA, second_opinion, violations
 
 MAPPING = SUITE / "models" / "mapping"

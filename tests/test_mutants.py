@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from pipeline import failing_requirements
 
-from ucm_cts.adapters.derived import CONTAINER, MUTANTS, Mutant, mutants_of
-from ucm_cts.harness.catalogue import load_requirements
-from ucm_cts.reference_models.ledger import RULES
+from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, Mutant, mutants_of
+from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.reference_models.verdicts import RULES
 
 
 @pytest.mark.parametrize("mutant", mutants_of(CONTAINER).values(), ids=mutants_of(CONTAINER).keys())

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.scenarios.payloads import EDGES, Payloads, with_payloads
-from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.purposes.payloads import EDGES, Payloads, with_payloads
+from ucm_cts.harness.purposes.selection import load_purposes
 
 SCENARIOS = [scenario for purpose in load_purposes("container") for _, scenario in purpose.scenarios]
 

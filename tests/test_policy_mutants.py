@@ -11,15 +11,15 @@ from performing import answer
 
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.derived import POLICIES, Mutant, Variant, mutants_of, variants_of
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.schedules import overlap_purposes
-from ucm_cts.harness.stating.applicability import purposes_for
-from ucm_cts.harness.stating.statement import default_statement
-from ucm_cts.reference_models.claims import Claims
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.adapters.mutants.python import POLICIES, Mutant, Variant, mutants_of, variants_of
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
+from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.statement.applicability import purposes_for
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.monitor import Judge
 
 SCRIPTED = {
     "waits-for-one-who-fails",

@@ -17,12 +17,12 @@ from command_line import report_of, within
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
-from ucm_cts.adapters.derived import MUTANTS
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.adapters.mutants.python import MUTANTS
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.reference_models.monitor import Judge
 
 ROOT = Path(__file__).parent.parent
 PURPOSES = {purpose.id.replace(" ", "-"): purpose for purpose in load_purposes("container")}
@@ -30,7 +30,7 @@ SUBJECT, REQUIREMENT = "stops_in_startup_order", "R-11.2.2.1-13"
 HEAD = re.compile(r"^(R-\S+): expected \S.*; observed \S.*$", re.MULTILINE)
 OTHERS = """
 from ucm_cts.adapters.contract.programming_model import UcmError
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 
 class NoIds(ReferenceAdapter):
     def add_component(self, *arguments):
@@ -346,9 +346,11 @@ def test_seed_and_process(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_plugin_loads_nothing_until_the_suite_is_collected() -> None:
-    script = "import sys, ucm_cts.harness.pytest_plugin; print(*(m for m in sys.modules if m.startswith('ucm_cts')))"
+    script = (
+        "import sys, ucm_cts.harness.cli.pytest_plugin; print(*(m for m in sys.modules if m.startswith('ucm_cts')))"
+    )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["ucm_cts", "ucm_cts.harness", "ucm_cts.harness.pytest_plugin"]
+    assert done.stdout.split() == ["ucm_cts", "ucm_cts.harness", "ucm_cts.harness.cli.pytest_plugin"]
 
 
 def test_foreign_tests_keep_their_fixtures(here: Path) -> None:

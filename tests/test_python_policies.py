@@ -27,7 +27,7 @@ from ucm_cts.adapters.contract.scenario import (
     Policy,
 )
 from ucm_cts.adapters.contract.trace import Enter, Event, Exit
-from ucm_cts.adapters.reference_py.framework import ContainerManager
+from ucm_cts.adapters.reference.python.framework import ContainerManager
 
 PASSIVE = {"provides": ["in", "side"], "policies": [{"definition": PROTECTED_PASSIVE}]}
 BOTH_ACTIVE = {

@@ -8,7 +8,7 @@ import pytest
 from performing import SINK, SOURCE, hooks, outcomes, play
 
 from ucm_cts.adapters.contract.programming_model import UcmError
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 
 PAIR = ["add_component component=server", "add_component component=client", "get_port_element id=server port=in bind=api",
         "connect id=client port=out to=api bind=link"]  # fmt: skip

@@ -26,9 +26,9 @@ from ucm_cts.adapters.contract.messages import (
 )
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject
 from ucm_cts.adapters.contract.scenario import SELF_EXECUTING, SELF_EXECUTION_API
-from ucm_cts.adapters.python import engine, workers
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python import engine, workers
+from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.hosting.hosts import Hosts
 from ucm_cts.harness.hosting.locate import locate
 

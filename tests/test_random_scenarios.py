@@ -16,21 +16,21 @@ from hypothesis import strategies as st
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Event, Trace
-from ucm_cts.adapters.derived import CONTAINER, CORE, POLICIES, mutants_of, variants_of
-from ucm_cts.adapters.python.engine import ContractBroken, Performance
-from ucm_cts.adapters.python.recorder import Recorder
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
+from ucm_cts.adapters.mutants.python import CONTAINER, CORE, POLICIES, mutants_of, variants_of
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import ContractBroken, Performance
+from ucm_cts.adapters.sdk.python.recorder import Recorder
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
+from ucm_cts.harness.execution.confirmation import is_timed
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.exploring.core_writer import CoreWriter
 from ucm_cts.harness.exploring.writer import scenarios
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.running.doubts import is_timed
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.scripts import read_scripts, to_scenario
-from ucm_cts.harness.stating.applicability import fitting
-from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
+from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.statement.applicability import fitting
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.reference_models.monitor import Judge
 
 WAITING = ("calls_wait_for_the_start", "starts_all_at_a_time")
 """Variants that may wait for ever where a scenario calls too early or a body raises."""

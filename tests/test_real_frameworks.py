@@ -88,6 +88,6 @@ def test_gstreamer_shows_it_here() -> None:
 
 def test_ipopo_shows_it_here() -> None:
     pytest.importorskip("pelix")
-    from ucm_cts.adapters.ipopo.adapter import IpopoAdapter
+    from ucm_cts.adapters.integrations.ipopo.adapter import IpopoAdapter
 
     check_here(IpopoAdapter)

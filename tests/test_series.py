@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from ucm_cts.harness import series
-from ucm_cts.harness.series import SeriesRun, markdown
+from ucm_cts.harness.selftest import series
+from ucm_cts.harness.selftest.series import SeriesRun, markdown
 
 
 def told(name: str, verdict: str = "conformant", **verdicts: str) -> SeriesRun:

@@ -10,15 +10,15 @@ import pytest
 from command_line import within
 
 from ucm_cts.adapters.contract.scenario import AddComponent, CreateContainer, Scenario
+from ucm_cts.harness.execution import shrink
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.results import FailedExecution
-from ucm_cts.harness.running import shrink
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.driver import Driver
-from ucm_cts.harness.scenarios.probes import load_probe_types
-from ucm_cts.harness.scenarios.purposes import load_purposes, select
-from ucm_cts.harness.scenarios.scripts import Script, problems, to_scenario
-from ucm_cts.harness.tally import cause_of
+from ucm_cts.harness.purposes.probes import load_probe_types
+from ucm_cts.harness.purposes.scripts import Script, problems, to_scenario
+from ucm_cts.harness.purposes.selection import load_purposes, select
+from ucm_cts.harness.results.tally import cause_of
+from ucm_cts.harness.results.values import FailedExecution
 
 SCENARIOS = [scenario for purpose in load_purposes("container") for _, scenario in purpose.scenarios]
 LONGEST = max(

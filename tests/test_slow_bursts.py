@@ -13,12 +13,12 @@ from performing import answer
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.derived.registry import Base, bind
-from ucm_cts.adapters.reference_py.connectors import COMM_ERROR, Link
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.messages import message_purposes
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.adapters.mutants.python.registry import Base, bind
+from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, Link
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.derived.messages import message_purposes
+from ucm_cts.reference_models.monitor import Judge
 
 _PATIENCE = 100
 

@@ -17,19 +17,19 @@ from command_line import within
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Trace
-from ucm_cts.adapters.derived.registry import Base, bind
-from ucm_cts.adapters.reference_py.framework import Failures, Member
+from ucm_cts.adapters.mutants.python.registry import Base, bind
+from ucm_cts.adapters.reference.python.framework import Failures, Member
+from ucm_cts.harness.execution import campaign
+from ucm_cts.harness.execution import confirmation as module
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.clock_gaps import StallWatch
+from ucm_cts.harness.execution.confirmation import Doubts
+from ucm_cts.harness.execution.driver import Answer, Circumstances, Driver
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.results import Report, RequirementResult
-from ucm_cts.harness.running import campaign
-from ucm_cts.harness.running import doubts as module
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.doubts import Doubts
-from ucm_cts.harness.running.driver import Answer, Circumstances, Driver
-from ucm_cts.harness.running.stalls import StallWatch
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.harness.scenarios.scripts import TestPurpose
-from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.results.values import Report, RequirementResult
 from ucm_cts.reference_models.findings import Finding
 
 MILLISECOND = 1_000_000

@@ -16,23 +16,23 @@ from lxml import etree
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import PROTOCOL, Welcome
-from ucm_cts.harness.catalogue import load_capabilities, load_options, load_requirements
-from ucm_cts.harness.documents import DocumentError
+from ucm_cts.harness.catalogue.documents import DocumentError
+from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PROFILES
+from ucm_cts.harness.catalogue.requirements import load_capabilities, load_options, load_requirements
+from ucm_cts.harness.cli.pytest_plugin import _undecided
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.models.core_models import CHECKS, CORE, compare
-from ucm_cts.harness.profiles import FRAMEWORK_PROFILES, PROFILES
-from ucm_cts.harness.pytest_plugin import _undecided
+from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.report.write import save_report
-from ucm_cts.harness.results import Report
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.driver import Driver
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.harness.stating.applicability import asked_in_vain, needs_of, purposes_for, why_not
-from ucm_cts.harness.stating.files import LARGEST, check_subject, read_statement, stated_by
-from ucm_cts.harness.stating.statement import HOOKS, IXIT, Statement, default_statement
-from ucm_cts.harness.stating.writing import to_toml, write_statement
+from ucm_cts.harness.results.statement import HOOKS, IXIT, Statement, default_statement
+from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.statement.applicability import asked_in_vain, needs_of, purposes_for, why_not
+from ucm_cts.harness.statement.files import LARGEST, check_subject, read_statement, stated_by
+from ucm_cts.harness.statement.writing import to_toml, write_statement
 
-ADAPTER = "ucm_cts.adapters.reference_py.adapter:ReferenceAdapter"
+ADAPTER = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 REQUIREMENTS = {r.id: r for r in load_requirements()}
 CORE_REQUIREMENTS = [r for r in load_requirements() if r.profile == "core" and not r.untestable]
 PARTS = [capability.id for capability in load_capabilities().capabilities]
@@ -270,9 +270,9 @@ def run(statement: Statement, *requirements: str, adapter: str = ADAPTER) -> Rep
 @pytest.mark.parametrize(
     ("adapter", "declared", "verdict"),
     [
-        ("ucm_cts.adapters.derived:starts_all_at_a_time", "at-once", "not applicable"),
-        ("ucm_cts.adapters.derived:starts_all_at_a_time", "one-by-one", "fail"),
-        ("ucm_cts.adapters.derived:starts_all_at_a_time", "observed", "inconclusive"),
+        ("ucm_cts.adapters.mutants.python:starts_all_at_a_time", "at-once", "not applicable"),
+        ("ucm_cts.adapters.mutants.python:starts_all_at_a_time", "one-by-one", "fail"),
+        ("ucm_cts.adapters.mutants.python:starts_all_at_a_time", "observed", "inconclusive"),
         (ADAPTER, "at-once", "fail"),
         (ADAPTER, "one-by-one", "pass"),
         (ADAPTER, "observed", "pass"),

@@ -15,17 +15,17 @@ from performing import answer
 from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Stressed, Trace
-from ucm_cts.adapters.derived.registry import Base, bind
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.adapters.reference_py.framework import Member
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.circles import circle_purposes
-from ucm_cts.harness.scenarios.scripts import TestPurpose, load_scripts, to_scenario
-from ucm_cts.harness.scenarios.stress import stress_purposes
-from ucm_cts.reference_models.claims import Claims
-from ucm_cts.reference_models.judgement import Judge
-from ucm_cts.reference_models.ledger import Ledger
+from ucm_cts.adapters.mutants.python.registry import Base, bind
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.derived.circles import circle_purposes
+from ucm_cts.harness.purposes.derived.stress import stress_purposes
+from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.verdicts import Ledger
 
 T = TypeVar("T")
 

@@ -15,37 +15,44 @@ from command_line import report_of, ucm_cts
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
-from ucm_cts.adapters.derived import MUTANTS, VARIANTS
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.catalogue import load_life_cycle, load_options
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.scripts import Part, Script, problems
-from ucm_cts.harness.scenarios.systematic import IDENTIFIED, systematic_purposes
-from ucm_cts.harness.systematic.comparison import CASES, READINGS, Comparison, compare, keeps_its_promise, table_of
-from ucm_cts.harness.systematic.derivation import derive
-from ucm_cts.harness.systematic.faults import Fault, Subject, Tried
-from ucm_cts.harness.systematic.identification import (
+from ucm_cts.adapters.mutants.python import MUTANTS, VARIANTS
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.scripts import Part, Script, problems
+from ucm_cts.harness.purposes.systematic.comparison import (
+    CASES,
+    READINGS,
+    Comparison,
+    compare,
+    keeps_its_promise,
+    table_of,
+)
+from ucm_cts.harness.purposes.systematic.derivation import derive
+from ucm_cts.harness.purposes.systematic.faults import Fault, Subject, Tried
+from ucm_cts.harness.purposes.systematic.identification import (
     NotReduced,
     characterisation_set,
     harmonised_identifiers,
     tells_apart,
     told_apart,
 )
-from ucm_cts.harness.systematic.machine import Machine, Move, Observation, Permitted
-from ucm_cts.harness.systematic.settings import Setting, across, below, one, relays, two
-from ucm_cts.harness.systematic.simulation import RIGHT, can_happen, simulate
-from ucm_cts.harness.systematic.suites import Method, Suite, hsi, tour, transition_cover, w, wp
-from ucm_cts.reference_models.claims import Claims
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.harness.purposes.systematic.machine import Machine, Move, Observation, Permitted
+from ucm_cts.harness.purposes.systematic.purposes import IDENTIFIED, systematic_purposes
+from ucm_cts.harness.purposes.systematic.settings import Setting, across, below, one, relays, two
+from ucm_cts.harness.purposes.systematic.simulation import RIGHT, can_happen, simulate
+from ucm_cts.harness.purposes.systematic.suites import Method, Suite, hsi, tour, transition_cover, w, wp
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.monitor import Judge
 
 Build = Callable[[], Setting]
 
 DECLARATIONS = ({}, dict(READINGS))
 """A vendor who declares nothing, and one who declares every choice."""
 
-ADAPTER = "ucm_cts.adapters.reference_py.adapter:ReferenceAdapter"
+ADAPTER = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 
 PAGE = Path(__file__).parent.parent / "docs" / "systematic.md"
 

@@ -16,7 +16,7 @@ import pytest
 from command_line import Outcome, ucm_cts, within
 
 from ucm_cts.harness.toolchains.acceptance import Answer, judge
-from ucm_cts.harness.toolchains.corpus import Question, differing_lines
+from ucm_cts.harness.toolchains.corpus.selection import Question, differing_lines
 
 FAKE = Path(__file__).parent / "toolchains" / "fake.py"
 CASE = "structure"
@@ -125,7 +125,7 @@ def test_warnings_of_a_checker_of_several_models_refuse_nothing(here: Path) -> N
     script.write_text(
         "#!/bin/sh\n"
         f'for m in "$@"; do echo "$m:1: warning: I say so of every model"; done\n'
-        f'exec {sys.executable} -m ucm_cts.adapters.toolchain check "$@"\n'
+        f'exec {sys.executable} -m ucm_cts.adapters.reference.toolchain check "$@"\n'
     )
     script.chmod(0o755)
     ucm_cts("run", "--toolchain", describe(here / "w.toml", ["./warns.sh", "{models}"]), "-k", CASE, "--out", "out")

@@ -29,11 +29,18 @@ from ucm_cts.adapters.contract.data_types import (
     integer_range,
 )
 from ucm_cts.adapters.contract.data_values import SCALARS, misfit, parts, read_spelled, spell
-from ucm_cts.adapters.derived.altering import rebuilt
-from ucm_cts.harness.scenarios.corner_values import LONG_SEQUENCE, LONG_STRING, LONGEST_STRING, UNDECLARED, corners
-from ucm_cts.harness.scenarios.data_catalogue import CATALOGUE, COLOUR, KINDS, LONG, NAME, POINT
-from ucm_cts.harness.scenarios.typed_values import draw, values
-from ucm_cts.reference_models.carriage import Evidence, Part, differences, distance, requirement_of, requirements_of
+from ucm_cts.adapters.mutants.python.altering import rebuilt
+from ucm_cts.harness.purposes.data.catalogue import CATALOGUE, COLOUR, KINDS, LONG, NAME, POINT
+from ucm_cts.harness.purposes.data.corner_values import LONG_SEQUENCE, LONG_STRING, LONGEST_STRING, UNDECLARED, corners
+from ucm_cts.harness.purposes.data.typed_values import draw, values
+from ucm_cts.reference_models.model.value_transport import (
+    Evidence,
+    Part,
+    differences,
+    distance,
+    requirement_of,
+    requirements_of,
+)
 
 TYPES = {f"{sort.sort}: {name}": of for sort in CATALOGUE for name, of in sort.types.items()}
 EVERY_TYPE = pytest.mark.parametrize("of", TYPES.values(), ids=TYPES.keys())

@@ -8,11 +8,11 @@ import msgspec
 import pytest
 from pipeline import Product
 
-from ucm_cts.adapters.derived import CONTAINER, Variant, variants_of
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
-from ucm_cts.harness.catalogue import load_options, load_requirements
-from ucm_cts.harness.stating.applicability import why_not
-from ucm_cts.harness.stating.statement import default_statement
+from ucm_cts.adapters.mutants.python import CONTAINER, Variant, variants_of
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.harness.catalogue.requirements import load_options, load_requirements
+from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.statement.applicability import why_not
 
 REQUIREMENTS = {requirement.id: requirement for requirement in load_requirements()}
 

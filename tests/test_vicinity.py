@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from ucm_cts.harness.toolchains.corpus import differing_lines
-from ucm_cts.harness.toolchains.vicinity import vicinity
+from ucm_cts.harness.toolchains.corpus.selection import differing_lines
+from ucm_cts.harness.toolchains.related_lines import vicinity
 
 MODEL = """\
 <Model>

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ucm_cts.adapters.toolchain.cpp import generate_cpp11
-from ucm_cts.adapters.toolchain.cpp_support import SUPPORT_FILE
-from ucm_cts.adapters.toolchain.lwucm_glue import generate_lwucm
-from ucm_cts.adapters.toolchain.program import reference
-from ucm_cts.harness.scenarios.probes import PROBE_MODEL
+from ucm_cts.adapters.reference.toolchain.cpp import generate_cpp11
+from ucm_cts.adapters.reference.toolchain.cpp_support import SUPPORT_FILE
+from ucm_cts.adapters.reference.toolchain.lwucm_glue import generate_lwucm
+from ucm_cts.adapters.reference.toolchain.program import reference
+from ucm_cts.harness.purposes.probes import PROBE_MODEL
 
 ROOT = Path(__file__).parent.parent
-REFERENCE_CPP = ROOT / "adapters" / "reference_cpp"
+REFERENCE_CPP = ROOT / "adapters" / "reference" / "cpp"
 GENERATED = REFERENCE_CPP / "typed" / "generated"
 COMMAND = "PYTHONPATH=dev python tests/typed_files.py"
 

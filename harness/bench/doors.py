@@ -22,20 +22,20 @@ from ucm_cts.adapters.contract.programming_model import (
     PortConnection,
     PortElementObject,
 )
-from ucm_cts.adapters.derived import CONTAINER, mutants_of
-from ucm_cts.adapters.reference_py.framework import ContainerManager
+from ucm_cts.adapters.mutants.python import CONTAINER, mutants_of
+from ucm_cts.adapters.reference.python.framework import ContainerManager
 from ucm_cts.harness.bench.alternatives import parametrised_test, state_machine
 from ucm_cts.harness.bench.measuring import ROUNDS, limit, medians, timed
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.host_watch import Limits
 from ucm_cts.harness.hosting.hosts import Hosts
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.results import Incident
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.driver import Driver
-from ucm_cts.harness.scenarios.purposes import load_purposes
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.harness.results.values import Incident
 from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, examine_mutant
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.reference_models.monitor import Judge
 
 BATCH = 400
 

@@ -16,16 +16,16 @@ from rich.table import Table
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
 from ucm_cts.adapters.contract.trace import Event
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.bench.long_life import LongLife
 from ucm_cts.harness.bench.measuring import limit, medians
-from ucm_cts.harness.catalogue import load_life_cycle
-from ucm_cts.harness.running.disguise import Disguise
-from ucm_cts.harness.running.integrity import contradiction
-from ucm_cts.harness.scenarios.payloads import Payloads
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.reference_models.monitor import Judge
 
 CALLS = 100
 """Calls of the test between two reconnections of the long life; the client passes each one on."""

@@ -10,9 +10,9 @@ import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Call, Event, Return, Trace
-from ucm_cts.adapters.python.engine import Performance
-from ucm_cts.adapters.python.recorder import Recorder
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Performance
+from ucm_cts.adapters.sdk.python.recorder import Recorder
 
 _SERVER, _CLIENT = "server", "client"
 _PROVIDED, _REQUIRED = "in_api", "out_api"

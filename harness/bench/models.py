@@ -24,7 +24,7 @@ from rich.table import Table
 from ucm_cts.adapters.contract.metamodel.common import walk
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.contract.metamodel.writing import write_model
-from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.bench.large_model import large_model
 from ucm_cts.harness.bench.measuring import limit
 from ucm_cts.harness.toolchains.schema import parser, schema

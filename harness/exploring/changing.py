@@ -8,9 +8,9 @@ import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario, Step
+from ucm_cts.harness.execution.shrink import tidied, without_step
 from ucm_cts.harness.exploring.writer import Choose, Writer
-from ucm_cts.harness.running.shrink import tidied, without_step
-from ucm_cts.harness.scenarios.scripts import overlaps
+from ucm_cts.harness.purposes.scripts import overlaps
 
 LONGEST = 60
 """Steps. What is longer is only made shorter."""

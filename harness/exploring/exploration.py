@@ -14,23 +14,23 @@ from itertools import count
 from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.campaign import Campaign, Checked
+from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.exploring.changing import changed
 from ucm_cts.harness.exploring.core_writer import CoreWriter
 from ucm_cts.harness.exploring.memory import Identity, Memory, Remembered
 from ucm_cts.harness.exploring.novelty import Events, Guide
 from ucm_cts.harness.exploring.writer import Writer
-from ucm_cts.harness.profiles import PARTS
-from ucm_cts.harness.results import Report
-from ucm_cts.harness.running.campaign import Campaign, Checked
-from ucm_cts.harness.running.driver import Answer, Driver
-from ucm_cts.harness.running.incident_causes import IncidentCause, cause_of_incident
-from ucm_cts.harness.running.incidents import is_waiting
-from ucm_cts.harness.scenarios.scripts import TestPurpose
-from ucm_cts.harness.stating.applicability import fitting
-from ucm_cts.harness.stating.statement import Statement
-from ucm_cts.harness.tally import Cause, cause_of
-from ucm_cts.reference_models.ledger import Ledger
+from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.results.incident_causes import IncidentCause, cause_of_incident
+from ucm_cts.harness.results.incidents import is_waiting
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.tally import Cause, cause_of
+from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.statement.applicability import fitting
+from ucm_cts.reference_models.verdicts import Ledger
 
 CANDIDATES = 4
 """So many scenarios are compared for one that is sent."""

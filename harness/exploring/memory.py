@@ -18,10 +18,10 @@ import msgspec
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.report.foreign import one_line
-from ucm_cts.harness.results import Execution, IncidentKind
-from ucm_cts.harness.running.incident_causes import IncidentCause, cause_of_incident
-from ucm_cts.harness.tally import cause_of
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.incident_causes import IncidentCause, cause_of_incident
+from ucm_cts.harness.results.tally import cause_of
+from ucm_cts.harness.results.values import Execution, IncidentKind
 from ucm_cts.reference_models.findings import Finding
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from itertools import pairwise
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Event, Raise, Return, Trace
-from ucm_cts.harness.exploring.foresight import Transition, transitions
-from ucm_cts.reference_models.life_cycle import LifeCycleTable
+from ucm_cts.harness.exploring.predicted_coverage import Transition, transitions
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 
 Kind = tuple[str, ...]
 """What is told of an event: its type, the operation or hook, how it ended."""

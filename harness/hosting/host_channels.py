@@ -15,8 +15,8 @@ from contextlib import suppress
 from typing import Protocol
 
 from ucm_cts.harness.hosting.locate import Door, WrongUse
-from ucm_cts.harness.report.foreign import clean, one_line
-from ucm_cts.harness.results import Incident, IncidentKind
+from ucm_cts.harness.results.foreign import clean, one_line
+from ucm_cts.harness.results.values import Incident, IncidentKind
 
 START_SECONDS = 60.0
 """How long an adapter may take to be loaded."""
@@ -73,7 +73,7 @@ def opener(door: Door) -> Opener:
     """What opens ``door``, which is not an in-process one."""
     if door.kind in ("tcp", "unix"):
         return Connector(door)
-    module = "ucm_cts.adapters.python.host" if door.kind == "python" else "ucm_cts.harness.hosting.spawner"
+    module = "ucm_cts.adapters.sdk.python.host" if door.kind == "python" else "ucm_cts.harness.hosting.spawner"
     return TemplateProcess([sys.executable, "-X", "faulthandler", "-m", module, door.target], door.text)
 
 

@@ -13,9 +13,9 @@ from typing import NoReturn, Protocol
 
 import msgspec
 
-from ucm_cts.adapters.python.loading import Answer
+from ucm_cts.adapters.sdk.python.loading import Answer
 from ucm_cts.harness.hosting.host_channels import Channel
-from ucm_cts.harness.results import Incident, IncidentKind
+from ucm_cts.harness.results.values import Incident, IncidentKind
 
 _CHUNK = 1 << 16
 _STDERR_TAIL = 1 << 16

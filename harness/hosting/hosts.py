@@ -37,11 +37,11 @@ from ucm_cts.adapters.contract.messages import (
     from_host_decoder,
 )
 from ucm_cts.adapters.contract.trace import Event
-from ucm_cts.adapters.python.loading import CannotLoad, load
+from ucm_cts.adapters.sdk.python.loading import CannotLoad, load
 from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, opener
 from ucm_cts.harness.hosting.host_watch import Deadline, Host, HostIncident, InProcessHost, Limits, WatchedHost
 from ucm_cts.harness.hosting.locate import Door, WrongUse
-from ucm_cts.harness.results import Incident
+from ucm_cts.harness.results.values import Incident
 
 __all__ = ["Answer", "HostUnavailable", "Hosts", "Limits"]
 

@@ -13,7 +13,7 @@ import socket
 import sys
 from typing import NoReturn
 
-from ucm_cts.adapters.python.template import Template
+from ucm_cts.adapters.sdk.python.template import Template
 
 
 def main() -> None:

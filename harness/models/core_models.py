@@ -1,6 +1,6 @@
 """Compares the models of clause 10.1 that a framework ships with the suite's own (``suite/models/core``).
 
-``compare(paths, claims)`` takes the framework's files and what its vendor declares of ``interpretations_10_1.yaml``. It
+``compare(paths, claims)`` takes the framework's files and what its vendor declares of ``suite/interpretations/clause_10_1.yaml``. It
 says of each requirement that a model can show whether it is kept, broken, absent, left out or unclear, and which readings it
 met.
 """
@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.catalogue import SUITE, load_interpretations
-from ucm_cts.harness.documents import DocumentError, read
+from ucm_cts.harness.catalogue.documents import DocumentError, read
+from ucm_cts.harness.catalogue.requirements import SUITE, load_interpretations
 from ucm_cts.harness.models.comparing import Comparing, Declaration, Fact, Status
 from ucm_cts.harness.models.spellings import Element, read_models
 
@@ -71,7 +71,7 @@ CORE = SUITE / "models" / "core"
 def compare(paths: Sequence[Path], claims: Mapping[str, str] = {}) -> Comparison:
     """Compare the models at ``paths`` (files, or folders with ``*.xml``) with 10.1 under the vendor's ``claims``.
 
-    ``claims`` maps options of ``interpretations_10_1.yaml`` to the values declared; an option's first value holds for
+    ``claims`` maps options of ``suite/interpretations/clause_10_1.yaml`` to the values declared; an option's first value holds for
     those not named. Without any path everything is absent. Raises ``DocumentError`` for files that cannot be used.
     """
     files = [file for path in paths for file in (sorted(path.rglob("*.xml")) if path.is_dir() else (path,))]

@@ -14,7 +14,7 @@ from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
 from ucm_cts.adapters.contract.metamodel.spelling import LITERALS, SPELLINGS, TAGS
-from ucm_cts.harness.documents import DocumentError, read_text
+from ucm_cts.harness.catalogue.documents import DocumentError, read_text
 
 MODULES = ("ContractModule", "InteractionModule", "NonfunctionalAspectModule")
 

@@ -14,12 +14,12 @@ from typing import Any, cast
 
 import msgspec
 
-from ucm_cts.harness.catalogue import Level
-from ucm_cts.harness.documents import DocumentError, convert, read_lines, read_text
+from ucm_cts.harness.catalogue.documents import DocumentError, convert, read_lines, read_text
+from ucm_cts.harness.catalogue.requirements import Level
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.json_report import FindingEntry, ReportEntry, RequirementEntry
 from ucm_cts.harness.report.order import clause_key
-from ucm_cts.harness.tally import overall
+from ucm_cts.harness.results.tally import overall
 
 MOST = 12
 """So many reports still make a page that can be read."""

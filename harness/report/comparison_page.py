@@ -11,10 +11,10 @@ import jinja2
 from markupsafe import Markup
 
 from ucm_cts.harness.report.comparison import Column, Comparison, Row, first_finding
-from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.json_report import ReportEntry
 from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, count
-from ucm_cts.harness.results import Verdict
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.values import Verdict
 
 _TEMPLATES = Path(__file__).parent / "templates"
 

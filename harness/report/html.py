@@ -11,11 +11,17 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
-from ucm_cts.harness.catalogue import Requirement
-from ucm_cts.harness.profiles import PARTS, TOOLCHAIN_PROFILES
+from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
+from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.report import life_cycle_diagram, sequence_svg
 from ucm_cts.harness.report.excerpt import compare, excerpt
-from ucm_cts.harness.report.failures import (
+from ucm_cts.harness.report.models import ModelLine, command_text, ending, model_lines
+from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, clause_key, count, to_fix
+from ucm_cts.harness.report.sequence import last_call
+from ucm_cts.harness.report.sequence_text import failure_text, to_text
+from ucm_cts.harness.report.stated import stated
+from ucm_cts.harness.report.transitions import STATES, RowSeen, choices, rows_seen, worst
+from ucm_cts.harness.results.failures import (
     file_name,
     incident_file,
     repeat_command,
@@ -23,15 +29,9 @@ from ucm_cts.harness.report.failures import (
     scenario_text,
     shortest_first,
 )
-from ucm_cts.harness.report.foreign import one_line
-from ucm_cts.harness.report.models import ModelLine, command_text, ending, model_lines
-from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, clause_key, count, to_fix
-from ucm_cts.harness.report.sequence import last_call
-from ucm_cts.harness.report.sequence_text import failure_text, to_text
-from ucm_cts.harness.report.stated import stated
-from ucm_cts.harness.report.transitions import STATES, RowSeen, choices, rows_seen, worst
-from ucm_cts.harness.results import FailedExecution, IncidentReport, Report, RequirementResult
-from ucm_cts.reference_models.life_cycle import LifeCycleTable, State
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.values import FailedExecution, IncidentReport, Report, RequirementResult
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
 
 FINDINGS = 3
 """So many causes of one requirement are shown with diagrams; further ones in words."""

@@ -9,9 +9,10 @@ from typing import Any
 import msgspec
 
 from ucm_cts.adapters.contract.trace import Event
-from ucm_cts.harness.catalogue import Level, Requirement
-from ucm_cts.harness.report.failures import file_name, incident_file, shortest_first
-from ucm_cts.harness.results import (
+from ucm_cts.harness.catalogue.requirements import Level, Requirement
+from ucm_cts.harness.results.failures import file_name, incident_file, shortest_first
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.values import (
     Execution,
     FailedExecution,
     Incident,
@@ -21,7 +22,6 @@ from ucm_cts.harness.results import (
     TransitionResult,
     Verdict,
 )
-from ucm_cts.harness.stating.statement import Statement
 
 SCHEMA_FILE = "report.schema.json"
 

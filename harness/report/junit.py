@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 from lxml import etree
 
-from ucm_cts.harness.catalogue import Requirement
+from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.report.excerpt import excerpt
-from ucm_cts.harness.report.failures import file_name, incident_file, replay_command, shortest_first
-from ucm_cts.harness.report.foreign import clean, one_line
 from ucm_cts.harness.report.models import command_text, processed_text
 from ucm_cts.harness.report.sequence import last_call
 from ucm_cts.harness.report.sequence_text import failure_text, to_text
-from ucm_cts.harness.results import IncidentReport, Report, RequirementResult
+from ucm_cts.harness.results.failures import file_name, incident_file, replay_command, shortest_first
+from ucm_cts.harness.results.foreign import clean, one_line
+from ucm_cts.harness.results.values import IncidentReport, Report, RequirementResult
 
 FINDINGS = 3
 """So many causes of one requirement are told in full."""

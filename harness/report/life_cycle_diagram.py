@@ -13,7 +13,7 @@ from markupsafe import Markup
 from ucm_cts.harness.report.order import SYMBOLS
 from ucm_cts.harness.report.svg_text import CHARACTER, columns
 from ucm_cts.harness.report.transitions import STATES, RowSeen, Transition, transitions, worst
-from ucm_cts.reference_models.life_cycle import State
+from ucm_cts.reference_models.model.life_cycle import State
 
 BOX, GAP = 168, 172
 """Widths of a state and of the space between two."""

@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ucm_cts.harness.results import MODEL_FILE, OUT_FOLDER, Processed
+from ucm_cts.harness.results.values import MODEL_FILE, OUT_FOLDER, Processed
 
 AROUND = 4
 """Lines shown before and after each one that was changed."""

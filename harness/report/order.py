@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import Protocol
 
-from ucm_cts.harness.results import RequirementResult, Verdict
+from ucm_cts.harness.results.values import RequirementResult, Verdict
 
 VERDICTS: tuple[Verdict, ...] = ("fail", "error", "inconclusive", "pass", "not applicable")
 """All verdicts, the worst first."""

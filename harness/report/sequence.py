@@ -33,10 +33,10 @@ from ucm_cts.adapters.contract.trace import (
     Stressed,
     Timeout,
 )
-from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.wording import Wording, body_key
-from ucm_cts.harness.results import Execution
-from ucm_cts.reference_models.runtime import lane
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.values import Execution
+from ucm_cts.reference_models.model.runtime import lane
 
 TEST = "test"
 

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ucm_cts.harness.report.excerpt import compare
-from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.sequence import Diagram, Line, lay_out
-from ucm_cts.harness.results import Execution
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.findings import Finding
 
 WIDTH = 110

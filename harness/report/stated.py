@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from ucm_cts.harness.catalogue import load_capabilities, load_interpretations
-from ucm_cts.harness.stating.statement import IXIT, Statement
+from ucm_cts.harness.catalogue.requirements import load_capabilities, load_interpretations
+from ucm_cts.harness.results.statement import IXIT, Statement
 
 
 @dataclass(frozen=True)

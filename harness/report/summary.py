@@ -7,13 +7,13 @@ from pathlib import Path
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from ucm_cts.harness.known_failures import all_known
-from ucm_cts.harness.profiles import TOOLCHAIN_PROFILES
-from ucm_cts.harness.report.failures import shortest_first
-from ucm_cts.harness.report.foreign import one_line
+from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.report.order import SYMBOLS, count, to_fix
 from ucm_cts.harness.report.sequence import last_call
-from ucm_cts.harness.results import Overall, Report, RequirementResult, Verdict
+from ucm_cts.harness.results.failures import shortest_first
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.known_failures import all_known
+from ucm_cts.harness.results.values import Overall, Report, RequirementResult, Verdict
 
 SHOWN = 12
 """So many failed requirements, and so many incidents, are listed."""

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from ucm_cts.harness.results import TransitionResult, Verdict
-from ucm_cts.reference_models.life_cycle import LifeCycleTable, Outcome, Row, State
+from ucm_cts.harness.results.values import TransitionResult, Verdict
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Outcome, Row, State
 
 STATES: tuple[State, ...] = get_args(State)
 

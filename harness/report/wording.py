@@ -34,8 +34,8 @@ from ucm_cts.adapters.contract.scenario import (
     operation,
 )
 from ucm_cts.adapters.contract.trace import Enter, Exit, MaybeReference, Reference, Reply, Request
-from ucm_cts.harness.report.foreign import one_line
-from ucm_cts.harness.results import Execution
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.values import Execution
 
 Answered = int | tuple[int, ...] | Reference | str | None
 

@@ -7,17 +7,22 @@ import tempfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ucm_cts.harness.catalogue import Requirement, load_interpretations, load_life_cycle, load_requirements
+from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.requirements import (
+    Requirement,
+    load_interpretations,
+    load_life_cycle,
+    load_requirements,
+)
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.profiles import PARTS
-from ucm_cts.harness.report.failures import FOLDER, STATEMENT, all_files
-from ucm_cts.harness.report.foreign import clean_report, one_line
 from ucm_cts.harness.report.html import to_html
 from ucm_cts.harness.report.json_report import to_json
 from ucm_cts.harness.report.junit import to_junit
-from ucm_cts.harness.results import Report
-from ucm_cts.harness.stating.writing import to_toml
-from ucm_cts.reference_models.life_cycle import LifeCycleTable
+from ucm_cts.harness.results.failures import FOLDER, STATEMENT, all_files
+from ucm_cts.harness.results.foreign import clean_report, one_line
+from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.statement.writing import to_toml
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 
 
 def prepare_folder(out: Path) -> None:

@@ -6,13 +6,13 @@ import importlib
 import time
 from typing import Any
 
-from ucm_cts.adapters.derived import CHEATS, UNSEEN, Cheat
+from ucm_cts.adapters.mutants.python import CHEATS, UNSEEN, Cheat
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.results import Report
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.driver import Driver, Limits
-from ucm_cts.harness.scenarios.purposes import load_purposes
-from ucm_cts.harness.scenarios.scripts import TestPurpose
+from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.harness.results.values import Report
 from ucm_cts.harness.selftest.matrix import CheatResult
 
 ENDS_THE_HOST = {"leaves_when_it_fails"}

@@ -11,7 +11,7 @@ from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass, field
 
 import ucm_cts
-from ucm_cts.harness.catalogue import load_requirements
+from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.selftest.cheating import all_cheats, examine_cheat
 from ucm_cts.harness.selftest.killing import (
@@ -23,7 +23,7 @@ from ucm_cts.harness.selftest.killing import (
 from ucm_cts.harness.selftest.matrix import CheatResult, Matrix, MutantResult, VariantResult
 from ucm_cts.harness.selftest.models_killing import examine_models
 from ucm_cts.harness.selftest.toolchains import ToolChainSubject, examine_toolchain, testable_of_toolchains
-from ucm_cts.reference_models.ledger import RULES
+from ucm_cts.reference_models.verdicts import RULES
 
 Result = MutantResult | VariantResult | CheatResult
 

@@ -14,23 +14,23 @@ import msgspec
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Trace
-from ucm_cts.adapters.derived import CONTAINER, MUTANTS, VARIANTS, Mutant
-from ucm_cts.adapters.derived_cpp import COMMAND, NativeMutant, being, native_mutants
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.adapters.mutants.cpp import COMMAND, NativeMutant, being, native_mutants
+from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, VARIANTS, Mutant
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
-from ucm_cts.harness.report.failures import length
-from ucm_cts.harness.results import Execution
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.driver import Driver, Limits
-from ucm_cts.harness.scenarios.scripts import TestPurpose
+from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.results.failures import length
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.values import Execution
 from ucm_cts.harness.selftest.divergence import divergence
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
-from ucm_cts.harness.stating.applicability import purposes_for
-from ucm_cts.harness.stating.files import stated_by
-from ucm_cts.harness.stating.statement import Statement
+from ucm_cts.harness.statement.applicability import purposes_for
+from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.reference_models.monitor import Judge
 
 PATIENCE = 500
 """Milliseconds, as a vendor would declare them: mutants often never do what is waited for, and their machine is this one."""
@@ -41,7 +41,7 @@ LOOKS = 25
 LIMITS = Limits(seconds=3, incident_seconds=20)
 """A mutant that hangs is not waited for longer."""
 
-_DERIVED = "ucm_cts.adapters.derived"
+_DERIVED = "ucm_cts.adapters.mutants.python"
 
 Shown = tuple[Finding, Execution]
 

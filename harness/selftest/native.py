@@ -11,7 +11,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from ucm_cts.adapters.derived_cpp import COMMAND, native_mutants
+from ucm_cts.adapters.mutants.cpp import COMMAND, native_mutants
 from ucm_cts.harness.selftest.killing import Thoroughness, examine_mutant, native_subject
 from ucm_cts.harness.selftest.matrix import MutantResult
 

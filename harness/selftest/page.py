@@ -10,9 +10,9 @@ import jinja2
 import msgspec
 from markupsafe import Markup, escape
 
-from ucm_cts.harness.report.foreign import one_line
 from ucm_cts.harness.report.order import clause_key
 from ucm_cts.harness.report.write import prepare_folder, write_whole
+from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, by_clause
 
 CELL = 4

@@ -10,18 +10,18 @@ from dataclasses import dataclass, replace
 import msgspec
 
 from ucm_cts.adapters.contract.metamodel.reading import read_model
-from ucm_cts.adapters.derived_toolchain.registry import Mutant, Variant, mutants, variants
-from ucm_cts.adapters.toolchain.program import Program, reference
-from ucm_cts.harness.catalogue import load_requirements
-from ucm_cts.harness.profiles import PARTS, TOOLCHAIN_PROFILES
-from ucm_cts.harness.results import MODEL_FILE, RequirementResult
+from ucm_cts.adapters.mutants.toolchain.registry import Mutant, Variant, mutants, variants
+from ucm_cts.adapters.reference.toolchain.program import Program, reference
+from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
+from ucm_cts.harness.catalogue.requirements import load_requirements
+from ucm_cts.harness.results.statement import Statement, default_statement
+from ucm_cts.harness.results.values import MODEL_FILE, RequirementResult
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
-from ucm_cts.harness.stating.statement import Statement, default_statement
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
-from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.generation import mapping_models
 from ucm_cts.harness.toolchains.processing import InProcess
+from ucm_cts.harness.toolchains.renaming import Dress
 
 _REFERENCE = replace(reference(), read=functools.lru_cache(8192)(read_model))
 """Mutants differ in what they make of models, seldom in how they read them."""

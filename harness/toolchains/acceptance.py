@@ -13,15 +13,15 @@ from typing import Literal
 
 import msgspec
 
-from ucm_cts.harness.results import FRAMEWORK_INCIDENTS
-from ucm_cts.harness.stating.statement import Statement
-from ucm_cts.harness.toolchains.blame import Blame
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS
 from ucm_cts.harness.toolchains.campaign import Fact
-from ucm_cts.harness.toolchains.corpus import Due, Question, differing_lines, questions
-from ucm_cts.harness.toolchains.dressing import Dress
+from ucm_cts.harness.toolchains.corpus.selection import Due, Question, differing_lines, questions
+from ucm_cts.harness.toolchains.minimal_refusals import Blame
 from ucm_cts.harness.toolchains.processing import Made
-from ucm_cts.harness.toolchains.unprinted import refused_for_spelling
-from ucm_cts.harness.toolchains.vicinity import vicinity
+from ucm_cts.harness.toolchains.related_lines import vicinity
+from ucm_cts.harness.toolchains.renaming import Dress
+from ucm_cts.harness.toolchains.unspecified_spellings import refused_for_spelling
 from ucm_cts.reference_models.findings import Finding
 
 RULES = {

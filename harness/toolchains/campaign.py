@@ -13,12 +13,12 @@ from typing import Protocol
 import msgspec
 
 import ucm_cts
-from ucm_cts.harness.catalogue import load_life_cycle, load_requirements
-from ucm_cts.harness.known_failures import KnownFailure
-from ucm_cts.harness.profiles import PARTS
-from ucm_cts.harness.results import Effort, Processed, Report
-from ucm_cts.harness.stating.statement import Statement
-from ucm_cts.harness.tally import Tally, overall
+from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
+from ucm_cts.harness.results.known_failures import KnownFailure
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.tally import Tally, overall
+from ucm_cts.harness.results.values import Effort, Processed, Report
 from ucm_cts.harness.toolchains.description import Task
 from ucm_cts.harness.toolchains.processing import Made, Processor
 from ucm_cts.reference_models.findings import Finding

@@ -15,7 +15,7 @@ from lxml import etree
 from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS
 from ucm_cts.adapters.contract.metamodel.writing import CANONICAL, Dialect
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.documents import DocumentError, convert, read_toml
+from ucm_cts.harness.catalogue.documents import DocumentError, convert, read_toml
 
 Task = Literal["check", "idl", "cpp11", "cpp03"]
 """What a tool chain can be asked to do with a model."""

@@ -6,27 +6,27 @@ import functools
 from collections.abc import Collection, Mapping
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
-from ucm_cts.harness.catalogue import in_the_making
+from ucm_cts.harness.catalogue.requirements import in_the_making
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.stating.statement import Statement
+from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.toolchains.acceptance import RULE_FOR, RULES, Acceptance
 from ucm_cts.harness.toolchains.campaign import TASKS, Examination
-from ucm_cts.harness.toolchains.corpus import questions
-from ucm_cts.harness.toolchains.cpp import standing
+from ucm_cts.harness.toolchains.corpus.selection import questions
+from ucm_cts.harness.toolchains.cpp import applicability as standing
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout, can_be_run
 from ucm_cts.harness.toolchains.cpp.probes import CHECKS, GENERATED
 from ucm_cts.harness.toolchains.description import Command, Task
 from ucm_cts.harness.toolchains.differences import Comparison
-from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.generation import Generation, mapping_models
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS
 from ucm_cts.harness.toolchains.idl.comparing import compare as compare_idl
+from ucm_cts.harness.toolchains.idl.declared_support import not_asked
 from ucm_cts.harness.toolchains.idl.omniidl import opinion
-from ucm_cts.harness.toolchains.idl.promises import not_asked
-from ucm_cts.reference_models.cpp.expected import Standard
-from ucm_cts.reference_models.idl.expectations import STANDS_FOR
-from ucm_cts.reference_models.idl.mapping import expected_idl
+from ucm_cts.harness.toolchains.renaming import Dress
+from ucm_cts.reference_models.mapping.cpp.expected import Standard
+from ucm_cts.reference_models.mapping.idl.expectations import STANDS_FOR
+from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
 TOOLCHAIN_CHECKS = {**RULES, **IDL_CHECKS, **CHECKS}
 """The rules that the catalogue names for tool chains, and what each says."""

@@ -9,14 +9,14 @@ from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
-from ucm_cts.harness.catalogue import SUITE
-from ucm_cts.harness.documents import read_text
-from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Processed
+from ucm_cts.harness.catalogue.documents import read_text
+from ucm_cts.harness.catalogue.requirements import SUITE
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Processed
 from ucm_cts.harness.toolchains.campaign import Fact
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
-from ucm_cts.harness.toolchains.dressing import Dress
 from ucm_cts.harness.toolchains.processing import Made
-from ucm_cts.harness.toolchains.unprinted import refused_for_spelling
+from ucm_cts.harness.toolchains.renaming import Dress
+from ucm_cts.harness.toolchains.unspecified_spellings import refused_for_spelling
 from ucm_cts.reference_models.findings import Finding
 
 FOLDERS = (SUITE / "models" / "mapping", SUITE / "models" / "legal")

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
 
-from ucm_cts.adapters.toolchain.program import Program
-from ucm_cts.harness.results import MODEL_FILE, OUT_FOLDER, Incident, Processed
+from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.harness.results.values import MODEL_FILE, OUT_FOLDER, Incident, Processed
 from ucm_cts.harness.toolchains.bounded import Ended, own_folder, run
 from ucm_cts.harness.toolchains.description import MODEL, MODELS, OUT, Command, Task, ToolChain, program
 

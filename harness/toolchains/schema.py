@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import xmlschema
 from lxml import etree
 
-from ucm_cts.harness.catalogue import SUITE
+from ucm_cts.harness.catalogue.requirements import SUITE
 
 SCHEMA = SUITE / "models" / "ucm.xsd"
 

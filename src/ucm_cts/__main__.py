@@ -12,7 +12,7 @@ def main() -> None:
         print(Path(__file__).parent / "share" / "cmake" / "ucm_cts")
         return
     try:
-        from ucm_cts.harness.commands import main as command_line
+        from ucm_cts.harness.cli.commands import main as command_line
     except KeyboardInterrupt:
         sys.stderr.write("ucm-cts: interrupted\n")
         sys.exit(3)

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ucm_cts.adapters.contract.adapter import ContainerHandle
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 
 
 class HangsInStop(ReferenceAdapter):

@@ -11,8 +11,8 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
 
 KINDS = ("drop", "repeat", "swap", "cut", "field", "step", "thread", "instance", "stuck")
 ODD: tuple[Any, ...] = (None, -1, 0, 10**18, 10**30, "x", "", [], {}, True, "opaque", 1.5, [1], "\x1b[31m\x00")

@@ -13,7 +13,7 @@ from typing import Any
 
 from ucm_cts.adapters.contract.adapter import ContainerHandle
 from ucm_cts.adapters.contract.programming_model import Implementation
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 
 
 class _Hostile(ReferenceAdapter):

@@ -1,6 +1,6 @@
 // How much does stress find, and does it ever cry wolf? Frameworks with small holes, and with none, each stressed many times.
 //
-//     c++ -std=c++11 -O2 -I adapters/cpp/include tests/native/stress_power.cpp -pthread -o stress_power
+//     c++ -std=c++11 -O2 -I adapters/sdk/cpp/include tests/native/stress_power.cpp -pthread -o stress_power
 //     ./stress_power [TRIALS [MILLISECONDS [SECONDS]]]
 //
 // TRIALS of MILLISECONDS each for every wrong framework, SECONDS for every right one. One JSON object a line and framework:

@@ -7,7 +7,7 @@ import sys
 import time
 from collections.abc import Callable
 
-from ucm_cts.adapters.toolchain.program import reference
+from ucm_cts.adapters.reference.toolchain.program import reference
 
 
 def accepts_everything(text: str) -> int:

@@ -11,17 +11,17 @@ from tempfile import TemporaryDirectory
 
 import click
 
-from ucm_cts.adapters import reference_cpp
-from ucm_cts.adapters.python.engine import Engine
-from ucm_cts.adapters.reference_py.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference import cpp as reference_cpp
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.selftest.generated import python_programs
 from ucm_cts.harness.selftest.generated.cpp_programs import CONCERNED, EQUIVALENTS, CppFramework, DoesNotCompile
-from ucm_cts.harness.selftest.generated.glance import Glancer
 from ucm_cts.harness.selftest.generated.mutants import GENERATED, GeneratedMutant
 from ucm_cts.harness.selftest.generated.page import Tally, page
+from ucm_cts.harness.selftest.generated.quick_trial import Glancer
 from ucm_cts.harness.selftest.generated.record import Result, append, read_equivalents, read_results
 from ucm_cts.harness.selftest.generated.trial import Outcome, ordered, stated, try_out
-from ucm_cts.harness.stating.statement import Statement
 
 SEED = 1
 

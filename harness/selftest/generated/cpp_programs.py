@@ -49,12 +49,12 @@ class CppFramework:
     @property
     def sources(self) -> Path:
         """The folder of the framework's translation units."""
-        return self.root / "adapters" / "reference_cpp" / "framework" / "src"
+        return self.root / "adapters" / "reference" / "cpp" / "framework" / "src"
 
     def prepare(self) -> None:
         """Compile everything that has not been. Raises ``DoesNotCompile``."""
         self.folder.mkdir(parents=True, exist_ok=True)
-        adapter = self.root / "adapters" / "reference_cpp" / "adapter.cpp"
+        adapter = self.root / "adapters" / "reference" / "cpp" / "adapter.cpp"
         for path in (adapter, *self.files()):
             made = self._object(path.name)
             if not made.exists():
@@ -97,8 +97,8 @@ class CppFramework:
         includes = (
             self.sources,
             self.sources.parent / "include",
-            self.root / "adapters" / "reference_cpp",
-            self.root / "adapters" / "cpp" / "include",
+            self.root / "adapters" / "reference" / "cpp",
+            self.root / "adapters" / "sdk" / "cpp" / "include",
         )
         source = folder / name
         with TemporaryDirectory(prefix="unit-") as alone:  # where a source lies must not be told in its object

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from ucm_cts.harness.results import FRAMEWORK_INCIDENTS
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS
 from ucm_cts.harness.selftest.generated.mutants import GENERATED, NO_PROGRAM, SAME
 from ucm_cts.harness.selftest.generated.record import Result
 from ucm_cts.harness.selftest.generated.trial import Fate

@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from ucm_cts.adapters import reference_py
+from ucm_cts.adapters.reference import python as reference_py
 from ucm_cts.harness.selftest.generated.mutants import (
     DUPLICATE,
     GENERATED,
@@ -147,7 +147,9 @@ def python_door(mutant: GeneratedMutant | None) -> Iterator[str]:
         for path in HOME.glob("*.py"):
             lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
             text = mutant.source(lines) if mutant and mutant.file == path.name else "".join(lines)
-            (package / path.name).write_text(text.replace("ucm_cts.adapters.reference_py", _PACKAGE), encoding="utf-8")
+            (package / path.name).write_text(
+                text.replace("ucm_cts.adapters.reference.python", _PACKAGE), encoding="utf-8"
+            )
         shutil.copy(HOME / "ics.toml", package)
         before = os.environ.get("PYTHONPATH")
         os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, (folder, before)))

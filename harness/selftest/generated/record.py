@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.documents import DocumentError, read
+from ucm_cts.harness.catalogue.documents import DocumentError, read
 from ucm_cts.harness.selftest.generated.mutants import GeneratedMutant
 from ucm_cts.harness.selftest.generated.trial import Outcome
 

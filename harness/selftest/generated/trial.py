@@ -12,18 +12,18 @@ from typing import Literal
 import msgspec
 
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.catalogue import load_life_cycle
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.confirmation import Doubts
+from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.hosts import HostUnavailable, Limits
 from ucm_cts.harness.hosting.locate import WrongUse, locate
-from ucm_cts.harness.results import FRAMEWORK_INCIDENTS, Execution, Incident
-from ucm_cts.harness.running.campaign import Campaign
-from ucm_cts.harness.running.doubts import Doubts
-from ucm_cts.harness.running.driver import Driver
-from ucm_cts.harness.scenarios.scripts import TestPurpose
-from ucm_cts.harness.stating.applicability import purposes_for
-from ucm_cts.harness.stating.files import read_statement
-from ucm_cts.harness.stating.statement import Statement
-from ucm_cts.reference_models.judgement import Judge
+from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident
+from ucm_cts.harness.statement.applicability import purposes_for
+from ucm_cts.harness.statement.files import read_statement
+from ucm_cts.reference_models.monitor import Judge
 
 AT_ONCE = 8
 """Scenarios after which it is looked whether something is wrong; a purpose may have hundreds."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from ucm_cts.harness.toolchains.cpp.overloads import found_function, ways_to, ways_to_startup
 from ucm_cts.harness.toolchains.cpp.prelude import ARRAY_WORKS, SHARED_WORKS, SHARED_WORKS_TYPES
-from ucm_cts.reference_models.cpp import expected as claims
-from ucm_cts.reference_models.cpp.classes import Class, Connected, Named, Returned, Sample
+from ucm_cts.reference_models.mapping.cpp import expected as claims
+from ucm_cts.reference_models.mapping.cpp.classes import Class, Connected, Named, Returned, Sample
 
 Support = str
 """What of the framework's own class templates a check needs: ``shared_ptr``, ``array`` or ``safe_enum``."""

@@ -10,8 +10,8 @@ from ucm_cts.harness.toolchains.cpp.compiling import LAYOUT, Compiler, Layout
 from ucm_cts.harness.toolchains.cpp.linking import matches
 from ucm_cts.harness.toolchains.cpp.probes import check_files
 from ucm_cts.harness.toolchains.differences import Comparison
-from ucm_cts.reference_models.cpp.expected import ExpectedCpp, Standard
-from ucm_cts.reference_models.cpp.mapping import expected_cpp
+from ucm_cts.reference_models.mapping.cpp.expected import ExpectedCpp, Standard
+from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 
 
 def compare(

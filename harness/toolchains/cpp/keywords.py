@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from ucm_cts.reference_models.cpp.expected import Standard
+from ucm_cts.reference_models.mapping.cpp.expected import Standard
 
 _OLD = """
 asm auto bool break case catch char class const const_cast continue default delete do double dynamic_cast else enum explicit

@@ -21,9 +21,9 @@ from ucm_cts.harness.toolchains.cpp.disguise import Disguise
 from ucm_cts.harness.toolchains.cpp.lister import ASKED, Answers, Question, Request
 from ucm_cts.harness.toolchains.cpp.prelude import SHARED, SHARED_POINTERS, names_in, prelude, taken_first
 from ucm_cts.harness.toolchains.differences import Difference
-from ucm_cts.reference_models.cpp import expected as claims
-from ucm_cts.reference_models.cpp.classes import Class, Connected
-from ucm_cts.reference_models.cpp.expected import Expected, ExpectedCpp
+from ucm_cts.reference_models.mapping.cpp import expected as claims
+from ucm_cts.reference_models.mapping.cpp.classes import Class, Connected
+from ucm_cts.reference_models.mapping.cpp.expected import Expected, ExpectedCpp
 
 Listed = tuple[list[Difference], dict[str, int], dict[str, str]]
 """Differences, how often each requirement was looked at, and why others were not."""

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ucm_cts.reference_models.cpp.classes import Forms
+from ucm_cts.reference_models.mapping.cpp.classes import Forms
 
 _MOST_ORDERS = 4
 """Up to so many parameters are tried in every order."""

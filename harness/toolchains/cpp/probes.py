@@ -42,8 +42,8 @@ from ucm_cts.harness.toolchains.cpp.prelude import (
     taken_first,
 )
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
-from ucm_cts.reference_models.cpp import expected as claims
-from ucm_cts.reference_models.cpp.expected import Expected, ExpectedCpp
+from ucm_cts.reference_models.mapping.cpp import expected as claims
+from ucm_cts.reference_models.mapping.cpp.expected import Expected, ExpectedCpp
 
 CHECKS = {
     "cpp_probes": "A probe, compiled and run against the headers, finds each declaration to be what the mapping says.",

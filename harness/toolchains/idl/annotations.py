@@ -12,7 +12,7 @@ from ucm_cts.harness.toolchains.idl.showing import show, show_worth
 from ucm_cts.harness.toolchains.idl.subject import here
 from ucm_cts.harness.toolchains.idl.values import Worth, equal, model_worth, worth
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,
     Annotation,
     AnnotationDefinition,
@@ -26,7 +26,7 @@ from ucm_cts.reference_models.idl.declarations import (
     Type,
     Typedef,
 )
-from ucm_cts.reference_models.idl.expectations import Defaulted, Indexed, Numbered, Tagged
+from ucm_cts.reference_models.mapping.idl.expectations import Defaulted, Indexed, Numbered, Tagged
 
 
 class Defined(NamedTuple):

@@ -9,7 +9,7 @@ from typing import Any
 import msgspec
 from lark import Token, Transformer, v_args
 
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,
     Annotation,
     AnnotationDefinition,

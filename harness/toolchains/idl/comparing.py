@@ -17,8 +17,8 @@ from ucm_cts.harness.toolchains.idl.scopes import build
 from ucm_cts.harness.toolchains.idl.standard import standard_differences
 from ucm_cts.harness.toolchains.idl.validity import building_blocks, invalid
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
-from ucm_cts.reference_models.idl.declarations import Place
-from ucm_cts.reference_models.idl.expectations import RULE_OF, Declares, Expected, ExpectedIdl
+from ucm_cts.reference_models.mapping.idl.declarations import Place
+from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF, Declares, Expected, ExpectedIdl
 
 CHECKS = {
     "idl_generated": "Files of IDL are generated for each legal model.",
@@ -44,7 +44,7 @@ def compare(
 ) -> Comparison:
     """Compare the vendor's ``files`` (name to text) with what is ``expected`` of them under the ``readings`` declared.
 
-    ``readings`` maps options of ``interpretations_12.yaml`` to values; what is not named counts as its first value.
+    ``readings`` maps options of ``suite/interpretations`` to values; what is not named counts as its first value.
     ``second_opinion`` is asked whether files are IDL in which nothing else is wrong. Never raises for whatever the files hold.
     """
     read = read_files(files)

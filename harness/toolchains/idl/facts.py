@@ -25,7 +25,7 @@ from ucm_cts.harness.toolchains.idl.showing import show, show_kind, show_worth, 
 from ucm_cts.harness.toolchains.idl.subject import here, nearest
 from ucm_cts.harness.toolchains.idl.values import Chosen, equal, model_worth, worth
 from ucm_cts.harness.toolchains.idl.vendor import Vendor, spelled
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Attribute,
     Case,
     Constant,
@@ -42,7 +42,7 @@ from ucm_cts.reference_models.idl.declarations import (
     Union,
     kind_of,
 )
-from ucm_cts.reference_models.idl.expectations import (
+from ucm_cts.reference_models.mapping.idl.expectations import (
     Access,
     Declares,
     Defaulted,

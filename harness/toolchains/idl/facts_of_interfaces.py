@@ -10,8 +10,8 @@ from ucm_cts.harness.toolchains.idl.scopes import Hit, base_names, bases, resolv
 from ucm_cts.harness.toolchains.idl.showing import show
 from ucm_cts.harness.toolchains.idl.subject import here
 from ucm_cts.harness.toolchains.idl.vendor import Vendor, spelled
-from ucm_cts.reference_models.idl.declarations import Attribute, Interface, Operation, kind_of
-from ucm_cts.reference_models.idl.expectations import (
+from ucm_cts.reference_models.mapping.idl.declarations import Attribute, Interface, Operation, kind_of
+from ucm_cts.reference_models.mapping.idl.expectations import (
     Access,
     Getter,
     Inherits,

@@ -19,7 +19,7 @@ from ucm_cts.harness.toolchains.idl.problems import Problem
 from ucm_cts.harness.toolchains.idl.reading import read_files
 from ucm_cts.harness.toolchains.idl.scopes import build, every
 from ucm_cts.harness.toolchains.idl.showing import type_of
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,
     ArrayOf,
     Basic,

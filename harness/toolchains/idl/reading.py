@@ -18,7 +18,7 @@ from lark.lexer import PatternRE, PatternStr, TerminalDef
 from ucm_cts.harness.toolchains.idl.building import Builder
 from ucm_cts.harness.toolchains.idl.preprocessing import LARGEST, Preprocessed, preprocessed, without_comments
 from ucm_cts.harness.toolchains.idl.problems import NotIdl, Problem, problem_at
-from ucm_cts.reference_models.idl.declarations import Declaration, Expression
+from ucm_cts.reference_models.mapping.idl.declarations import Declaration, Expression
 
 DEEPEST = 100
 """Levels to which brackets may nest."""

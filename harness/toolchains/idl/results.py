@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ucm_cts.reference_models.idl.declarations import Place
+from ucm_cts.reference_models.mapping.idl.declarations import Place
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.harness.toolchains.idl.values import Chosen, Worth
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,
     ArrayOf,
     Attribute,

@@ -15,7 +15,7 @@ from ucm_cts.harness.toolchains.idl.results import Wrong
 from ucm_cts.harness.toolchains.idl.scopes import Entry, build, every, resolve
 from ucm_cts.harness.toolchains.idl.showing import show_declaration
 from ucm_cts.harness.toolchains.idl.vendor import Meaning, Vendor
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Attribute,
     Declaration,
     Enum,
@@ -33,8 +33,8 @@ from ucm_cts.reference_models.idl.declarations import (
     Typedef,
     kind_of,
 )
-from ucm_cts.reference_models.idl.expectations import ExpectedIdl
-from ucm_cts.reference_models.idl.standard import STANDARD
+from ucm_cts.reference_models.mapping.idl.expectations import ExpectedIdl
+from ucm_cts.reference_models.mapping.idl.standard import STANDARD
 
 
 @functools.cache

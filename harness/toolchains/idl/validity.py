@@ -9,7 +9,7 @@ from ucm_cts.harness.toolchains.idl.results import Wrong
 from ucm_cts.harness.toolchains.idl.scopes import Entry, Scope, every, resolve
 from ucm_cts.harness.toolchains.idl.showing import type_of
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,
     AnnotationDefinition,
     ArrayOf,

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from ucm_cts.harness.toolchains.idl.reading import NotIdl, read_expression
 from ucm_cts.harness.toolchains.idl.scopes import MOST_STEPS, Scope, resolve
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Binary,
     Constant,
     Enumerator,

@@ -18,7 +18,7 @@ from ucm_cts.harness.toolchains.idl.scopes import (
     resolve,
 )
 from ucm_cts.harness.toolchains.idl.values import worth
-from ucm_cts.reference_models.idl.declarations import (
+from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,
     Annotation,
     ArrayOf,
@@ -32,7 +32,7 @@ from ucm_cts.reference_models.idl.declarations import (
     Type,
     Typedef,
 )
-from ucm_cts.reference_models.idl.expectations import ExpectedIdl, Path
+from ucm_cts.reference_models.mapping.idl.expectations import ExpectedIdl, Path
 
 Meaning = tuple[Any, ...]
 """A type with all names followed: basic, text, sequence, array, declared (by its path), parameter, or unknown (by its name)."""

@@ -1,0 +1,1 @@
+"""Adapters of frameworks that others have made."""

@@ -1,0 +1,1 @@
+"""Subjects whose verdict is known: mutants, conformant variants and cheats."""

@@ -1,0 +1,143 @@
+"""Conformant variants that offer clock and trace in their own way (10.1.4)."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import TypeVar
+
+from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
+from ucm_cts.adapters.contract.scenario import Policy
+from ucm_cts.adapters.mutants.python.registry import Base, is_below, variant_of
+from ucm_cts.adapters.reference.python.container_services import Record
+from ucm_cts.adapters.reference.python.framework import Member
+
+T = TypeVar("T")
+
+SECOND, MILLISECOND = 1_000_000_000, 1_000_000
+LATE = 0.02
+"""Seconds. Records are written so much later than they are made."""
+
+
+@variant_of("10.1.4")
+class has_monotonic_clocks(Base):
+    """Times begin when the machine was started; the one is an hour from the other."""
+
+    def _local_time(self, member: Member) -> int:
+        return time.monotonic_ns()
+
+    def _synchronized_time(self, member: Member) -> int:
+        return time.monotonic_ns() + 3600 * SECOND
+
+
+@variant_of("10.1.4")
+class has_coarse_clocks(Base):
+    """Times go on in steps."""
+
+    def _local_time(self, member: Member) -> int:
+        return super()._local_time(member) // (10 * MILLISECOND) * 10 * MILLISECOND
+
+    _synchronized_time = _local_time
+
+
+@variant_of("10.1.4")
+class has_seconds_that_wrap(Base):
+    """The seconds of a time have no more than 32 bits and begin at zero again, soon after the runtime was made."""
+
+    def _local_time(self, member: Member) -> int:
+        runtime = self.manager.__dict__
+        return (
+            time.monotonic_ns() - int(runtime.setdefault("made", time.monotonic_ns())) + 2**32 * SECOND - SECOND // 10
+        )
+
+    _synchronized_time = _local_time
+
+
+@variant_of("10.1.4")
+class has_a_node_for_each_container(Base):
+    """Every sub-container is on a node with a clock of its own, some seconds behind; synchronized time is one."""
+
+    def _local_time(self, member: Member) -> int:
+        return super()._local_time(member) - is_below(self) * 5 * SECOND
+
+
+@variant_of("10.1.4")
+class keeps_synchronized_time_loosely(Base):
+    """Synchronized time goes on in steps of 40 ms, and a bit slower than it should."""
+
+    def _synchronized_time(self, member: Member) -> int:
+        return super()._synchronized_time(member) * 9 // 10 // (40 * MILLISECOND) * 40 * MILLISECOND
+
+
+@variant_of("10.1.4")
+class notices_clocks_at_start(Base):
+    """Components with two clocks are added, and keep their container from starting."""
+
+    def _check_clocks(self, implementation: Implementation) -> None:
+        pass
+
+    def _check_startable(self) -> None:
+        super()._check_startable()
+        for member in self.members.values():
+            super()._check_clocks(member.implementation)
+
+
+@variant_of("10.1.4")
+class has_one_element_for_all(Base):
+    """Components get the same object for the same policy, and get it first of all."""
+
+    def _service_element(self, member: Member, policy: Policy) -> PortConnection:
+        kept = self.manager.__dict__.setdefault(f"element of {policy.definition}", {})
+        given = super()._service_element(member, policy)
+        first = kept.setdefault(policy.definition, given)
+        return PortConnection(given.from_port, first.to_port)
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return list(reversed(super()._dependencies_of(member)))
+
+
+@variant_of("10.1.4")
+class writes_calls_and_returns(Base):
+    """A traced call has a record when it is made and one when it returns."""
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        result = super()._trace_call(member, port, method, work)
+        super()._trace_call(member, port, method, lambda: None)
+        return result
+
+
+@variant_of("10.1.4")
+class writes_returns_at_required_ports(Base):
+    """A traced call has a record, and one more when it returns to a required port."""
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        result = super()._trace_call(member, port, method, work)
+        if port in member.implementation.requires:
+            super()._trace_call(member, port, method, lambda: None)
+        return result
+
+
+@variant_of("10.1.4")
+class writes_late(Base):
+    """Another thread writes records, one by one, some time after they were made."""
+
+    def _write(self, record: Record) -> None:
+        write = super()._write
+        due = time.monotonic() + LATE
+        lock: threading.Lock = self.manager.__dict__.setdefault("writing", threading.Lock())
+
+        def later() -> None:
+            time.sleep(max(due - time.monotonic(), 0))
+            with lock:
+                write(record)
+
+        threading.Thread(target=later, daemon=True).start()
+
+
+@variant_of("10.1.4")
+class keeps_logs_of_components(Base):
+    """Each component has a log of its own; who reads the trace gets one after the other."""
+
+    def read_log(self) -> list[Record]:
+        return sorted(self.manager.log)

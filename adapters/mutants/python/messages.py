@@ -1,0 +1,302 @@
+"""Conformant variants that deliver messages, and tell of what goes wrong, in their own way (10.1.2, 10.1.6)."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+
+from ucm_cts.adapters.contract.adapter import NotOffered
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import UcmError
+from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
+from ucm_cts.adapters.mutants.python.registry import Base, variant_of
+from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, INTERNAL_ERROR, OK, Link, LinkElement, Taker
+from ucm_cts.adapters.reference.python.framework import Member
+
+_FEW, _FULL = 20, 500
+_CLAUSES = ("10.1.2", "10.1.6")
+
+
+class _Codes(Link):
+    """What push is answered beside ok: ``unready`` if a receiver is not operational, ``alone`` if there is none."""
+
+    unready = OK
+    alone = OK
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        unready = any(not taker.entrance.is_open for taker in self.takers)
+        code = self._deliver_to_all(method, arguments)
+        if code != OK:
+            return code
+        return self.alone if not self.takers else self.unready if unready else OK
+
+    def _deliver_to_all(self, method: str, arguments: Sequence[Datum]) -> str:
+        return super()._emit(method, arguments)
+
+
+class _Synchronous(_Codes):
+    """Messages are delivered by the emitter's thread."""
+
+    def _deliver_to_all(self, method: str, arguments: Sequence[Datum]) -> str:
+        if self.broken:
+            return super()._deliver_to_all(method, arguments)
+        codes = [self._ask(taker, method, arguments) for taker in self.takers if taker.entrance.is_open]
+        return self._sum_up(codes)
+
+    def _ask(self, taker: Taker, method: str, arguments: Sequence[Datum]) -> str:
+        try:
+            return str(taker.enter(method, self._copied(arguments))[0])
+        except Exception:  # noqa: BLE001 - a body may raise anything
+            return COMM_ERROR
+
+    def _sum_up(self, codes: list[str]) -> str:
+        return OK
+
+
+@variant_of(
+    *_CLAUSES,
+    readings={
+        "message-delivery": "synchronous",
+        "receiver-not-ready": "error",
+        "pending-at-stop": "deliver",
+        "message-order": "fifo",
+        "slow-receiver": "shared",
+        "comm-error": "at-once",
+    },
+)
+class delivers_on_the_emitters_thread(Base):
+    """Push returns when all receivers have got the message; it is refused if one is not operational."""
+
+    class link_class(_Synchronous):
+        unready = INTERNAL_ERROR
+
+
+@variant_of(
+    *_CLAUSES,
+    readings={
+        "receiver-code": "passed",
+        "push-without-receiver": "refused",
+        "service-failure": "wait",
+        "message-delivery": "synchronous",
+    },
+)
+class passes_codes_on(Base):
+    """Push is answered what the last receiver did that was not ok. Who calls a server that is out of reach waits. Emitters
+    without receivers are not started.
+    """
+
+    class link_class(_Synchronous):
+        def _sum_up(self, codes: list[str]) -> str:
+            return next((code for code in reversed(codes) if code != OK), OK)
+
+        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+            while self.broken:
+                time.sleep(0.001)
+            return super()._request(method, arguments)
+
+    def _check_startable(self) -> None:
+        super()._check_startable()
+        for member in self.members.values():
+            for connection in self._connections_from(member):
+                if isinstance(connection.target, LinkElement) and not connection.target.link.takers:
+                    raise UcmError("nobody is there")
+
+
+@variant_of(*_CLAUSES, readings={"push-without-receiver": "refused"})
+class attaches_emitters_where_somebody_receives(Base):
+    """An emitter is attached to a connection that has a receiver, and to no other one."""
+
+    class link_class(Link):
+        def _attach_sender(self, member: Member, port: str) -> None:
+            if self.connector == MESSAGE_CONNECTOR and not self.takers:
+                raise UcmError("nobody would receive")
+            super()._attach_sender(member, port)
+
+
+class _Holding(_Codes):
+    """What is pushed to a receiver that is not operational comes when it is started."""
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        for taker in self.takers if not self.broken else ():
+            if not taker.entrance.is_open:
+                taker.__dict__.setdefault("kept", []).append((method, self._copied(arguments)))
+        return super()._emit(method, arguments)
+
+    def release(self, taker: Taker) -> None:
+        """It is operational now."""
+        for method, arguments in taker.__dict__.pop("kept", ()):
+            self._post(taker, method, arguments)
+
+
+class _ReleasesHeld(Base):
+    """Who is operational gets what was held for it."""
+
+    def _open_entrances(self, member: Member) -> None:
+        super()._open_entrances(member)
+        for link, taker in self._takers_of(member):
+            if isinstance(link, _Holding):
+                link.release(taker)
+
+
+class _SharedThread(_Holding):
+    """One thread delivers all messages of the runtime."""
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        shared: Taker = self.manager.__dict__.setdefault("deliverer", Taker(taker.member, taker.port))
+        shared.messages.put([taker, method, arguments])
+        if shared.thread is None:
+            shared.thread = threading.Thread(target=self._deliver, args=(shared, ""), daemon=True)
+            shared.thread.start()
+
+    def _deliver(self, taker: Taker, method: str) -> None:
+        while (posted := taker.messages.get()) is not None:
+            assert isinstance(posted, list)
+            receiver, of, arguments = posted
+            with suppress(Exception):
+                receiver.enter(of, arguments)
+
+
+@variant_of(*_CLAUSES, readings={"receiver-not-ready": "hold", "message-order": "fifo", "pending-at-stop": "drop"})
+class delivers_all_on_one_thread(_ReleasesHeld):
+    """Receivers wait for each other, and messages for receivers that are not operational for their start."""
+
+    link_class = _SharedThread
+
+
+class _Pooled(_Codes):
+    """A few threads deliver all messages of a connection, in any order."""
+
+    alone = COMM_ERROR
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        pool: ThreadPoolExecutor = self.__dict__.setdefault("pool", ThreadPoolExecutor(4))
+        taker.__dict__.setdefault("posted", []).append(pool.submit(taker.enter, method, arguments))
+        if len(taker.__dict__["posted"]) > _FULL:
+            self.wait_for(taker)
+
+    def wait_for(self, taker: Taker) -> None:
+        """Until all has been delivered that was pushed."""
+        posted = taker.__dict__.get("posted", [])
+        while posted:
+            posted.pop().exception()
+
+
+@variant_of(
+    *_CLAUSES,
+    readings={"message-order": "unordered", "pending-at-stop": "deliver", "push-without-receiver": "comm_error"},
+)
+class delivers_in_any_order(Base):
+    """Messages may pass each other. What waits when a receiver is stopped is delivered before."""
+
+    link_class = _Pooled
+
+    def _close_entrances(self, member: Member) -> None:
+        for link, taker in self._takers_of(member):
+            if isinstance(link, _Pooled):
+                link.wait_for(taker)
+        super()._close_entrances(member)
+
+
+class _LearningLate(_Codes):
+    """What is broken or mended is noticed some time later, and what was pushed before is lost. Sub-containers have little
+    room for messages, and who pushes more is refused.
+    """
+
+    late = 0.2
+    known = ""
+    since = 0.0
+
+    def break_link(self, where: str) -> None:
+        super().break_link(where)
+        self.since = 0.0
+
+    def mend_link(self) -> None:
+        super().mend_link()
+        self.since = time.monotonic()
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        now = time.monotonic()
+        self.since = self.since or now
+        if self.broken == "inside" or now - self.since >= self.late:
+            self.known = self.broken
+        if self.known:
+            return COMM_ERROR if self.known == "transport" else INTERNAL_ERROR
+        distant = [taker for taker in self.takers if taker.member.container is not self.manager]
+        if any(taker.messages.qsize() > _FEW for taker in distant):
+            return INTERNAL_ERROR
+        return OK if self.broken else super()._emit(method, arguments)
+
+
+@variant_of(*_CLAUSES, readings={"comm-error": "eventually", "message-overflow": "refuse"})
+class tells_late_and_refuses_much(Base):
+    """Push is answered ok while the connector has not noticed that the transport is broken, and not if it has much to do."""
+
+    link_class = _LearningLate
+
+
+class _KeepingTaker(Taker):
+    """What waits when it is stopped is kept."""
+
+    def forget(self) -> None:
+        with suppress(queue.Empty):
+            while True:
+                self.__dict__.setdefault("kept", []).append(("push", [self.messages.get_nowait()]))
+
+
+class _Bounded(_Holding):
+    """Push waits until there is room, and what waits at stop is kept."""
+
+    def _attach_taker(self, member: Member, port: str) -> None:
+        super()._attach_taker(member, port)
+        self.takers[-1] = _KeepingTaker(member, port)
+        self.takers[-1].messages = queue.Queue(_FULL)  # type: ignore[assignment]
+
+    def _deliver(self, taker: Taker, method: str) -> None:
+        while (message := taker.messages.get()) is not None:
+            try:
+                taker.enter(method, [message])
+            except UcmError:
+                taker.__dict__.setdefault("kept", []).append((method, [message]))
+            except Exception:  # noqa: BLE001, S112 - a body may raise anything
+                continue
+
+
+@variant_of(*_CLAUSES, readings={"message-overflow": "block", "pending-at-stop": "keep", "receiver-not-ready": "hold"})
+class waits_for_room_and_keeps_at_stop(_ReleasesHeld):
+    """Nothing is refused; who pushes too fast waits. What waits when a receiver is stopped comes when it is started."""
+
+    link_class = _Bounded
+
+
+@variant_of(*_CLAUSES, readings={"transport-fault": "none", "connector-fault": "none"})
+class breaks_nothing(Base):
+    """The adapter cannot break connections, and says so."""
+
+    class link_class(Link):
+        def break_link(self, where: str) -> None:
+            raise NotOffered
+
+        mend_link = break_link  # type: ignore[assignment]
+
+
+_DECLARED = {
+    "comm-error": "at-once",
+    "message-delivery": "asynchronous",
+    "message-order": "fifo",
+    "message-overflow": "block",
+    "pending-at-stop": "drop",
+    "push-without-receiver": "ok",
+    "receiver-code": "dropped",
+    "receiver-not-ready": "drop",
+    "service-failure": "raise",
+    "slow-receiver": "independent",
+}
+
+
+@variant_of(*_CLAUSES, readings=_DECLARED)
+class declares_what_the_reference_does(Base):
+    """The reference framework, with everything declared."""

@@ -1,0 +1,256 @@
+"""Conformant variants that execute protected components in their own way (10.1.3)."""
+
+from __future__ import annotations
+
+import dataclasses
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TypeVar
+
+from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
+from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Policy
+from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, variant_of
+from ucm_cts.adapters.reference.python.framework import Failures, Member
+from ucm_cts.adapters.reference.python.policies import Executor, Trigger
+
+_EXECUTION = frozenset((SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE, UNPROTECTED_PASSIVE))
+
+T = TypeVar("T")
+
+# threads
+
+
+class _SharedExecutor(Executor):
+    """Lets calls that come from its own thread in at once."""
+
+    own_thread: int | None = None
+
+    def execute(self, work: Callable[[], T]) -> T:
+        if self.own_thread == threading.get_ident():
+            return work()
+
+        def on_own_thread() -> T:
+            self.own_thread = threading.get_ident()
+            return work()
+
+        return super().execute(on_own_thread)
+
+
+@variant_of(*POLICIES)
+class executes_all_on_one_thread(Base):
+    """A thread of the container executes all its protected components."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        executor: _SharedExecutor = self.__dict__.setdefault("executor", _SharedExecutor())
+        return executor.execute(work)
+
+    def _remove_members(self, failures: Failures) -> None:
+        super()._remove_members(failures)
+        self.__dict__.pop("executor", _SharedExecutor()).close()
+
+
+@variant_of(*POLICIES)
+class executes_each_on_its_thread(Base):
+    """Every protected component has a thread for all that enters it."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.execution.is_inside:
+            return work()
+        return self._execute_on_own_thread(member, lambda: self._execute_alone(member, port, work))
+
+
+@variant_of(*POLICIES)
+class executes_all_on_the_callers_thread(Base):
+    """Active components have no thread; callers enter one by one."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        return self._execute_alone(member, port, work)
+
+
+# who waits
+
+
+@variant_of(*POLICIES)
+class refuses_recursion(Base):
+    """A call that comes back to a protected component is refused."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.execution.is_inside:
+            raise UcmError("the component is being executed")
+        return super()._execute(member, port, work)
+
+
+@variant_of(*POLICIES)
+class serialises_unprotected_components(Base):
+    """Unprotected passive components are entered one at a time, too."""
+
+    def _is_protected(self, member: Member) -> bool:
+        return super()._is_protected(member) or member.execution.definition == UNPROTECTED_PASSIVE
+
+
+class _Turnstile:
+    """Lets those who wait in one by one, in the order they came or in reverse."""
+
+    def __init__(self, last_first: bool) -> None:
+        self._changed = threading.Condition()
+        self._waiting: list[object] = []
+        self._is_free = True
+        self._next = -1 if last_first else 0
+
+    def enter(self) -> None:
+        own = object()
+        with self._changed:
+            self._waiting.append(own)
+            self._changed.wait_for(lambda: self._is_free and self._waiting[self._next] is own)
+            self._waiting.remove(own)
+            self._is_free = False
+
+    def leave(self) -> None:
+        with self._changed:
+            self._is_free = True
+            self._changed.notify_all()
+
+
+@variant_of(*POLICIES)
+class lets_the_first_in_first(Base):
+    """Callers are let in in the order they came."""
+
+    last_first = False
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        if member.execution.is_inside:
+            yield
+            return
+        turnstile: _Turnstile = member.__dict__.setdefault("turnstile", _Turnstile(self.last_first))
+        turnstile.enter()
+        member.execution.thread_inside = threading.get_ident()
+        try:
+            yield
+        finally:
+            member.execution.thread_inside = None
+            turnstile.leave()
+
+
+@variant_of(*POLICIES)
+class lets_the_last_in_first(lets_the_first_in_first):
+    """Who came last is let in first."""
+
+    last_first = True
+
+
+# what is open under a reading that is declared
+
+
+@variant_of(*POLICIES, readings={"self-exec-mutex": "run-only"})
+class keeps_runs_apart_only(Base):
+    """Ports of a self-executing component are open, whatever it executes."""
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.execution.definition == SELF_EXECUTING and port is not None:
+            return work()
+        return super()._execute_alone(member, port, work)
+
+
+@variant_of(*POLICIES, readings={"active-unmanaged": "unprotected"})
+class leaves_unmanaged_ports_open(Base):
+    """The ports of an active component that its policy does not manage are open."""
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.execution.definition == ACTIVE and port not in member.execution.managed:
+            return work()
+        return super()._execute_alone(member, port, work)
+
+
+@variant_of(*POLICIES, readings={"unprotected-concurrency": "concurrent"})
+class lets_callers_meet(Base):
+    """Callers meet in unprotected passive components, as they do in the reference framework."""
+
+
+@variant_of(*POLICIES, readings={"second-active-policy": "refuse"})
+class refuses_two_active_ports(Base):
+    """The active policy on two ports is two policies."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1:
+            raise UcmError(f"{implementation.name!r} has more than one execution policy")
+        super()._check_policies(implementation)
+
+
+@variant_of(*POLICIES, readings={"second-active-policy": "allow", "run-trigger": "repeated"})
+class says_what_it_does(Base):
+    """It does as the reference framework does, and its vendor says so."""
+
+
+@variant_of(*POLICIES, readings={"protected-active-applicability": "onComponent"})
+class manages_whole_components(Base):
+    """The active policy cannot be applied to ports; all ports of a component that has it are managed."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if any(policy.definition == ACTIVE and policy.port is not None for policy in implementation.policies):
+            raise UcmError(f"{ACTIVE!r} applies to components")
+        others = tuple(policy for policy in implementation.policies if policy.definition != ACTIVE)
+        if len([policy for policy in implementation.policies if policy.definition in _EXECUTION]) > 1:
+            raise UcmError(f"{implementation.name!r} has more than one execution policy")
+        super()._check_policies(dataclasses.replace(implementation, policies=others))
+
+    def _initialise(self, member: Member) -> None:
+        if member.execution.definition == ACTIVE:
+            member.execution.managed = set(member.implementation.provides)
+        super()._initialise(member)
+
+
+@variant_of(*POLICIES, readings={"protected-active-applicability": "onBoth"})
+class manages_ports_or_whole_components(Base):
+    """The active policy can be applied to ports, or to a component, all ports of which are managed then."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if implementation.policies != (Policy(ACTIVE),):
+            super()._check_policies(implementation)
+
+    def _initialise(self, member: Member) -> None:
+        if None in member.execution.managed:
+            member.execution.managed = set(member.implementation.provides)
+        super()._initialise(member)
+
+
+# run
+
+
+@variant_of(*POLICIES)
+class runs_once_a_start(Base):
+    """run is called once after each start."""
+
+    def _keep_running(self, member: Member, trigger: Trigger) -> None:
+        if not trigger.ended.wait(self.period):
+            self._run(member, trigger)
+
+
+@variant_of(*POLICIES)
+class runs_seldom(Base):
+    """run is called every 50 ms."""
+
+    period = 0.05
+
+
+@variant_of(*POLICIES)
+class runs_no_more_after_a_failure(Base):
+    """An exception out of run ends the runs until the next start."""
+
+    def _keep_running(self, member: Member, trigger: Trigger) -> None:
+        run = self._execution_api(member).run
+        try:
+            while not trigger.ended.wait(self.period):
+                self._execute(member, None, lambda: trigger.run(run))
+        except Exception:  # noqa: BLE001 - a body may raise anything
+            return
+
+
+@variant_of(*POLICIES)
+class runs_one_component_at_a_time(Base):
+    """Of all self-executing components of the runtime one runs at a time."""
+
+    def _run(self, member: Member, trigger: Trigger) -> None:
+        with self.manager.__dict__.setdefault("one_run", threading.Lock()):
+            super()._run(member, trigger)

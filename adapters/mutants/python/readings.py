@@ -1,0 +1,289 @@
+"""Conformant variants, one for each reading that the interpretations permit."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from ucm_cts.adapters.contract.programming_model import (
+    BadParameter,
+    Connectable,
+    FragmentObject,
+    NotFound,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, is_below, variant
+from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Failures, Member, State
+
+
+@variant
+class cascades(Base):
+    """remove_component shuts down and disconnects whatever is in the way."""
+
+    def _check_removable(self, member: Member) -> None:
+        pass
+
+    def remove_component(self, comp_instance: int) -> None:
+        with self._operation():
+            member = self._find_member(comp_instance)
+            failures = Failures()
+            if member in self.started:
+                self.started.remove(member)
+                self._shut_down(member, failures)
+            for connection in {c.id: c for c in self._connections_from(member) + self._connections_to(member)}.values():
+                self._disconnect(connection, failures)
+            self._remove(member, failures)
+            failures.report()
+
+
+@variant
+class lets_references_dangle(cascades):
+    """A removed provider's client keeps its port element, unconnected, and is told nothing."""
+
+    def remove_component(self, comp_instance: int) -> None:
+        member = self.members.get(comp_instance)
+        for connection in self._connections_to(member) if member is not None else ():
+            if connection.client is not member:
+                del self.manager.connections[connection.id]
+        super().remove_component(comp_instance)
+
+
+@variant
+class adds_later(Base):
+    """add_component to a started container initialises; the component waits for the next start."""
+
+    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
+        started, self.is_started = self.is_started, False
+        try:
+            return super().add_component(implementation, attributes)
+        finally:
+            self.is_started = started
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        ready = instance in self.members and self.members[instance].state is State.READY
+        started, self.is_started = self.is_started, self.is_started and ready
+        try:
+            return super().connect(instance, port_name, to_port)
+        finally:
+            self.is_started = started
+
+
+@variant
+class starts_late_additions(adds_later):
+    """add_component to a started container starts at once what requires nothing."""
+
+    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
+        identifier = super().add_component(implementation, attributes)
+        member = self.members[identifier]
+        if self.is_started and not member.implementation.requires:
+            self._start_up(member, Failures())
+        return identifier
+
+
+@variant
+class configures_at_any_time(Base):
+    """connect and disconnect work on operational components; callbacks belong to configuration and do not come."""
+
+    def _check_configuring(self) -> None:
+        pass
+
+    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
+        if self.is_started:
+            raise UcmError("no additions now")
+        return super().add_component(implementation, attributes)
+
+    def _connect(self, connection: Connection) -> None:
+        if connection.client.state is State.READY:
+            self.manager.connections[connection.id] = connection
+        else:
+            super()._connect(connection)
+
+
+@variant
+class starts_the_unconfigured(Base):
+    """start does not care about unconnected port elements."""
+
+    def _check_startable(self) -> None:
+        pass
+
+
+@variant
+class starts_the_unconfigured_with_null(starts_the_unconfigured):
+    """The same, with null references for what is not connected."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = {d.from_port: d for d in super()._dependencies_of(member)}
+        return [given.get(p, PortConnection(p, (None,))) for p in member.implementation.requires]
+
+
+@variant
+class appends_connections(Base):
+    """A port element takes any number of connections."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        self.__dict__["connecting"] = True
+        try:
+            return super().connect(instance, port_name, to_port)
+        finally:
+            self.__dict__["connecting"] = False
+
+    def _is_connected(self, member: Member, port: str) -> bool:
+        return not self.__dict__.get("connecting") and super()._is_connected(member, port)
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        by_port: dict[str, list[PortElementObject | None]] = {}
+        for connection in self._connections_from(member):
+            by_port.setdefault(connection.port, []).append(connection.target)
+        return [PortConnection(port, targets) for port, targets in by_port.items()]
+
+
+@variant
+class replaces_connections(appends_connections):
+    """A second connection of a port element takes the place of the first."""
+
+    def _connect(self, connection: Connection) -> None:
+        for old in self._connections_from(connection.client):
+            if old.port == connection.port:
+                self._disconnect(old, Failures())
+        super()._connect(connection)
+
+
+@variant
+class reuses_ids(Base):
+    """The smallest free number is the next id; components and connections count separately in each container."""
+
+    def _new_id(self) -> int:
+        return next(n for n in range(-3, 10**6) if n not in self.members and n not in self.manager.connections)
+
+
+@variant
+class refuses_repetition(Base):
+    """start when started and stop when stopped raise UCM_ERROR."""
+
+    def start(self) -> None:
+        if self.is_started:
+            raise UcmError("started")
+        super().start()
+
+    def stop(self) -> None:
+        if not self.is_started:
+            raise UcmError("stopped")
+        super().stop()
+
+
+class _Deaf(Failures):
+    def report(self) -> None:
+        pass
+
+
+@variant
+class swallows_exceptions(Base):
+    """What bodies raise is ignored."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        self._set_attributes(member, attributes)
+        if isinstance(member.body, FragmentObject):
+            _Deaf().attempt(member.body.set_container_interface, self)
+        _Deaf().attempt(self._initialise, member)
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        super()._start_up(member, _Deaf()) or self._count_as_started(member)
+        return True
+
+    def _count_as_started(self, member: Member) -> bool:
+        member.state = State.READY
+        self.started.append(member)
+        return True
+
+    def _shut_down(self, member: Member, failures: Failures) -> None:
+        super()._shut_down(member, _Deaf())
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        super()._remove(member, _Deaf())
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        super()._disconnect(connection, _Deaf())
+
+    def _connect(self, connection: Connection) -> None:
+        self.manager.connections[connection.id] = connection
+        if isinstance(connection.client.body, Connectable):
+            _Deaf().attempt(connection.client.body.on_connect, connection.port, connection.target)
+
+
+@variant
+class manager_reaches_down(Base):
+    """The manager's start, stop and get_components include sub-containers."""
+
+    def start(self) -> None:
+        self._also(super().start, Container.start)
+
+    def stop(self) -> None:
+        self._also(super().stop, Container.stop)
+
+    def get_components(self) -> list[int]:
+        below = self.manager.sub_containers if not is_below(self) else []
+        return super().get_components() + [i for c in below for i in Container.get_components(c)]
+
+    def _also(self, own: Callable[[], None], below: Callable[[Container], None]) -> None:
+        own()
+        if not is_below(self):
+            for container in self.manager.sub_containers:
+                below(container)
+
+
+@variant
+class other_errors(Base):
+    """Unknown port elements of connect are NOT_FOUND, null references UCM_ERROR, a taken one BAD_PARAMETER."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        member = self.members.get(instance)
+        if member is not None:
+            if port_name not in member.implementation.requires:
+                raise NotFound(port_name)
+            if to_port is None:
+                raise UcmError("nil")
+            if self._is_connected(member, port_name):
+                raise BadParameter(port_name)
+        return super().connect(instance, port_name, to_port)
+
+
+@variant
+class starts_in_reverse(Base):
+    """The last added is started first."""
+
+    def _start_order(self) -> Sequence[Member]:
+        return list(reversed(list(super()._start_order())))
+
+
+@variant
+class hands_out_proxies(GivesOutProxies):
+    """No reference that anybody gets is the body's own object."""
+
+    proxy = Proxy
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        return super(GivesOutProxies, self).connect(instance, port_name, to_port)
+
+    def _connections_to(self, member: Member) -> list[Connection]:
+        return [
+            c for c in self.manager.connections.values() if isinstance(c.target, Proxy) and c.target.member is member
+        ]
+
+
+@variant
+class removes_members_one_by_one(Base):
+    """remove_container and destroy finish with each member before the next, last added first."""
+
+    def _disconnect_members(self, failures: Failures) -> None:
+        pass
+
+    def _remove_members(self, failures: Failures) -> None:
+        for member in reversed(list(self.members.values())):
+            for connection in self._connections_to(member) + self._connections_from(member):
+                if connection.id in self.manager.connections:
+                    self._disconnect(connection, failures)
+            self._remove(member, failures)
+
+
+_ = ContainerManager

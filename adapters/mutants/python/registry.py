@@ -1,0 +1,195 @@
+"""Where derived frameworks are registered: mutants by the requirements they must fail, conformant variants by name.
+
+``@breaks(requirement, ...)`` names what the suite must find: every named requirement fails, and no other, except those
+in ``also``: requirements that are truly broken by the same defect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import PortElementObject
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.framework import Container, ContainerManager, Member
+
+CONTAINER = ("11", "12.10")
+POLICIES = ("10.1.3",)
+CORE = ("10.1.1", "10.1.2", "10.1.4", "10.1.5", "10.1.6")
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A defective framework's adapter and the ``requirements`` it must fail; ``also`` are those it may fail, too.
+
+    ``clauses`` are those whose test purposes are to find it out, ``readings`` what its vendor declares of options.
+    ``made_from`` is the conformant variant that was altered; without one it was the reference framework.
+    """
+
+    name: str
+    adapter: type[ReferenceAdapter]
+    requirements: tuple[str, ...]
+    also: tuple[str, ...] = ()
+    clauses: tuple[str, ...] = CONTAINER
+    readings: Mapping[str, str] = field(default_factory=dict)
+    made_from: str = ""
+
+    @property
+    def lie(self) -> str:
+        """What it does wrong, in one sentence or two."""
+        return " ".join((self.adapter.__doc__ or "").split())
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A conformant framework's adapter, of interest for the test purposes of ``clauses`` under declared ``readings``."""
+
+    name: str
+    adapter: type[ReferenceAdapter]
+    clauses: tuple[str, ...]
+    readings: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Cheat:
+    """An adapter that hides what a framework does. ``detected_by`` says what must come out, all of it: requirements that fail,
+    or kinds of incident; nothing if no observation can tell it from an honest adapter of a conformant framework.
+
+    ``door`` is how it is named on the command line. ``rehearsals`` are runs in which it learns, before it cheats.
+    """
+
+    name: str
+    door: str
+    lie: str
+    detected_by: tuple[str, ...]
+    clauses: tuple[str, ...] = CONTAINER
+    rehearsals: int = 0
+    adapter: type[ReferenceAdapter] | None = None
+
+
+MUTANTS: dict[str, Mutant] = {}
+VARIANTS: dict[str, Variant] = {}
+CHEATS: dict[str, Cheat] = {}
+UNSEEN: dict[str, Cheat] = {}
+"""Cheats that an auditor has to look for (docs/honesty.md)."""
+
+
+def mutants_of(clauses: tuple[str, ...]) -> dict[str, Mutant]:
+    """Those that test purposes of some of these clauses are to find out."""
+    return {name: mutant for name, mutant in MUTANTS.items() if mutant.clauses[0].startswith(clauses)}
+
+
+def variants_of(clauses: tuple[str, ...]) -> dict[str, Variant]:
+    """Those that are of interest for some of these clauses."""
+    return {name: variant for name, variant in VARIANTS.items() if variant.clauses[0].startswith(clauses)}
+
+
+def bind(name: str, mixin: type, doc: str | None = None) -> type[ReferenceAdapter]:
+    """An adapter for the reference framework with ``mixin`` in front of both container classes."""
+    container = type(name, (mixin, Container), {})
+    manager = type(f"{name}_manager", (mixin, ContainerManager), {"container_class": container})
+    return type(f"{name}_adapter", (ReferenceAdapter,), {"manager_class": manager, "product": name, "__doc__": doc})
+
+
+def breaks(
+    *requirements: str,
+    also: tuple[str, ...] = (),
+    clauses: tuple[str, ...] = CONTAINER,
+    readings: Mapping[str, str] = {},
+) -> Callable[[type], type]:
+    """Register the decorated mixin as a mutant that the test purposes of ``clauses`` are to find out."""
+
+    def register(mixin: type) -> type:
+        name = mixin.__name__
+        assert name not in MUTANTS, name
+        adapter = bind(name, mixin, mixin.__doc__)
+        MUTANTS[name] = Mutant(name, adapter, requirements, also, clauses, readings, _variant_below(mixin))
+        return mixin
+
+    return register
+
+
+def _variant_below(mixin: type) -> str:
+    """The registered variant that ``mixin`` derives from, the nearest one; empty if from none."""
+    for base in mixin.__mro__[1:]:
+        variant = VARIANTS.get(base.__name__)
+        if variant is not None and issubclass(variant.adapter.manager_class, base):
+            return variant.name
+    return ""
+
+
+def breaks_policy(
+    *requirements: str, also: tuple[str, ...] = (), readings: Mapping[str, str] = {}
+) -> Callable[[type], type]:
+    """Register the decorated mixin as a mutant that applies execution policies wrongly."""
+    return breaks(*requirements, also=also, clauses=POLICIES, readings=readings)
+
+
+def variant_of(*clauses: str, readings: Mapping[str, str] = {}) -> Callable[[type], type]:
+    """Register the decorated mixin as a conformant framework that is of interest for the purposes of ``clauses``."""
+
+    def register(mixin: type) -> type:
+        name = mixin.__name__
+        assert name not in VARIANTS, name
+        VARIANTS[name] = Variant(name, bind(name, mixin, mixin.__doc__), clauses, readings)
+        return mixin
+
+    return register
+
+
+def cheats(
+    *detected_by: str, clauses: tuple[str, ...] = CONTAINER, rehearsals: int = 0
+) -> Callable[[type[ReferenceAdapter]], type[ReferenceAdapter]]:
+    """Register the decorated adapter as a cheat; without ``detected_by`` as one that no observation shows."""
+
+    def register(adapter: type[ReferenceAdapter]) -> type[ReferenceAdapter]:
+        name = adapter.__name__
+        lie = " ".join((adapter.__doc__ or "").split())
+        known = CHEATS if detected_by else UNSEEN
+        assert name not in {**CHEATS, **UNSEEN, **MUTANTS, **VARIANTS}, name
+        adapter.product = name
+        known[name] = Cheat(name, f"{__package__}:{name}", lie, detected_by, clauses, rehearsals, adapter)
+        return adapter
+
+    return register
+
+
+def variant(mixin: type) -> type:
+    """Register the decorated mixin as a conformant framework of interest for the container profile."""
+    return variant_of(*CONTAINER)(mixin)
+
+
+class Base(Container):
+    """Typing only: what a mixin can rely on."""
+
+
+class Proxy(PortElementObject):
+    """What a framework could give out instead of a body's own object."""
+
+    def __init__(self, target: PortElementObject, member: Member) -> None:
+        self.target, self.member = target, member
+
+    def exchange(self, value: int) -> int:
+        return self.target.exchange(value)
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return self.target.call(method, arguments)
+
+
+class GivesOutProxies(Base):
+    """get_port_element gives out proxies to the test; components are connected to the bodies' own objects."""
+
+    proxy: type[Proxy]
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(comp_instance, port_name)
+        return self.proxy(element, self.members[comp_instance])
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        return super().connect(instance, port_name, to_port.target if isinstance(to_port, Proxy) else to_port)
+
+
+def is_below(container: Container) -> bool:
+    """Is it a sub-container?"""
+    return container is not container.manager

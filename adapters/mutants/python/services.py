@@ -1,0 +1,252 @@
+"""Conformant variants that carry out calls of services in their own way (10.1.5)."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from typing import TypeVar
+
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import (
+    DeclaredException,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.contract.scenario import SERVICE_CONNECTOR
+from ucm_cts.adapters.mutants.python.registry import Base, variant_of
+from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
+from ucm_cts.adapters.reference.python.framework import Container, Member
+from ucm_cts.adapters.reference.python.policies import Executor
+
+T = TypeVar("T")
+
+_service_variant = variant_of("10.1.1", "10.1.5")
+
+# threads
+
+
+class _OnOneThread(Link):
+    def __init__(self, *arguments: object) -> None:
+        super().__init__(*arguments)  # type: ignore[arg-type]
+        self.executor = Executor()
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return self.executor.execute(lambda: super(_OnOneThread, self)._request(method, arguments))
+
+
+@_service_variant
+class serves_on_one_thread(Base):
+    """Each connection has a thread that carries out its calls one by one."""
+
+    link_class = _OnOneThread
+
+
+class _ClientElement(LinkElement):
+    """Has a thread of its own."""
+
+    def __init__(self, link: Link) -> None:
+        super().__init__(link)
+        self.executor = Executor()
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        call = super().call
+        return self.executor.execute(lambda: call(method, arguments))
+
+
+class _ThreadOfClient(Link):
+    def _attach_sender(self, member: Member, port: str) -> None:
+        super()._attach_sender(member, port)
+        connections = member.container.manager.connections
+        last = max(connections)
+        object.__setattr__(connections[last], "target", _ClientElement(self))
+
+
+@_service_variant
+class queues_for_each_client(Base):
+    """The calls of each client wait in a queue and are made by a thread of it."""
+
+    link_class = _ThreadOfClient
+
+
+class _OnNewThreads(Link):
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return _elsewhere(lambda: super(_OnNewThreads, self)._request(method, arguments)).result()
+
+
+def _elsewhere(work: Callable[[], T]) -> Future[T]:
+    """Have ``work`` done by a thread of its own."""
+    outcome: Future[T] = Future()
+
+    def do() -> None:
+        try:
+            outcome.set_result(work())
+        except BaseException as error:  # noqa: BLE001 - whatever it is, the caller gets it
+            outcome.set_exception(error)
+
+    threading.Thread(target=do, daemon=True).start()
+    return outcome
+
+
+@_service_variant
+class serves_each_call_on_a_new_thread(Base):
+    """Nothing is known of the client's thread on the server's side."""
+
+    link_class = _OnNewThreads
+
+
+# servers
+
+
+class _TakesAll(Link):
+    def _check_room(self) -> None:
+        pass
+
+    @property
+    def is_overfull(self) -> bool:
+        return self.connector == SERVICE_CONNECTOR and len(self.takers) > 1
+
+
+@_service_variant
+class refuses_two_servers_at_start(Base):
+    """A second server is attached, and nothing that has to do with it is started."""
+
+    link_class = _TakesAll
+
+    def _check_startable(self) -> None:
+        super()._check_startable()
+        for link in self.manager.links:
+            takers = [taker for taker in link.takers if taker.member.container is self]
+            if isinstance(link, _TakesAll) and link.is_overfull and takers:
+                raise UcmError("a connection has two servers")
+
+
+@_service_variant
+class refuses_clients_without_server(Base):
+    """A client of a connection without server is not started."""
+
+    def _check_startable(self) -> None:
+        super()._check_startable()
+        targets = [c.target for m in self.members.values() for c in self._connections_from(m)]
+        links = [target.link for target in targets if isinstance(target, LinkElement)]
+        if any(link.connector == SERVICE_CONNECTOR and not link.takers for link in links):
+            raise UcmError("a client has no server")
+
+
+# exceptions
+
+
+class _Translates(Link):
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        try:
+            return super()._request(method, arguments)
+        except DeclaredException as error:
+            raise UcmError(f"the server raised {error.name}") from None
+
+
+@variant_of("10.1.1", "10.1.5", readings={"exception-transport": "system-error"})
+class raises_system_errors(Base):
+    """Whatever a server raises arrives as an error of the framework, as its vendor says."""
+
+    link_class = _Translates
+
+
+# calls in flight
+
+
+class _Aborts(Link):
+    """Calls end with an exception as soon as they are in vain; what the server gives then is dropped."""
+
+    def __init__(self, *arguments: object) -> None:
+        super().__init__(*arguments)  # type: ignore[arg-type]
+        self.in_vain: Future[Sequence[Datum]] = Future()
+
+    def abort(self) -> None:
+        self.in_vain.set_exception(UcmError("the call is in vain"))
+        self.in_vain = Future()
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        in_vain = self.in_vain
+        if not self.takers or not self.takers[0].entrance.is_open:
+            raise UcmError("there is no server")
+        outcome = _elsewhere(lambda: super(_Aborts, self)._request(method, arguments))
+        wait((outcome, in_vain), return_when=FIRST_COMPLETED)
+        return outcome.result() if outcome.done() else in_vain.result()
+
+
+@_service_variant
+class aborts_calls_of_stopped_servers(Base):
+    """stop does not wait for servers; their clients are told at once."""
+
+    link_class = _Aborts
+
+    def _close_entrances(self, member: Member) -> None:
+        for link, taker in self._takers_of(member):
+            if link.connector == SERVICE_CONNECTOR and isinstance(link, _Aborts):
+                taker.entrance._is_open = False
+                link.abort()
+            else:
+                taker.entrance.close()
+
+
+class _LetsGo(Link):
+    """May be undone while everything is started; calls in progress finish."""
+
+    def detach(self, container: Container, comp_instance: int, port: str) -> None:
+        if self.connector != SERVICE_CONNECTOR or not container.is_started:
+            super().detach(container, comp_instance, port)
+            return
+        with container._operation():
+            member = container._find_member(comp_instance)
+            for taker in [taker for taker in self.takers if (taker.member, taker.port) == (member, port)]:
+                self.let_go(taker)
+            for sender in container._connections_from(member):
+                if sender.port == port and self._is_behind(sender.target):
+                    container._undo(sender)
+                    self.let_go(None)
+
+    def let_go(self, taker: Taker | None) -> None:
+        if taker is not None:
+            self.takers.remove(taker)
+
+
+@_service_variant
+class undoes_connections_at_any_time(Base):
+    """Ends may be detached while everything is started; calls in progress finish, and no more are made."""
+
+    link_class = _LetsGo
+
+
+class _DropsServers(_LetsGo, _Aborts):
+    def let_go(self, taker: Taker | None) -> None:
+        super().let_go(taker)
+        if taker is not None:
+            self.abort()
+
+
+@_service_variant
+class undoes_connections_at_once(Base):
+    """Ends may be detached while everything is started; the calls that a server is executing then end with an exception."""
+
+    link_class = _DropsServers
+
+
+# connectors that are hardly there
+
+
+@variant_of("10.1.5")
+class wires_clients_to_servers(Base):
+    """A connector is what containers know of a connection; clients are given the reference of the server itself."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(map(_server_behind, d.to_port))) for d in given]
+
+
+def _server_behind(target: PortElementObject | None) -> PortElementObject | None:
+    link = target.link if isinstance(target, LinkElement) else None
+    if link is None or link.connector != SERVICE_CONNECTOR or not link.takers:
+        return target
+    server = link.takers[0].member
+    return server.container._reference_to(server, link.takers[0].port)

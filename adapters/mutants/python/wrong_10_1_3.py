@@ -1,0 +1,432 @@
+"""Wrong frameworks, clause 10.1.3: execution policies that protect too little, too long or the wrong thing."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from typing import TypeVar
+
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
+from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
+from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks, breaks_policy
+from ucm_cts.adapters.reference.python.connectors import Link, Taker
+from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.policies import ProtectedElement, Trigger
+
+T = TypeVar("T")
+
+# too little protection
+
+
+class _Unprotects(Base):
+    definition: str
+
+    def _is_protected(self, member: Member) -> bool:
+        return member.execution.definition != self.definition and super()._is_protected(member)
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        return super()._execute(member, port, work) if self._is_protected(member) else work()
+
+
+@breaks_policy("R-10.1.3.2-13", "R-10.1.3.2-16")
+class leaves_passive_components_open(_Unprotects):
+    """Protected passive components are not protected."""
+
+    definition = PROTECTED_PASSIVE
+
+
+@breaks_policy("R-10.1.3.2-09", "R-10.1.3.2-10")
+class leaves_active_components_open(_Unprotects):
+    """Active components are executed by their callers, all at a time."""
+
+    definition = ACTIVE
+
+
+@breaks_policy("R-10.1.3.2-06")
+class leaves_self_executing_components_open(_Unprotects):
+    """Self-executing components are not protected."""
+
+    definition = SELF_EXECUTING
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-10", "R-10.1.3.2-16")
+class locks_ports(Base):
+    """Each port element has a lock of its own, and so has run."""
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        with member.__dict__.setdefault(f"lock of {port}", threading.RLock()):
+            yield
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
+class protects_from_the_outside_only(Base):
+    """Components are given unprotected references at start."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(map(_without_protection, d.to_port))) for d in given]
+
+
+def _without_protection(target: PortElementObject | None) -> PortElementObject | None:
+    return target.element if isinstance(target, ProtectedElement) else target
+
+
+class _PastProtection(Link):
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        taker = self.takers[0]
+        element = taker.member.body.get_portElement(taker.port)
+        assert element is not None
+        return element.call(method, arguments)
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
+class protects_from_connections_only(Base):
+    """Connectors of services call bodies directly."""
+
+    link_class = _PastProtection
+
+
+class _PushesPastProtection(Link):
+    def _deliver(self, taker: Taker, method: str) -> None:
+        while (message := taker.messages.get()) is not None:
+            element = taker.member.body.get_portElement(taker.port)
+            assert element is not None
+            with suppress(Exception):
+                element.call(method, [message])
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-16")
+class protects_from_calls_only(Base):
+    """Messages enter protected components while others are inside."""
+
+    link_class = _PushesPastProtection
+
+
+class _LosesWhereProtected(Link):
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        if not taker.member.container._is_protected(taker.member):
+            super()._post(taker, method, arguments)
+
+
+@breaks_policy("R-10.1.2-10")
+class loses_messages_to_protected_components(Base):
+    """Messages to protected components get ok and are lost."""
+
+    link_class = _LosesWhereProtected
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16")
+class protects_until_exceptions(Base):
+    """A protected component that was left with an exception is protected no more."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if member.__dict__.get("was left with an exception"):
+            return work()
+        try:
+            return super()._execute(member, port, work)
+        except Exception:
+            member.__dict__["was left with an exception"] = True
+            raise
+
+
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16", also=("R-10.1.3.2-05",))
+class protects_until_the_first_stop(Base):
+    """Components that have been stopped are protected no more."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        return work() if member.__dict__.get("was stopped") else super()._execute(member, port, work)
+
+    def _end_execution(self, member: Member) -> None:
+        if member in self.started:
+            member.__dict__["was stopped"] = True
+        super()._end_execution(member)
+
+
+@breaks_policy("R-10.1.3.2-20", readings={"unprotected-concurrency": "concurrent"})
+class serialises_what_it_says_it_does_not(Base):
+    """Unprotected passive components are entered one at a time, and callers are said to meet there."""
+
+    def _is_protected(self, member: Member) -> bool:
+        return super()._is_protected(member) or member.execution.definition == UNPROTECTED_PASSIVE
+
+
+@breaks_policy("R-10.1.3-03", readings={"second-active-policy": "refuse"})
+class allows_what_it_says_it_refuses(Base):
+    """Two active ports of a component are said to be refused, and are not."""
+
+
+@breaks_policy("R-10.1.3-03", readings={"second-active-policy": "allow"})
+class refuses_what_it_says_it_allows(Base):
+    """Two active ports of a component are said to be allowed, and are refused."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1:
+            raise UcmError("two execution policies")
+        super()._check_policies(implementation)
+
+
+@breaks_policy("R-10.1.3.2-01", readings={"run-trigger": "once"})
+class runs_more_often_than_it_says(Base):
+    """run is said to be called once a start, and is called again and again."""
+
+
+@breaks_policy("R-10.1.3.2-01", readings={"run-trigger": "repeated"})
+class runs_less_often_than_it_says(Base):
+    """run is said to be called again and again, and is called once a start."""
+
+    def _keep_running(self, member: Member, trigger: Trigger) -> None:
+        if not trigger.ended.wait(self.period):
+            self._run(member, trigger)
+
+
+@breaks_policy("R-10.1.3.2-09", readings={"active-unmanaged": "unprotected"})
+class leaves_active_components_open_as_if_declared(leaves_active_components_open):
+    """Active components are open, of which the vendor has declared a part only."""
+
+
+@breaks_policy("R-10.1.3.2-10")
+class protects_managed_ports_only(Base):
+    """The ports of an active component that its policy does not manage are open."""
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        is_open = member.execution.managed and port not in member.execution.managed
+        return work() if is_open else super()._execute(member, port, work)
+
+
+class _Unlocked(Proxy):
+    """Calls out of ``member`` are made without its lock."""
+
+    def exchange(self, value: int) -> int:
+        execution = self.member.execution
+        if not execution.is_inside:
+            return self.target.exchange(value)
+        inside, execution.thread_inside = execution.thread_inside, None
+        execution.lock.release()
+        try:
+            return self.target.exchange(value)
+        finally:
+            execution.lock.acquire()
+            execution.thread_inside = inside
+
+
+@breaks_policy("R-10.1.3.2-13", also=("R-10.1.3.2-16",))
+class unlocks_for_nested_calls(Base):
+    """While a component waits for another one, anybody may enter it."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(_Unlocked(t, member) for t in d.to_port if t)) for d in given]
+
+
+@breaks_policy("R-10.1.3.2-05", also=("R-10.1.3.2-06",))
+class runs_before_run_has_ended(Base):
+    """Every run has a thread of its own and waits for none."""
+
+    def _run(self, member: Member, trigger: Trigger) -> None:
+        threading.Thread(target=super()._run, args=(member, trigger), daemon=True).start()
+
+    def _begin_execution(self, member: Member) -> None:
+        super()._begin_execution(member)
+        if member.execution.trigger:
+            member.execution.trigger.run = lambda run: run()  # type: ignore[method-assign]
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        if port is not None:
+            with super()._exclusion(member, port):
+                yield
+            return
+        if not member.__dict__.setdefault("running", 0):
+            with super()._exclusion(member, port):
+                member.__dict__["running"] += 1
+                try:
+                    yield
+                finally:
+                    member.__dict__["running"] -= 1
+        else:
+            yield
+
+
+# who waits gets nothing, or the wrong thing
+
+
+class _Meets(Base):
+    """Does something else with those who meet an execution."""
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        if port is None or member.execution.lock.acquire(blocking=False):
+            try:
+                result = super()._execute_alone(member, port, work)
+            finally:
+                if port is not None:
+                    member.execution.lock.release()
+            if port is not None:
+                member.__dict__["last"] = result
+            return result
+        return self._meet(member, port, work)
+
+    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        raise NotImplementedError
+
+
+_THROUGH_CONNECTORS = ("R-10.1.2-10", "R-10.1.5.1-01", "R-10.1.5.1-03")
+_CALLS = ("R-10.1.3.2-08", "R-10.1.3.2-15", "R-11.1.2-02", "R-11.1.3-01", "R-11.2.1.2-07", "R-11.2.3-03")
+"""Business calls do not do what they should."""
+
+
+@breaks_policy("R-10.1.3.2-17", also=(*_CALLS, *_THROUGH_CONNECTORS))
+class refuses_who_waited(_Meets):
+    """A caller that meets an execution waits for its end and is refused."""
+
+    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        with self._exclusion(member, port):
+            pass
+        raise UcmError("busy")
+
+
+@breaks_policy("R-10.1.3.2-17", also=_CALLS)
+class forgets_who_waits(_Meets):
+    """A caller that meets an execution waits for ever."""
+
+    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        threading.Event().wait()
+        raise NotImplementedError
+
+
+@breaks_policy("R-10.1.3.2-17", also=(*_CALLS, *_THROUGH_CONNECTORS))
+class answers_all_who_wait_alike(_Meets):
+    """A caller that meets an execution waits and gets its result."""
+
+    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        with self._exclusion(member, port):
+            return member.__dict__.get("last", 0)  # type: ignore[no-any-return]
+
+
+@breaks_policy("R-10.1.3.2-17", also=_CALLS)
+class stays_locked_after_exceptions(Base):
+    """Nobody enters a component that was left with an exception."""
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        lock = member.__dict__.setdefault("semaphore", threading.Semaphore())
+        if member.execution.is_inside:
+            yield
+            return
+        lock.acquire()
+        member.execution.thread_inside = threading.get_ident()
+        try:
+            yield
+        except Exception:
+            member.execution.thread_inside = None
+            raise
+        member.execution.thread_inside = None
+        lock.release()
+
+
+# how many policies
+
+
+@breaks_policy("R-10.1.3-03")
+class takes_any_number_of_policies(Base):
+    """The first of several execution policies counts."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        pass
+
+
+# support, and results
+
+
+class _Refuses(Base):
+    definition: str
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        if any(policy.definition == self.definition for policy in implementation.policies):
+            raise UcmError(f"{self.definition} is not supported")
+        super()._check_policies(implementation)
+
+
+@breaks_policy("R-10.1.3.1-12")
+class knows_no_self_execution(_Refuses):
+    """Self-executing components are refused."""
+
+    definition = SELF_EXECUTING
+
+
+@breaks_policy("R-10.1.3.1-13")
+class knows_no_activity(_Refuses):
+    """Active components are refused."""
+
+    definition = ACTIVE
+
+
+@breaks_policy("R-10.1.3.1-14")
+class knows_no_protection(_Refuses):
+    """Protected passive components are refused."""
+
+    definition = PROTECTED_PASSIVE
+
+
+@breaks_policy("R-10.1.3.1-15")
+class knows_no_libraries(_Refuses):
+    """Unprotected passive components are refused."""
+
+    definition = UNPROTECTED_PASSIVE
+
+
+class _Forwards(ProtectedElement):
+    def exchange(self, value: int) -> int:
+        return super().exchange(value) & 0xFFFF
+
+
+class _Truncates(Base):
+    definition: str
+
+    def _reference_to(self, member: Member, port: str) -> PortElementObject | None:
+        element = super()._reference_to(member, port)
+        if member.execution.definition != self.definition or element is None or not self._truncates(member, port):
+            return element
+        inner = element.element if isinstance(element, ProtectedElement) else element
+        return member.execution.references.setdefault(f"{port}, truncated", _Forwards(member, port, inner))
+
+    def _truncates(self, member: Member, port: str) -> bool:
+        return True
+
+
+@breaks_policy("R-10.1.3.2-08", also=("R-10.1.3.2-07", "R-10.1.3.2-10", "R-11.1.3-01", "R-11.2.1.1-02"))
+class truncates_results_of_active_components(_Truncates):
+    """Of what an active component returns only 16 bits come back."""
+
+    definition = ACTIVE
+
+
+@breaks_policy("R-10.1.3.2-07", also=("R-11.1.3-01",))
+class truncates_results_of_the_second_active_port(_Truncates):
+    """Of what the second managed port of a component returns only 16 bits come back."""
+
+    definition = ACTIVE
+
+    def _truncates(self, member: Member, port: str) -> bool:
+        return len(member.execution.managed) > 1 and port == list(member.implementation.provides)[-1]
+
+
+@breaks_policy("R-10.1.3.2-15", also=("R-11.1.3-01",))
+class truncates_results_of_protected_components(_Truncates):
+    """Of what a protected passive component returns only 16 bits come back."""
+
+    definition = PROTECTED_PASSIVE
+
+
+@breaks_policy("R-10.1.3.2-21", also=("R-11.1.3-01",))
+class truncates_results_of_libraries(_Truncates):
+    """Of what an unprotected passive component returns only 16 bits come back."""
+
+    definition = UNPROTECTED_PASSIVE
+
+
+@breaks("R-10.1.3-02", clauses=("10.1.3",), readings={"missing-execution-policy": "refuse"})
+class starts_what_it_says_it_refuses(Base):
+    """Components without execution policy are said to be refused, and are started."""

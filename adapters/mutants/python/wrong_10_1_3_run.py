@@ -1,0 +1,107 @@
+"""Wrong frameworks, clause 10.1.3: self-executing components that are executed wrongly."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import TypeVar
+
+from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
+from ucm_cts.adapters.mutants.python.registry import Base, breaks_policy
+from ucm_cts.adapters.reference.python.framework import Failures, Member
+from ucm_cts.adapters.reference.python.policies import Trigger
+
+T = TypeVar("T")
+
+
+@breaks_policy("R-10.1.3.2-01", also=("R-10.1.3.2-03",))
+class never_runs(Base):
+    """Self-executing components are not executed."""
+
+    def _begin_execution(self, member: Member) -> None:
+        pass
+
+
+@breaks_policy("R-10.1.3.2-01", also=("R-10.1.3.2-03",))
+class runs_after_the_first_start_only(Base):
+    """Self-executing components are not executed after a restart."""
+
+    def _begin_execution(self, member: Member) -> None:
+        if not member.__dict__.get("has_run"):
+            super()._begin_execution(member)
+        member.__dict__["has_run"] = True
+
+
+@breaks_policy("R-10.1.3.2-01", "R-10.1.3.2-03")
+class runs_when_called(Base):
+    """Self-executing components are executed after each call of a port, and not without."""
+
+    def _keep_running(self, member: Member, trigger: Trigger) -> None:
+        pass
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        result = super()._execute(member, port, work)
+        if port is not None and member.execution.trigger:
+            self._run(member, member.execution.trigger)
+        return result
+
+
+@breaks_policy("R-10.1.3.2-02", also=("R-10.1.3.2-01", "R-10.1.3.2-03"))
+class runs_before_startup(Base):
+    """run is called as soon as start begins."""
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        if member.execution.definition == SELF_EXECUTING:
+            self._begin_execution(member)
+            time.sleep(2 * self.period)
+        return super()._start_up(member, failures)
+
+
+@breaks_policy("R-10.1.3.2-02")
+class runs_after_stop(Base):
+    """run is called until the component is removed."""
+
+    def _end_execution(self, member: Member) -> None:
+        pass
+
+    def get_components(self) -> list[int]:
+        time.sleep(2 * self.period)  # or who asks at once would not see it
+        return super().get_components()
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        super()._end_execution(member)
+        super()._remove(member, failures)
+
+
+@breaks_policy("R-10.1.3.2-02", also=("R-10.1.3.2-06",))
+class runs_once_more_after_stop(Base):
+    """run is called once more a little after stop."""
+
+    def _end_execution(self, member: Member) -> None:
+        had_run = member.execution.trigger is not None
+        super()._end_execution(member)
+        if had_run:
+            threading.Timer(1.5 * self.period, self._execution_api(member).run).start()
+
+
+@breaks_policy("R-10.1.3.2-14")
+class executes_passive_components(Base):
+    """Protected passive components are executed by their container now and then."""
+
+    definition = PROTECTED_PASSIVE
+
+    def _begin_execution(self, member: Member) -> None:
+        super()._begin_execution(member)
+        if member.execution.definition == self.definition and member.implementation.provides:
+            port = self._reference_to(member, member.implementation.provides[0])
+            assert port is not None
+            threading.Thread(target=port.exchange, args=(0,), daemon=True).start()
+            time.sleep(self.period)
+
+
+@breaks_policy("R-10.1.3.2-19")
+class executes_unprotected_components(executes_passive_components):
+    """The same with unprotected passive components."""
+
+    definition = UNPROTECTED_PASSIVE

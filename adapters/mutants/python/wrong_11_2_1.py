@@ -1,0 +1,236 @@
+"""Wrong frameworks, clause 11.2.1: component interfaces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ucm_cts.adapters.contract.programming_model import (
+    BadParameter,
+    Connectable,
+    FragmentObject,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, breaks
+from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member
+
+
+@breaks("R-11.2.1.1-01")
+class fragments_cannot_be_connected(Base):
+    """connect does not take the port element of a fragment."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        everywhere = [self.manager, *self.manager.sub_containers]
+        fragments = [m for c in everywhere for m in c.members.values() if isinstance(m.body, FragmentObject)]
+        if any(m.body.get_portElement(p) is to_port for m in fragments for p in m.implementation.provides):
+            raise BadParameter("not a component's")
+        return super().connect(instance, port_name, to_port)
+
+
+class _ChangedValue(Proxy):
+    def exchange(self, value: int) -> int:
+        return self.target.exchange(value ^ 1)
+
+
+@breaks("R-11.2.1.1-02")
+class changes_what_is_sent(GivesOutProxies):
+    """References hand the body another value than the one sent."""
+
+    proxy = _ChangedValue
+
+
+@breaks("R-11.2.1.2-01")
+class starts_what_was_removed(Base):
+    """A removed component stays in the list of those to start."""
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        super()._remove(member, failures)
+        self.__dict__.setdefault("ghosts", []).append(member)
+
+    def start(self) -> None:
+        super().start()
+        for ghost in self.__dict__.get("ghosts", []):
+            Failures().attempt(ghost.body.on_startup, [])
+
+
+@breaks("R-11.2.1.2-03", also=("R-11.1.3-01", "R-11.1.2-02", "R-11.2.3-10"))
+class mixes_references_up(Base):
+    """Hands over the references of two port elements in reverse."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        targets = [d.to_port for d in reversed(given)]
+        return [PortConnection(d.from_port, t) for d, t in zip(given, targets, strict=True)]
+
+
+@breaks("R-11.2.1.2-04")
+class initialises_at_stop(Base):
+    """Calls on_init again when a component is shut down."""
+
+    def _shut_down(self, member: Member, failures: Failures) -> None:
+        super()._shut_down(member, failures)
+        failures.attempt(member.body.on_init)
+
+
+@breaks("R-11.2.1.2-05")
+class attributes_after_init(Base):
+    """Sets attributes when on_init has run."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        super()._configure(member, {})
+        self._set_attributes(member, attributes)
+
+
+@breaks("R-11.2.1.2-06")
+class removes_silently(Base):
+    """remove_component forgets on_remove."""
+
+    def remove_component(self, comp_instance: int) -> None:
+        self.__dict__["silent"] = True
+        try:
+            super().remove_component(comp_instance)
+        finally:
+            self.__dict__["silent"] = False
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        if self.__dict__.get("silent"):
+            del self.members[member.id]
+        else:
+            super()._remove(member, failures)
+
+
+class _Deaf(Proxy):
+    def exchange(self, value: int) -> int:
+        raise UcmError("not operational")
+
+
+@breaks("R-11.2.1.2-07")
+class never_serves(GivesOutProxies):
+    """References refuse every call, also of operational components."""
+
+    proxy = _Deaf
+
+
+@breaks("R-11.2.1.2-08")
+class connects_while_starting(Base):
+    """Repeats on_connect during start, when other members are started already."""
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        for connection in self._connections_from(member):
+            if isinstance(member.body, Connectable):
+                member.body.on_connect(connection.port, connection.target)
+        return super()._start_up(member, failures)
+
+
+@breaks("R-11.2.1.2-09", also=("R-11.2.3-10",))
+class names_dependencies_differently(Base):
+    """on_startup uses a spelling of its own for port element names."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return [PortConnection(d.from_port.upper(), d.to_port) for d in super()._dependencies_of(member)]
+
+
+@breaks("R-11.2.1.2-10")
+class shuts_down_at_every_stop(Base):
+    """stop calls on_shutdown on members that were never started."""
+
+    def stop(self) -> None:
+        idle = [] if self.is_started else list(self.members.values())
+        super().stop()
+        for member in idle:
+            Failures().attempt(member.body.on_shutdown)
+
+
+@breaks("R-11.2.1.3-01", also=("R-11.2.2.1-08",))
+class demands_connectable(Base):
+    """connect refuses bodies that are not Connectable."""
+
+    def _connect(self, connection: Connection) -> None:
+        if not isinstance(connection.client.body, Connectable):
+            raise UcmError("not Connectable")
+        super()._connect(connection)
+
+
+@breaks("R-11.2.1.3-02")
+class connects_silently(Base):
+    """connect forgets on_connect."""
+
+    def _connect(self, connection: Connection) -> None:
+        self.manager.connections[connection.id] = connection
+
+
+@breaks("R-11.2.1.3-03")
+class announces_refused_connections(Base):
+    """A connect that is refused because the container is started still calls on_connect."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        member = self.members.get(instance)
+        known = member is not None and port_name in member.implementation.requires and to_port is not None
+        if known and member is not None and self.is_started and isinstance(member.body, Connectable):
+            member.body.on_connect(port_name, to_port)
+        return super().connect(instance, port_name, to_port)
+
+
+@breaks("R-11.2.1.3-04")
+class on_connect_without_reference(Base):
+    """on_connect gets a null reference."""
+
+    def _connect(self, connection: Connection) -> None:
+        if isinstance(connection.client.body, Connectable):
+            failures = Failures()
+            failures.attempt(connection.client.body.on_connect, connection.port, None)
+            failures.report()
+        self.manager.connections[connection.id] = connection
+
+
+@breaks("R-11.2.1.3-05")
+class disconnects_silently(Base):
+    """on_disconnect is never called."""
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        del self.manager.connections[connection.id]
+
+
+@breaks("R-11.2.1.3-06")
+class misnames_disconnected_ports(Base):
+    """on_disconnect is given the connection's number instead of the port element's name."""
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        del self.manager.connections[connection.id]
+        if isinstance(connection.client.body, Connectable):
+            failures.attempt(connection.client.body.on_disconnect, str(connection.id))
+
+
+@breaks("R-11.2.1.4-01", also=("R-11.2.1.2-01",))
+class leaves_fragments_uninitialised(Base):
+    """Fragments do not get on_init."""
+
+    def _initialise(self, member: Member) -> None:
+        if not isinstance(member.body, FragmentObject):
+            super()._initialise(member)
+
+
+@breaks("R-11.2.1.4-02", also=("R-11.2.1.4-03",))
+class hides_the_container(Base):
+    """Fragments are never given their container."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        self._set_attributes(member, attributes)
+        self._initialise(member)
+
+
+@breaks("R-11.2.1.4-03")
+class shows_fragments_nothing(Base):
+    """The container interface that fragments get lists no members."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        self._set_attributes(member, attributes)
+        if isinstance(member.body, FragmentObject):
+            member.body.set_container_interface(_Blind())
+        self._initialise(member)
+
+
+class _Blind:
+    def get_components(self) -> list[int]:
+        return []

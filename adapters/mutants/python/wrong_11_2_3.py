@@ -1,0 +1,230 @@
+"""Wrong frameworks, clause 11.2.3: the life cycle."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ucm_cts.adapters.contract.programming_model import (
+    FragmentObject,
+    NotFound,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member, State
+
+
+@breaks("R-11.2.3-01", "R-11.2.3-02", also=("R-11.2.1.2-10", "R-11.2.2.1-11", "R-11.2.2.2-01"))
+class starts_when_connected(Base):
+    """A component is started as soon as its last required port element is connected."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        identifier = super().connect(instance, port_name, to_port)
+        member = self.members[instance]
+        if all(self._is_connected(member, p) for p in member.implementation.requires):
+            member.body.on_startup(self._dependencies_of(member))
+            member.__dict__["early"] = True
+        return identifier
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        if not member.__dict__.pop("early", False):
+            return super()._start_up(member, failures)
+        member.state = State.READY
+        self.started.append(member)
+        return True
+
+
+class _Unreachable(PortElementObject):
+    def exchange(self, value: int) -> int:
+        raise UcmError("no")
+
+
+@breaks("R-11.2.3-03")
+class refuses_calls_between_components(Base):
+    """References handed to components refuse every call."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return [PortConnection(d.from_port, (_Unreachable(),)) for d in super()._dependencies_of(member)]
+
+
+@breaks("R-11.2.3-05", also=("R-11.2.1.2-01", "R-11.2.1.2-08"))
+class initialises_at_start(Base):
+    """on_init of components comes with start instead of add_component."""
+
+    def _initialise(self, member: Member) -> None:
+        if isinstance(member.body, FragmentObject):
+            super()._initialise(member)
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        if not isinstance(member.body, FragmentObject) and not member.__dict__.get("initialised"):
+            member.__dict__["initialised"] = True
+            if not failures.attempt(member.body.on_init):
+                return False
+        return super()._start_up(member, failures)
+
+
+@breaks("R-11.2.3-06", also=("R-11.2.3-10",))
+class does_not_start_loners(Base):
+    """start is refused while a component requires nothing."""
+
+    def _check_startable(self) -> None:
+        if any(not m.implementation.requires for m in self.members.values()) and len(self.members) == 1:
+            raise UcmError("a component without connections")
+        super()._check_startable()
+
+
+@breaks("R-11.2.3-07")
+class starts_a_part(Base):
+    """start leaves unconfigured members out and reports success."""
+
+    def _check_startable(self) -> None:
+        pass
+
+    def _start_order(self) -> Sequence[Member]:
+        return [m for m in super()._start_order() if all(self._is_connected(m, p) for p in m.implementation.requires)]
+
+
+@breaks("R-11.2.3-08", also=("R-11.2.2.1-08",))
+class connects_only_once(Base):
+    """A port element that was disconnected cannot be connected again."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        spent = self.__dict__.setdefault("spent", set())
+        if (instance, port_name) in spent and not self.is_started and to_port is not None:
+            raise UcmError("used up")
+        return super().connect(instance, port_name, to_port)
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        self.__dict__.setdefault("spent", set()).add((connection.client.id, connection.port))
+        super()._disconnect(connection, failures)
+
+
+@breaks("R-11.2.3-09")
+class starts_twice(Base):
+    """start of a started container calls on_startup again."""
+
+    def start(self) -> None:
+        ready = [m for m in self.started if self.is_started]
+        super().start()
+        for member in ready:
+            member.body.on_startup(self._dependencies_of(member))
+
+
+@breaks("R-11.2.3-10")
+class starts_once_only(Base):
+    """A container that was stopped cannot be started again."""
+
+    def _check_startable(self) -> None:
+        super()._check_startable()
+        if self.__dict__.get("stopped") and self.members:
+            raise UcmError("once only")
+
+    def stop(self) -> None:
+        self.__dict__["stopped"] = self.is_started and bool(self.members)
+        super().stop()
+
+
+@breaks("R-11.2.3-10")
+class forgets_connections_at_stop(Base):
+    """At a second start the references are missing."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        before = member.__dict__.setdefault("before", 0)
+        member.__dict__["before"] = before + 1
+        return super()._dependencies_of(member) if not before else []
+
+
+@breaks("R-11.2.3-11")
+class ready_is_not_found(Base):
+    """remove_component of an operational component raises NOT_FOUND."""
+
+    def _check_removable(self, member: Member) -> None:
+        if member.state is State.READY:
+            raise NotFound("busy")
+        super()._check_removable(member)
+
+
+@breaks("R-11.2.3-12")
+class removes_without_shutdown(Base):
+    """remove_component of an operational component forgets on_shutdown."""
+
+    def _check_removable(self, member: Member) -> None:
+        if member.state is not State.READY:
+            super()._check_removable(member)
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        if member in self.started:
+            self.started.remove(member)
+        for connection in self._connections_to(member):
+            if connection.client is not member:
+                self._disconnect(connection, failures)
+        super()._remove(member, failures)
+
+
+@breaks("R-11.2.3-12")
+class disconnects_after_removal(Base):
+    """remove_component calls on_remove first and on_disconnect later."""
+
+    def remove_component(self, comp_instance: int) -> None:
+        member = self.members.get(comp_instance)
+        own = self._connections_from(member) if member is not None and not self.is_started else []
+        if member is None or not own or self._connections_to(member):
+            super().remove_component(comp_instance)
+            return
+        failures = Failures()
+        self._remove(member, failures)
+        for connection in own:
+            self._disconnect(connection, failures)
+        failures.report()
+
+
+@breaks("R-11.2.3-13")
+class late_add_is_not_found(Base):
+    """add_component to a started container is answered by an id, and by nothing else."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        member = self.members.get(instance) if self.is_started and to_port is not None else None
+        if member is not None and port_name in member.implementation.requires:
+            raise NotFound("too late")
+        return super().connect(instance, port_name, to_port)
+
+
+@breaks("R-11.2.3-14")
+class hands_out_removed_providers(Base):
+    """A removed provider stays connected to its client."""
+
+    def _check_removable(self, member: Member) -> None:
+        if member.state is State.READY:
+            raise UcmError("ready")
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        super()._remove(member, failures)
+
+
+@breaks("R-11.2.3-15")
+class second_start_restarts(Base):
+    """start of a started container shuts its members down and starts them again."""
+
+    def start(self) -> None:
+        if self.is_started:
+            self.stop()
+        super().start()
+
+
+@breaks("R-11.2.3-17")
+class runs_stopped_components(Base):
+    """After stop the framework once more runs a component that served before."""
+
+    def get_components(self) -> list[int]:
+        if not self.is_started:
+            for member in self.__dict__.pop("ran", []):  # whom it runs may ask again
+                for port in member.implementation.provides:
+                    element = member.body.get_portElement(port)
+                    if element is not None:
+                        element.exchange(12345)
+        return super().get_components()
+
+    def stop(self) -> None:
+        self.__dict__["ran"] = [m for m in self.started if m.id in self.members and self.is_started]
+        super().stop()

@@ -1,0 +1,199 @@
+"""Wrong frameworks, clause 12.10: errors and ranges."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ucm_cts.adapters.contract.programming_model import (
+    BadParameter,
+    NotFound,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Member
+
+
+@breaks("R-12.10-02")
+class wide_component_ids(Base):
+    """Component ids exceed 32 bits."""
+
+    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
+        identifier = super().add_component(implementation, attributes)
+        self.members[identifier + 2**40] = self.members.pop(identifier)
+        self.members[identifier + 2**40].id = identifier + 2**40
+        return identifier + 2**40
+
+
+@breaks("R-12.10-03")
+class wide_connection_ids(Base):
+    """Connection ids exceed 32 bits."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        identifier = super().connect(instance, port_name, to_port)
+        connection = self.manager.connections.pop(identifier)
+        wide = Connection(identifier + 2**40, connection.client, connection.port, connection.target)
+        self.manager.connections[wide.id] = wide
+        return wide.id
+
+
+def _undeclared(operation: str) -> type:
+    """A mixin whose ``operation`` turns UCM_ERROR, NOT_FOUND and BAD_PARAMETER into something undeclared."""
+
+    def call(self: Any, *arguments: Any) -> Any:
+        try:
+            return getattr(super(mixin, self), operation)(*arguments)
+        except (UcmError, NotFound, BadParameter) as error:
+            raise RuntimeError("internal error") from error
+
+    mixin = type(f"undeclared_in_{operation}", (), {operation: call, "__doc__": f"{operation} raises RuntimeError."})
+    return mixin
+
+
+for _operation, _requirement in {
+    "add_component": "R-12.10-04",
+    "remove_component": "R-12.10-05",
+    "get_port_element": "R-12.10-06",
+    "connect": "R-12.10-07",
+    "disconnect": "R-12.10-08",
+    "start": "R-12.10-09",
+    "stop": "R-12.10-10",
+    "remove_container": "R-12.10-13",
+}.items():
+    breaks(_requirement)(_undeclared(_operation))
+
+
+def _always_undeclared(operation: str) -> type:
+    def call(self: Any, *arguments: Any) -> Any:
+        raise RuntimeError("not implemented")
+
+    return type(f"lacks_{operation}", (), {operation: call, "__doc__": f"{operation} always raises RuntimeError."})
+
+
+breaks("R-12.10-11", also=("R-11.2.1.4-03",))(_always_undeclared("get_components"))
+breaks("R-12.10-12")(_always_undeclared("create_container"))
+breaks("R-12.10-14")(_always_undeclared("destroy"))
+
+
+@breaks("R-12.10-15")
+class unknown_components_are_errors(Base):
+    """Unknown component ids are answered with UCM_ERROR."""
+
+    def _find_member(self, number: int) -> Member:
+        if number not in self.members:
+            raise UcmError("which?")
+        return super()._find_member(number)
+
+
+@breaks("R-12.10-16")
+class unknown_connections_are_ignored(Base):
+    """disconnect of an unknown connection returns."""
+
+    def disconnect(self, connection: int) -> None:
+        if connection in self.manager.connections:
+            super().disconnect(connection)
+
+
+@breaks("R-12.10-17")
+class unknown_containers_are_ignored(Base):
+    """remove_container of a removed container returns."""
+
+    def remove_container(self, sub_container: Container | None) -> None:
+        if sub_container in self.manager.sub_containers:
+            ContainerManager.remove_container(self.manager, sub_container)
+
+
+@breaks("R-12.10-18")
+class connects_any_name(Base):
+    """connect to a port element that does not exist returns an id."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        known = instance in self.members and not self.is_started
+        if known and to_port is not None and port_name not in self.members[instance].implementation.requires:
+            return self._new_id()
+        return super().connect(instance, port_name, to_port)
+
+
+@breaks("R-12.10-19")
+class connects_to_nothing(Base):
+    """connect to a null reference returns an id."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        known = instance in self.members and port_name in self.members[instance].implementation.requires
+        if to_port is None and known and not self.is_started:
+            return self._new_id()
+        return super().connect(instance, port_name, to_port)
+
+
+@breaks("R-12.10-20")
+class any_name_gives_nothing(Base):
+    """get_port_element of an unknown name returns a null reference."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        if comp_instance in self.members and port_name not in self.members[comp_instance].implementation.provides:
+            return None  # type: ignore[return-value]
+        return super().get_port_element(comp_instance, port_name)
+
+
+@breaks("R-12.10-21")
+class adds_nothing(Base):
+    """add_component of an unknown implementation returns an id."""
+
+    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
+        if implementation not in self.manager.implementations and not self.is_started:
+            return self._new_id()
+        return super().add_component(implementation, attributes)
+
+
+@breaks("R-12.10-22", also=("R-11.2.3-06",))
+class keeps_failed_components(Base):
+    """A component whose on_init raised is listed although add_component was refused."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        self.members[member.id] = member
+        super()._configure(member, attributes)
+
+
+@breaks("R-12.10-23")
+class failing_removal_is_not_found(Base):
+    """remove_component raises NOT_FOUND when on_remove raised."""
+
+    def remove_component(self, comp_instance: int) -> None:
+        known = comp_instance in self.members
+        try:
+            super().remove_component(comp_instance)
+        except UcmError as error:
+            if known and comp_instance not in self.members:
+                raise NotFound("gone") from error
+            raise
+
+
+@breaks("R-12.10-24")
+class second_connection_is_not_found(Base):
+    """A second connection of a port element is answered with NOT_FOUND."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        member = self.members.get(instance)
+        if member is not None and not self.is_started and to_port is not None and self._is_connected(member, port_name):
+            raise NotFound("taken")
+        return super().connect(instance, port_name, to_port)
+
+
+@breaks("R-12.10-25", also=("R-11.2.3-10",))
+class hands_references_over_twice(Base):
+    """on_startup gets each reference twice."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return [PortConnection(d.from_port, (*d.to_port, *d.to_port)) for d in super()._dependencies_of(member)]
+
+
+@breaks("R-12.10-26", also=("R-11.2.1.4-03",))
+class no_list_while_ready(Base):
+    """get_components is refused while the container is started."""
+
+    def get_components(self) -> list[int]:
+        if self.is_started:
+            raise UcmError("busy")
+        return super().get_components()

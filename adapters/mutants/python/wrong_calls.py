@@ -1,0 +1,176 @@
+"""Wrong frameworks whose business calls go astray in few situations only."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract.programming_model import PortConnection, PortElementObject, UcmError
+from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, breaks
+from ucm_cts.adapters.reference.python.framework import Container, Failures, Member
+
+
+class _HandsOver(Base):
+    """Components are given proxies at start, one a reference."""
+
+    proxy: type[Proxy] = Proxy
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(self.proxy(t, member) for t in d.to_port if t)) for d in given]
+
+
+class _Twice(Proxy):
+    def exchange(self, value: int) -> int:
+        self.target.exchange(value)
+        return self.target.exchange(value)
+
+
+@breaks("R-11.1.3-01", "R-11.1.2-02")
+class runs_bodies_twice(_HandsOver):
+    """A call of one component runs the other one's body twice, fragments or not."""
+
+    proxy = _Twice
+
+
+class _Remembers(Proxy):
+    result: int | None = None
+
+    def exchange(self, value: int) -> int:
+        if self.result is None:
+            self.result = self.target.exchange(value)
+        return self.result
+
+
+@breaks("R-11.1.3-01", also=("R-11.1.2-02",))
+class calls_once(_HandsOver):
+    """Only the first call through a connection reaches the other component; later ones get its result again."""
+
+    proxy = _Remembers
+
+
+@breaks("R-11.1.3-01", also=("R-11.1.2-02",))
+class calls_the_first_provider(_HandsOver):
+    """Calls through any required port element reach the provider of the first one."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        first = given[0].to_port[0] if given else None
+        if first is None:
+            return given
+        return [PortConnection(d.from_port, tuple(Proxy(first, member) for _ in d.to_port)) for d in given]
+
+
+class _Unsigned(Proxy):
+    def exchange(self, value: int) -> int:
+        return self.target.exchange(abs(value))
+
+
+@breaks("R-11.1.3-01", "R-11.1.2-02")
+class drops_the_sign(_HandsOver):
+    """A component that is sent a negative payload by another one receives a positive one."""
+
+    proxy = _Unsigned
+
+
+class _Clipped(Proxy):
+    def exchange(self, value: int) -> int:
+        return self.target.exchange(max(value, 1 - 2**31))
+
+
+@breaks("R-11.1.3-01", "R-11.1.2-02")
+class loses_the_smallest(_HandsOver):
+    """The smallest payload arrives as the second smallest."""
+
+    proxy = _Clipped
+
+
+@breaks("R-11.1.3-01", "R-11.1.2-02")
+class calls_the_first_element(Base):
+    """Calls between components reach the provider's first port element, whichever is connected."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(Proxy(self._first(t), member) for t in d.to_port)) for d in given]
+
+    def _first(self, target: PortElementObject | None) -> PortElementObject:
+        containers = (self.manager, *self.manager.sub_containers)
+        bodies = [(m.body, m.implementation.provides) for c in containers for m in c.members.values()]
+        owners = [b.get_portElement(ports[0]) for b, ports in bodies if target in map(b.get_portElement, ports)]
+        element = owners[0] if owners else target
+        assert element is not None
+        return element
+
+
+class _Cut(Proxy):
+    def exchange(self, value: int) -> int:
+        raise UcmError("stopped")
+
+
+@breaks("R-11.2.3-03")
+class is_dead_after_restart(Base):
+    """What the second on_startup hands over refuses every call."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        if not member.__dict__.setdefault("started_before", False):
+            member.__dict__["started_before"] = True
+            return given
+        return [PortConnection(d.from_port, tuple(_Cut(t, member) for t in d.to_port if t)) for d in given]
+
+
+@breaks("R-11.2.2.1-06", also=("R-11.1.3-01", "R-11.1.2-02"))
+class any_proxy_will_do(GivesOutProxies):
+    """get_port_element gives a proxy of the first provided port element whatever the name; only calls show it."""
+
+    proxy = Proxy
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        Container.get_port_element(self, comp_instance, port_name)
+        member = self.members[comp_instance]
+        first = member.body.get_portElement(member.implementation.provides[0])
+        assert first is not None
+        return Proxy(first, member)
+
+
+class _Dead(PortElementObject):
+    def exchange(self, value: int) -> int:
+        raise UcmError("given out before")
+
+
+@breaks("R-11.2.1.2-07", "R-11.2.3-03")
+class gives_references_once(Base):
+    """Who asks for a port element again gets a reference that refuses every call, also of components."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(comp_instance, port_name)
+        given: set[tuple[int, str]] = self.__dict__.setdefault("given", set())
+        if (comp_instance, port_name) in given:
+            return _Dead()
+        given.add((comp_instance, port_name))
+        return element
+
+
+@breaks("R-11.2.2.1-06")
+class confuses_twins_after_removals(Base):
+    """Once a component was removed, get_port_element gives that of the first instance of the implementation."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(comp_instance, port_name)
+        wanted = self.members[comp_instance].implementation
+        twin = next(m for m in self.members.values() if m.implementation is wanted)
+        return (twin.body.get_portElement(port_name) or element) if self.__dict__.get("removed") else element
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        super()._remove(member, failures)
+        self.__dict__["removed"] = True
+
+
+@breaks("R-11.2.1.2-07", also=("R-11.1.3-01", "R-11.2.3-14"))
+class any_twin_will_do(GivesOutProxies):
+    """get_port_element gives a proxy of the first instance of the implementation."""
+
+    proxy = Proxy
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = Container.get_port_element(self, comp_instance, port_name)
+        wanted = self.members[comp_instance].implementation
+        twin = next(m for m in self.members.values() if m.implementation is wanted)
+        return Proxy(twin.body.get_portElement(port_name) or element, twin)

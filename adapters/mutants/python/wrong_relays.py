@@ -1,0 +1,137 @@
+"""Wrong frameworks, clauses 10.1.5 and 10.1.6: interactions inside others fail; clients lose a server that
+is started again.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from typing import ClassVar
+
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import DeclaredException, UcmError
+from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.reference.python.connectors import OK, Link, Taker
+from ucm_cts.adapters.reference.python.framework import Member
+
+_CALLS, _EXCEPTIONS = "R-10.1.5.1-01", "R-10.1.5.1-10"
+_ARRIVES = "R-10.1.2-10"
+
+# interactions inside others
+
+
+class _KnowsWhatIsGoingOn(Link):
+    """On each thread: how many calls are being served, and how many messages are being received."""
+
+    here: ClassVar[threading.local] = threading.local()
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        self.here.served = getattr(self.here, "served", 0) + 1
+        try:
+            return super()._request(method, arguments)
+        finally:
+            self.here.served -= 1
+
+    def _deliver(self, taker: Taker, method: str) -> None:
+        self.here.receives = True
+        super()._deliver(taker, method)
+
+
+@breaks(_CALLS, clauses=("10.1.5",), also=("R-10.1.5.1-03",))
+class refuses_calls_of_servers(Base):
+    """Who is being called can call nobody."""
+
+    class link_class(_KnowsWhatIsGoingOn):
+        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+            if getattr(self.here, "served", 0):
+                raise UcmError("not while you serve")
+            return super()._request(method, arguments)
+
+
+@breaks(_CALLS, clauses=("10.1.5",))
+class refuses_calls_of_receivers(Base):
+    """Who is given a message can call no server."""
+
+    class link_class(_KnowsWhatIsGoingOn):
+        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+            if getattr(self.here, "receives", False):
+                raise UcmError("not while you receive")
+            return super()._request(method, arguments)
+
+
+@breaks(_ARRIVES, clauses=("10.1.2",))
+class loses_what_servers_push(Base):
+    """What is pushed while a call is served is answered ok, and lost."""
+
+    class link_class(_KnowsWhatIsGoingOn):
+        def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+            return OK if getattr(self.here, "served", 0) else super()._emit(method, arguments)
+
+
+@breaks(_ARRIVES, clauses=("10.1.2",))
+class loses_what_receivers_push(Base):
+    """What is pushed while a message is received is answered ok, and lost."""
+
+    class link_class(_KnowsWhatIsGoingOn):
+        def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+            return OK if getattr(self.here, "receives", False) else super()._emit(method, arguments)
+
+
+# restarts
+
+
+class _Stale(Link):
+    is_stale = False
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self.is_stale:
+            raise UcmError("the server is not the one that you know")
+        return super()._request(method, arguments)
+
+
+@breaks(_CALLS, clauses=("10.1.5",))
+class knows_servers_until_they_are_restarted(Base):
+    """Clients find a server that was stopped only when they have been started again themselves."""
+
+    link_class = _Stale
+
+    def _close_entrances(self, member: Member) -> None:
+        for link, _ in self._takers_of(member):
+            link.__dict__["is_stale"] = True
+        super()._close_entrances(member)
+
+    def _start_up(self, member: Member, failures: object) -> bool:
+        if member.implementation.requires:
+            for link in self.manager.links:
+                link.__dict__["is_stale"] = False
+        return super()._start_up(member, failures)  # type: ignore[arg-type]
+
+
+# exceptions
+
+
+@breaks(_EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
+class loses_exceptions_of_inherited_methods(Base):
+    """An exception that an inherited method declares arrives as one of the framework's own."""
+
+    class link_class(Link):
+        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+            try:
+                return super()._request(method, arguments)
+            except DeclaredException:
+                if method in self.interface.inherited:
+                    raise UcmError("something went wrong") from None
+                raise
+
+
+@breaks(_EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
+class loses_the_second_field_of_exceptions(Base):
+    """Of an exception the first field arrives, and the others are empty."""
+
+    class link_class(Link):
+        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+            try:
+                return super()._request(method, arguments)
+            except DeclaredException as error:
+                fields = [*error.fields[:1], *(0 if isinstance(f, int) else f for f in error.fields[1:])]
+                raise DeclaredException(error.name, fields) from None

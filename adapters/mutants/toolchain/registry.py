@@ -1,0 +1,131 @@
+"""Mutants and conformant variants of the reference tool chain, by name.
+
+A derived tool chain is a function of the reference program. The mutants that leave out one rule are made here, one for each
+rule; all others register themselves in ``wrong_*.py`` and ``variants*.py``.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from ucm_cts.adapters.contract.metamodel.names import Scope
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, Rule
+from ucm_cts.adapters.reference.toolchain.program import Program, reference
+
+Derive = Callable[[Program], Program]
+
+Holds = Callable[[Any, Any, Scope, str], bool]
+"""Whether a complaint counts: what is wrong, the element that was looked at, where it stands, and the message."""
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """A tool chain that is wrong in one thing, and so breaks each requirement of ``breaks``; ``also`` are those that it may fail
+    besides, because the same defect breaks them, too. ``task`` is what shows it. ``declares`` are the readings
+    (``option=value``) that it claims.
+    """
+
+    name: str
+    breaks: tuple[str, ...]
+    task: str
+    derive: Derive
+    also: tuple[str, ...] = ()
+    declares: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A tool chain that uses a freedom of the text; ``declares`` are the readings (``option=value``) that it claims."""
+
+    name: str
+    task: str
+    derive: Derive
+    declares: tuple[str, ...] = ()
+
+
+MUTANTS: dict[str, Mutant] = {}
+VARIANTS: dict[str, Variant] = {}
+
+
+def breaks(
+    *requirements: str, task: str, also: tuple[str, ...] = (), declares: tuple[str, ...] = ()
+) -> Callable[[Derive], Derive]:
+    """Register a function as a mutant that breaks ``requirements``; its docstring says what it does wrong."""
+
+    def register(derive: Derive) -> Derive:
+        name = derive.__name__
+        assert name not in MUTANTS, f"two mutants are called {name}"
+        MUTANTS[name] = Mutant(name, requirements, task, derive, also, declares)
+        return derive
+
+    return register
+
+
+def variant(*, task: str, declares: tuple[str, ...] = ()) -> Callable[[Derive], Derive]:
+    """Register a function as a conformant variant; its docstring says which freedom it uses."""
+
+    def register(derive: Derive) -> Derive:
+        name = derive.__name__
+        assert name not in VARIANTS, f"two variants are called {name}"
+        VARIANTS[name] = Variant(name, task, derive, declares)
+        return derive
+
+    return register
+
+
+def replacing_rule(program: Program, name: str, look: Callable[..., object] | None) -> Program:
+    """``program`` with another function for the rule ``name``, or without it if ``look`` is None."""
+    assert name in program.rules, f"there is no rule {name}"
+    rules = {n: r for n, r in program.rules.items() if n != name}
+    if look is not None:
+        rules[name] = replace(program.rules[name], look=look)  # type: ignore[arg-type] # mutants need not be exact
+    return replace(program, rules=rules)
+
+
+def complaining_where(program: Program, name: str, holds: Holds) -> Program:
+    """``program``, in which the complaints of rule ``name`` count only where ``holds``."""
+    assert name in program.rules, f"there is no rule {name}"
+    look = program.rules[name].look
+
+    def half(element: Any, scope: Scope) -> Iterator[Complaint]:
+        for wrong, message in look(element, scope):
+            if holds(wrong, element, scope, message):
+                yield wrong, message
+
+    return replacing_rule(program, name, half)
+
+
+@functools.cache
+def mutants() -> Mapping[str, Mutant]:
+    """All of them."""
+    for path in sorted(Path(__file__).parent.glob("wrong_*.py")):
+        import_module(f"ucm_cts.adapters.mutants.toolchain.{path.stem}")
+    without = (_without(one) for one in reference().rules.values())
+    return {mutant.name: mutant for mutant in without} | MUTANTS
+
+
+@functools.cache
+def variants() -> Mapping[str, Variant]:
+    """All of them."""
+    for path in sorted(Path(__file__).parent.glob("variants*.py")):
+        import_module(f"ucm_cts.adapters.mutants.toolchain.{path.stem}")
+    return VARIANTS
+
+
+def derived(name: str) -> Program:
+    """The mutant or variant ``name``. Raises ``KeyError`` if there is none."""
+    known: Mapping[str, Mutant | Variant] = {**mutants(), **variants()}
+    return known[name].derive(reference())
+
+
+def _without(one: Rule) -> Mutant:
+    def derive(program: Program) -> Program:
+        return replacing_rule(program, one.name, None)
+
+    declares = (one.under,) if one.under else ()
+    return Mutant(f"without_{one.name}", (one.requirement,), "check", derive, one.also, declares)

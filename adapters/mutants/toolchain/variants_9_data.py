@@ -1,0 +1,181 @@
+"""Tool chains that read the open places of 9.1 and of 9.2 up to the constants in one way or the other, and say so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.contracts import (
+    Constant,
+    ContractModule,
+    NativeType,
+    PrimitiveChar,
+    StringType,
+    Union,
+)
+from ucm_cts.adapters.contract.metamodel.names import Scope
+from ucm_cts.adapters.mutants.toolchain.registry import replacing_rule, variant
+from ucm_cts.adapters.mutants.toolchain.strictness import refusing
+from ucm_cts.adapters.mutants.toolchain.tolerance import deaf, lacks, without
+from ucm_cts.adapters.reference.toolchain.actual_types import actual_type
+from ucm_cts.adapters.reference.toolchain.checking import Complaint
+from ucm_cts.adapters.reference.toolchain.program import Program
+
+
+@variant(
+    task="check",
+    declares=(
+        "modules-given-twice=merged",
+        "relative-names=outward",
+        "comment-elements=simple",
+        "pattern-parameters=refused",
+        "value-syntax=expressions",
+        "text-values=quoted",
+        "index-types=kinds-and-types",
+        "index-values=any",
+        "equal-index-values=refused",
+        "empty-arrays=refused",
+        "zero-max-size=refused",
+        "negative-max-size=refused",
+        "sequence-sizes=checked",
+        "native-types=supported",
+        "default-case-values=optional",
+        "selectors-without-case=accepted",
+        "repeated-selector-values=refused",
+        "selector-aliases=refused",
+        "recursive-types=refused",
+    ),
+)
+def says_how_it_reads_data(program: Program) -> Program:
+    """Reads what is open as the reference tool chain does, and says so."""
+    return program
+
+
+@variant(
+    task="check",
+    declares=(
+        "equal-index-values=accepted",
+        "empty-arrays=accepted",
+        "zero-max-size=accepted",
+        "negative-max-size=accepted",
+        "absent-max-size=accepted",
+        "sequence-sizes=unchecked",
+        "selector-aliases=accepted",
+        "recursive-types=accepted",
+    ),
+)
+def data_may_be_anything(program: Program) -> Program:
+    """Accepts types that others find empty, unbounded or without end."""
+    program = deaf(program, lambda problem, _: lacks(problem, "maxSize", "Sequence"))
+    return without(
+        program,
+        "index_values_differ",
+        "arrays_are_not_empty",
+        "greatest_sizes_are_not_zero",
+        "greatest_sizes_are_not_negative",
+        "sequences_fit_their_index",
+        "selectors_are_no_aliases",
+        "sequences_and_unions_are_finite",
+    )
+
+
+@variant(task="check", declares=("declarations-elsewhere=extension", "pattern-parameters=accepted"))
+def declarations_anywhere(program: Program) -> Program:
+    """Extends the meta-model so that any declaration may stand in any module."""
+    return deaf(program, lambda problem, model: problem.kind == "misplaced element" and model.modules)
+
+
+@variant(task="check", declares=("absent-max-size=refused",))
+def strings_say_how_long_they_are(program: Program) -> Program:
+    """Refuses strings without a greatest size."""
+    return refusing(program, StringType, lambda string, _: string.max_size is None)
+
+
+@variant(task="check", declares=("modules-given-twice=refused",))
+def modules_in_one_piece(program: Program) -> Program:
+    """Refuses a second contract module of one name at one place."""
+
+    def again(module: ContractModule, scope: Scope) -> bool:
+        same = [d.element for d in scope.members[module.name] if isinstance(d.element, ContractModule)]
+        return same[0] is not module
+
+    return refusing(program, ContractModule, again)
+
+
+@variant(task="check", declares=("default-case-values=required",))
+def default_cases_name_values(program: Program) -> Program:
+    """Refuses a default case that names no value."""
+    return refusing(program, Union, lambda union, _: any(not case.selector_values for case in union.cases))
+
+
+@variant(task="check", declares=("selectors-without-case=refused",))
+def all_selector_values_have_cases(program: Program) -> Program:
+    """Refuses a union without default that has no case for some value."""
+
+    def uncovered(union: Union, scope: Scope) -> bool:
+        selector = actual_type(union.selector_type, scope)
+        named = {value.enumerator for case in union.cases for value in case.selector_values}
+        known = {enumerator.name for enumerator in getattr(selector and selector.element, "enumerators", ())}
+        return bool(known - named) and not any(case.default_case for case in union.cases)
+
+    return refusing(program, Union, uncovered)
+
+
+@variant(task="check", declares=("native-types=unsupported",))
+def no_native_types(program: Program) -> Program:
+    """Knows no native types."""
+    return refusing(program, NativeType, lambda *_: True)
+
+
+@variant(task="check", declares=("index-values=32-bit",))
+def longs_of_32_bits(program: Program) -> Program:
+    """Refuses index values and sizes of more than 32 bits."""
+    return refusing(program, Element, lambda element, _: any(_is_longer(element, field) for field in _NUMBERS))
+
+
+_NUMBERS = ("value", "size", "max_size")
+
+
+def _is_longer(element: Element, field: str) -> bool:
+    number = getattr(element, field, None)
+    return isinstance(number, int) and not -(2**31) <= number < 2**31
+
+
+@variant(task="check", declares=("text-values=bare",))
+def bare_text(program: Program) -> Program:
+    """Reads characters and strings without quotes."""
+    name = "constants_are_values_of_their_types"
+    known = program.rules[name].look
+
+    def look(constant: Constant, scope: Scope) -> Iterator[Complaint]:
+        found = actual_type(constant.type, scope)
+        if found is not None and isinstance(found.element, PrimitiveChar) and len(constant.value) != 1:
+            yield constant, f"{constant.value} is not one character"
+        elif found is not None and isinstance(found.element, PrimitiveChar | StringType):
+            most = getattr(found.element, "max_size", None) or len(constant.value)
+            if len(constant.value) > most >= 0:
+                yield constant, f"{constant.value} has more than {most} characters"
+        else:
+            yield from known(constant, scope)
+
+    def follows(constant: Constant, scope: Scope) -> Iterator[Complaint]:
+        found = actual_type(constant.type, scope)
+        if found is None or not isinstance(found.element, PrimitiveChar | StringType):
+            yield from program.rules["constants_follow_the_grammar"].look(constant, scope)
+
+    return replacing_rule(replacing_rule(program, name, look), "constants_follow_the_grammar", follows)
+
+
+_SETS_ONCE = ("selector_values_have_one_case", "sets_parameters_once", "parameters_receive_one_value")
+
+
+@variant(task="check")
+def one_of_several_counts(program: Program) -> Program:
+    """Takes the first case of a selector value and the last value of a parameter, and says nothing of it."""
+    return without(program, *_SETS_ONCE)
+
+
+@variant(task="check", declares=("repeated-selector-values=accepted", "repeated-parameter-values=accepted"))
+def one_of_several_is_said_to_count(program: Program) -> Program:
+    """The same, and says so."""
+    return without(program, *_SETS_ONCE)

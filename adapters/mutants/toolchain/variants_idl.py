@@ -1,0 +1,316 @@
+"""Conformant tool chains that generate other IDL than the reference does: each uses a freedom of clause 12."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import TypeVar
+
+import msgspec
+
+from ucm_cts.adapters.contract.metamodel.common import Element
+from ucm_cts.adapters.contract.metamodel.modules import MODULES
+from ucm_cts.adapters.mutants.toolchain.registry import Derive, variant
+from ucm_cts.adapters.mutants.toolchain.rewriting import (
+    GUARD,
+    MODEL,
+    STANDARD,
+    Files,
+    Replacement,
+    appended,
+    replaced,
+    rewritten,
+)
+from ucm_cts.adapters.reference.toolchain.program import Program
+
+RELAXED: dict[str, tuple[str, Replacement]] = {
+    "positional_annotations": (r"\((max|typeid|val)=", "("),
+    "annotations_as_in_the_examples": (r"@(u)?int8\b", lambda m: "@Uint8" if m[1] else "@Int8"),
+    "footprint_as_in_the_example": (r"@MemoryFootprint", "@MemoryFootPrint"),
+    "annotations_in_front_of_types": (r"@(u?int8) typedef octet", r"typedef @\1 octet"),
+    "range_annotations": (r"(@IndexType\(typeid=\"octet\"\))", r'@Range(min="0", max="64") \1'),
+    "needless_index_types_left_out": (r'@IndexType\(typeid="unsigned long"\)\n', "\n"),
+    "index_types_by_other_names": (r'typeid="unsigned short"', 'typeid="uint16"'),
+    "values_in_hexadecimal": (r'@DefaultValue\(val="(\d+)"\)', lambda m: f'@DefaultValue(val="0x{int(m[1]):X}")'),
+    "values_by_the_annotation_of_idl": (r'@DefaultValue\(val="(-?\d+)"\)', r"@value(\1)"),
+    "values_by_position_where_that_is_enough": (
+        r'(enum \w+ \{\n) *@DefaultValue\(val="0"\)\n( *\w+,\n) *@DefaultValue\(val="1"\)\n( *\w+\n *\})',
+        r"\1\2\3",
+    ),
+    "relative_names": (r"(?<=[ (<])::(?!\w+ )(?=\w+::)", ""),
+    "comments": (r"\n( *)(struct|interface|typedef)", r"\n\1// a comment; { } /* @int8 */\n\1/* another\n one */ \2"),
+    "pragmas": (r"\nmodule ", '\n#pragma prefix "example.org"\nmodule '),
+    "carriage_returns": (r"\n", "\r\n"),
+    "one_line": (r"\n(?!#)(?<!#endif)(?<!idl\"\n) +", " "),
+    "primitive_types_written_out": (r"::interfaces::long_t (?=\w+[;,)])", "long "),
+    "typedef_of_a_sequence_of_the_basic_type": (r"sequence<::data_types::double_t", "sequence<double"),
+    "fields_joined": (
+        r"( *::data_types::double_t x);\n *::data_types::double_t y;",
+        r"\1, y;",
+    ),
+    "names_escaped": (r"(typedef \w+ |struct |interface )(?=[a-z]\w*_t\b)", r"\1_"),
+    "constants_computed": (r"= 64;", "= (1 << 6);"),
+    "decimal_constants": (r"0xFF00", "65280"),
+    "shorter_real_numbers": (r"3\.14159", "3.14159E+0"),
+    "strings_in_pieces": (r'"good morning"', '"good " "morning"'),
+    "modules_opened_again": (
+        r"(?m)^(module \w+ \{)((?:\n(?!\}).*)*?)(\n    typedef wchar wide_char_t;\n)",
+        r"\1\2\n};\n\1\3",
+    ),
+    "parameters_with_one_capital": (r"MESSAGE_TYPE_T", "Message_type_t"),
+    "other_attributes_besides": (r"(interface unrelated \{\n)", r"\1/* nothing */\n"),
+    "helpful_typedefs": (r"(\n *)(interface unrelated \{)", r"\1typedef sequence<octet> bytes_t;\1\2"),
+    "default_values_left_out": (r'@DefaultValue\(val="(?:[^"\\]|\\.)*"\) (?=readonly|attribute)', ""),
+    "default_values_by_the_annotation_of_idl": (r'@DefaultValue\(val="0x10"\)', "@default(16)"),
+    "default_values_without_quotes": (r'val="\\"Jack\\""', 'val="Jack"'),
+    "another_character_for_hyphens": (r"\b(with|signed|two|self|last|run|how)_(?=[a-z])", r"\1_x_"),
+    "unsigned_long_as_the_table_prints_it": (r"typedef unsigned long long ", "typedef unsigned long "),
+    "bool_as_the_table_prints_it": (r"typedef boolean ", "typedef bool "),
+    "policy_getters_after_definitions": (r"get_tp_Drive_", "get_tp_self_executing_"),
+    "policy_getters_as_in_the_example": (r"get_tp_(Drive|Night|Day_Duty|Meter)_", r"get_tp_My\1_"),
+    "policies_provided_without_base": (r"(interface execution_intf) : ::PortElementObject", r"\1"),
+    "attributes_of_interfaces_left_out": (r"(interface painter \{\n)(?: *.*attribute .*\n)+", r"\1"),
+    "attributes_of_interfaces_are_operations": (
+        r"(interface painter \{\n) *.*attribute (\S+) colour;\n *.*attribute (\S+) width;\n",
+        r"\1\2 get_colour();\n\3 width();\nvoid set_width(in \3 value);\n",
+    ),
+    "parameters_called_otherwise": (r"\b(in|out|inout) (\S+) (?=\w+[,)])", r"\1 \2 the_"),
+    "ancestors_without_operations": (
+        r"(\n *)interface unrelated \{",
+        r"\1interface thing {};\1interface unrelated : thing, ::PortElementObject {",
+    ),
+    "operations_in_an_ancestor": (
+        r"(\n *)interface unrelated \{((?:\n.*)*?\n *\};)",
+        r"\1interface unrelated_operations {\2\1interface unrelated : unrelated_operations {};",
+    ),
+    "cases_out_of_order": (
+        r"( *case ::data_types::triangle:\n.*\n)( *case ::data_types::square:\n.*\n)",
+        r"\2\1",
+    ),
+    "default_spelt_out": (r"default:", "case ::idl_types::red: case ::idl_types::black:"),
+    "default_alone": (r"case ::idl_types::below:\n *default:", "default:"),
+}
+"""By the variant's name: a pattern in the model's file, and what stands there instead."""
+
+
+def _variant(name: str, derive: Derive, *declares: str) -> None:
+    derive.__name__ = name
+    variant(task="idl", declares=declares)(derive)
+
+
+for _name, (_pattern, _replacement) in RELAXED.items():
+    _variant(_name, replaced(_name, _pattern, _replacement))
+
+DEFINITIONS = {"Drive": "self_executing", "Day_Duty": "self_running", "Night": "stoppable", "Meter": "sampled"}
+"""The policy definitions, as IDL spells them, by the policies that use them."""
+
+
+def _definition(match: re.Match[str]) -> str:
+    return f"get_tp_{DEFINITIONS[match[1]]}_"
+
+
+_SAME = replaced("", GUARD, f"\n{GUARD}")
+
+for _reading in (
+    "native-types=supported",
+    "idl-attribute-defaults=annotated",
+    "idl-interface-attributes=attributes",
+    "idl-standard-files=generated",
+    "standard-idl=printed",
+    "standard-idl=printed-with-timers",
+    "standard-idl=model",
+    "idl-enumerator-values=observed",
+    "idl-enumerator-values=default-value",
+):
+    _variant(f"declared_{_reading.replace('-', '_').replace('=', '_as_')}", _SAME, _reading)
+_variant("footprint_by_another_name", replaced("", r"unsigned long max;", "uint32 max;", STANDARD))
+_variant(
+    "ids_written_out",
+    replaced("", r"\bcomponentId (?=\w+[(,)])|\bconnectionId (?=\w+[(,)])", "long ", STANDARD),
+    "idl-standard-files=generated",
+)
+_variant("hyphens_are_underscores", _SAME, "idl-hyphens=underscore")
+_variant("all_index_types_declared", _SAME, "index-annotations=always")
+_variant("capitals_declared", _SAME, "idl-template-names=upper")
+_variant("direct_templates_declared", _SAME, "idl-template-propagation=direct")
+_variant("instances_declared", _SAME, "idl-policy-getters=instance")
+_variant(
+    "unsigned_long_declared",
+    replaced("", "typedef unsigned long long ", "typedef unsigned long "),
+    "idl-ulonglong=unsigned-long",
+)
+_variant("bool_declared", replaced("", "typedef boolean ", "typedef bool "), "idl-boolean=bool")
+_variant(
+    "definitions_declared",
+    replaced("", r"get_tp_(Drive|Day_Duty|Night|Meter)_", _definition),
+    "idl-policy-getters=definition",
+)
+_variant(
+    "equivalent_syntax_besides",
+    appended("", "porttype asking_port { provides PortElementObject api; };\ncomponent Extra { port asking_port p; };"),
+    "idl-output=both",
+)
+_variant(
+    "annotations_defined_as_printed",
+    replaced(
+        "",
+        r"@annotation (\w+) \{\n *string (\w+);\n\};",
+        r"@Annotation \1 {\n    attribute String \2;\n}",
+        STANDARD,
+    ),
+)
+
+
+HEADS: dict[str, tuple[str, tuple[tuple[str, Replacement], ...]]] = {
+    "macros_for_numbers": (
+        "#define UCM_N_8 8\n#define UCM_N_16 \\\n  (UCM_N_8 * 2) /* twice\n as much */\n#define UCM_1 1\n#undef UCM_1\n",
+        ((r"string<16>", "string<UCM_N_16>"), (r"sequence<([^<>,]*), 8>", r"sequence<\1, UCM_N_8>")),
+    ),
+    "macros_for_keywords": (
+        "#define UCM_LOCAL local\n#define UCM_NOTHING\n#define UCM_INDEX(t) @IndexType(typeid=#t)\n#define UCM_IF(x) x ## face\n",
+        (
+            (r"\binterface (?=\w+(?: :| \{|;))", "UCM_NOTHING UCM_LOCAL UCM_IF(inter) "),
+            (r'@IndexType\(typeid="([^"]*)"\)', r"UCM_INDEX(\n  \1\n)"),
+        ),
+    ),
+    "branches_that_are_not_taken": (
+        "#if 0\nDon't read this; module {\n# if 1\n#  error no\n# else\n# endif\n#elif defined UCM_OLD && UCM_OLD > 2\n#error no\n"
+        "#else\n#define UCM_NEW (1 << 3)\n#endif\n#ifdef __OTHER_COMPILER__\n#include <other.idl>\n#endif\n",
+        ((r"\n( *)(interface )", r"\n#if UCM_NEW == 8 && !defined(UCM_OLD)\n\1\2\n#else\n\1}\n#endif\n"),),
+    ),
+    "guards_of_another_kind": (
+        "#pragma once\n",
+        ((r"#ifndef (\w+)\n", r"#if !defined(\1)\n"), (r"\n#endif\n$", "\n#endif // guard\n")),
+    ),
+    "no_guards": ("", ((r"#ifndef (\w+)\n#define \1\n", "\n\n"), (r"\n#endif\n$", "\n"))),
+}
+"""By the variant's name: what stands first in each file, and patterns with what stands instead."""
+
+
+def _with_directives(head: str, changes: tuple[tuple[str, Replacement], ...]) -> Derive:
+    def rewrite(text: str) -> str:
+        for pattern, replacement in changes:
+            text = re.sub(pattern, replacement, text)
+        return f"{head}{text}"
+
+    return lambda program: rewritten(program, lambda files: {name: rewrite(text) for name, text in files.items()})
+
+
+for _name, (_head, _changes) in HEADS.items():
+    _variant(_name, _with_directives(_head, _changes))
+
+
+@variant(task="idl")
+def standard_declarations_in_a_module(program: Program) -> Program:
+    """What 12.10 prints stands in a module."""
+    names = r"::(?=PortElementObject|ComponentObject)"
+
+    def rewrite(files: Files) -> Files:
+        text = files[STANDARD].replace("\nstruct Property", "\nmodule ucm {\nstruct Property", 1)
+        text = text.replace("\nmodule standard_execution", "\n};\nmodule standard_execution", 1)
+        return {STANDARD: re.sub(names, "::ucm::", text), MODEL: re.sub(names, "::ucm::", files[MODEL])}
+
+    return rewritten(program, rewrite)
+
+
+@variant(task="idl")
+def local_interfaces(program: Program) -> Program:
+    """Interfaces have the keyword local."""
+
+    def rewrite(files: Files) -> Files:
+        return {n: re.sub(r"\binterface (?=\w+(?: :| \{|;))", "local interface ", t) for n, t in files.items()}
+
+    return rewritten(program, rewrite)
+
+
+@variant(task="idl")
+def other_order(program: Program) -> Program:
+    """What stands first in the model stands last, as far as IDL allows."""
+    generate = program.generators["idl"]
+    generators = {**program.generators, "idl": lambda model: generate(_reversed(model))}
+    return replace(program, generators=generators)
+
+
+_M = TypeVar("_M", bound=Element)
+
+
+def _reversed(element: _M) -> _M:
+    """Modules, and what they hold, the other way round; what is inside of that is not touched."""
+    fields = {name: getattr(element, name) for name in element.__struct_fields__}
+    turned = {
+        name: tuple(_reversed(one) if isinstance(one, MODULES) else one for one in reversed(value))
+        for name, value in fields.items()
+        if isinstance(value, tuple)
+    }
+    return msgspec.structs.replace(element, **turned)
+
+
+@variant(task="idl")
+def a_file_for_each_module(program: Program) -> Program:
+    """Each piece of a top module has its own file, and one includes them all."""
+
+    def rewrite(files: Files) -> Files:
+        head, *pieces = re.split(r"^(?=module )", files[MODEL].removesuffix(GUARD), flags=re.MULTILINE)
+        names = {f"part_{n}.idl": f'#include "{STANDARD}"\n{piece}' for n, piece in enumerate(pieces)}
+        includes = "".join(f'#include "{name}"\n' for name in names)
+        return {STANDARD: files[STANDARD], **names, MODEL: f"{head}{includes}{GUARD}"}
+
+    return rewritten(program, rewrite)
+
+
+_HEAD = r"interface (\w+)((?: : [^{]*)?) \{\n"
+_GETTER = r" *\S+ get_(?!tp_)\w+\(\);\n"
+
+
+@variant(task="idl")
+def getters_in_bodies(program: Program) -> Program:
+    """Getters of ports are declared in each body interface instead of the equivalent interface."""
+
+    def rewrite(files: Files) -> Files:
+        text = files[MODEL]
+        blocks = re.findall(rf"{_HEAD}((?:.*\n)*?) *\}};\n", text)
+        getters = {name: re.findall(_GETTER, body, re.MULTILINE) for name, _, body in blocks}
+        bases = {name: re.findall(r"\w+(?=,|$)", heads) for name, heads, _ in blocks}
+
+        def all_of(name: str) -> list[str]:
+            return [*getters.get(name, []), *(g for base in bases.get(name, []) for g in all_of(base))]
+
+        text = re.sub(_GETTER, "", text)
+        moved = re.sub(_HEAD, lambda m: m[0] + "".join(all_of(m[1]) if m[1].endswith("_Body") else []), text)
+        return {**files, MODEL: moved}
+
+    return rewritten(program, rewrite)
+
+
+@variant(task="idl")
+def templates_around_templates(program: Program) -> Program:
+    """A module around a template is a template with the same parameter, and instances are made one by one."""
+
+    def rewrite(files: Files) -> Files:
+        text = re.sub(
+            r"module messages \{(?=\n *module message_api<)", "module messages<typename MESSAGE_TYPE_T> {", files[MODEL]
+        )
+        text = re.sub(
+            r"module (\S*::messages)::message_api(<\S+>) (\w+);",
+            r"module \1\2 \3_around;\n        module \3_around::message_api\2 \3;",
+            text,
+        )
+        return {**files, MODEL: text}
+
+    return rewritten(program, rewrite)
+
+
+@variant(task="idl")
+def interfaces_of_their_own_for_bindings(program: Program) -> Program:
+    """Instead of an instance of a template there is an interface with the types that are bound."""
+
+    def rewrite(files: Files) -> Files:
+        text = re.sub(
+            r"module \S+::message_api<(\S+)> (\w+);",
+            r"interface \2_intf : ::PortElementObject {\n"
+            r"            ::bindings_platform::return_codes::comm_ecode push(in \1 message);\n        };",
+            files[MODEL],
+        )
+        return {**files, MODEL: re.sub(r"(\w+_message_api)::message_intf (?=get_)", r"\1_intf ", text)}
+
+    return rewritten(program, rewrite)

@@ -1,0 +1,1 @@
+"""The reference frameworks and the reference tool chain."""

@@ -1,0 +1,273 @@
+"""The connectors of 10.1.5 and 10.1.6: what stands between the port elements of the ends of a connection.
+
+Every value is copied on its way, as if it had been sent. What is sent can be lost only by a transport that is broken, and
+then the sender is told. Messages wait in a queue of each receiver and are delivered by a thread of it, one by one; a
+receiver that is not operational gets none. Who is being stopped lets calls end that have come in, and lets no more in.
+"""
+
+from __future__ import annotations
+
+import queue
+import threading
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from ucm_cts.adapters.contract.data_types import Datum, Interface
+from ucm_cts.adapters.contract.programming_model import (
+    BadParameter,
+    DeclaredException,
+    NotFound,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNECTOR
+
+if TYPE_CHECKING:
+    from ucm_cts.adapters.reference.python.framework import Container, ContainerManager, Member
+
+OK, INTERNAL_ERROR, COMM_ERROR = "ok", "internal_error", "comm_error"
+"""The return codes of 10.1.2."""
+
+SENDERS = {SERVICE_CONNECTOR: "client", MESSAGE_CONNECTOR: "emitter"}
+TAKERS = {SERVICE_CONNECTOR: "server", MESSAGE_CONNECTOR: "receiver"}
+
+
+class Entrance:
+    """The way into one provided port element: open while the component is operational."""
+
+    def __init__(self) -> None:
+        self._changed = threading.Condition()
+        self._is_open = False
+        self._inside = 0
+
+    @property
+    def is_open(self) -> bool:
+        """Is somebody let in now?"""
+        return self._is_open
+
+    def open(self) -> None:
+        """Let calls in."""
+        self._is_open = True
+
+    def close(self) -> None:
+        """Let no more calls in, and wait until those that are inside have left."""
+        with self._changed:
+            self._is_open = False
+            self._changed.wait_for(lambda: not self._inside)
+
+    def visit(self, work: Callable[[], Sequence[Datum]]) -> Sequence[Datum]:
+        """Do ``work`` inside. Raises ``UcmError`` if nobody is let in."""
+        with self._changed:
+            if not self._is_open:
+                raise UcmError("the component is not operational")
+            self._inside += 1
+        try:
+            return work()
+        finally:
+            with self._changed:
+                self._inside -= 1
+                self._changed.notify_all()
+
+
+@dataclass(eq=False)
+class Taker:
+    """A provided port element at the end of a link: a server's or a receiver's."""
+
+    member: Member
+    port: str
+    entrance: Entrance = field(default_factory=Entrance)
+    messages: queue.SimpleQueue[Datum | None] = field(default_factory=queue.SimpleQueue)
+    thread: threading.Thread | None = None
+    lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def enter(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        """Call the body, which may be protected."""
+
+        def work() -> Sequence[Datum]:
+            element = self.member.container._reference_to(self.member, self.port)
+            if element is None:
+                raise UcmError(f"the body gives no port element {self.port!r}")
+            return element.call(method, arguments)
+
+        return self.entrance.visit(work)
+
+    def close(self) -> None:
+        """Nothing comes in any more, and nothing waits."""
+        self.entrance.close()
+        with self.lock:
+            self.forget()
+            thread, self.thread = self.thread, None
+            if thread is not None:
+                self.messages.put(None)
+                thread.join()
+
+    def forget(self) -> None:
+        """What waits is dropped."""
+        with suppress(queue.Empty):
+            while True:
+                self.messages.get_nowait()
+
+
+class LinkElement(PortElementObject):
+    """What a client or an emitter is connected to."""
+
+    def __init__(self, link: Link) -> None:
+        self.link = link
+
+    def exchange(self, value: int) -> int:
+        raise UcmError("the port element has another interface")
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if method not in self.link.interface.methods:
+            raise UcmError(f"the interface has no method {method!r}")
+        return self.link.send(method, arguments)
+
+
+class Link:
+    """A connection and its connector. One concern a method, for variants to override."""
+
+    def __init__(self, manager: ContainerManager, connector: str, interface: Interface) -> None:
+        self.manager = manager
+        self.connector = connector
+        self.interface = interface
+        self.takers: list[Taker] = []
+        self.broken = ""
+
+    # what an adapter calls
+
+    def attach(self, role: str, container: Container, comp_instance: int, port: str) -> None:
+        with container._operation():
+            member = container._find_member(comp_instance)
+            if role == TAKERS[self.connector]:
+                self._attach_taker(member, port)
+            elif role == SENDERS[self.connector]:
+                self._attach_sender(member, port)
+            else:
+                raise BadParameter(f"{self.connector} has no role {role!r}")
+
+    def detach(self, container: Container, comp_instance: int, port: str) -> None:
+        with container._operation():
+            member = container._find_member(comp_instance)
+            takers = [taker for taker in self.takers if (taker.member, taker.port) == (member, port)]
+            senders = [c for c in container._connections_from(member) if c.port == port and self._is_behind(c.target)]
+            if not (takers or senders):
+                raise NotFound(f"{port!r} of component {comp_instance} is no end of this connection")
+            container._check_configuring()
+            for taker in takers:
+                self.remove(taker)
+            for sender in senders:
+                container._undo(sender)
+
+    def break_link(self, where: str) -> None:
+        self.broken = where
+
+    def mend_link(self) -> None:
+        self.broken = ""
+
+    # ends
+
+    def _attach_sender(self, member: Member, port: str) -> None:
+        container = member.container
+        if port not in member.implementation.requires:
+            raise NotFound(f"no required port element {port!r}")
+        container._check_configuring()
+        if container._is_connected(member, port):
+            raise UcmError(f"{port!r} is connected already")
+        container._connect_to(member, port, LinkElement(self))
+
+    def _attach_taker(self, member: Member, port: str) -> None:
+        if port not in member.implementation.provides:
+            raise NotFound(f"no provided port element {port!r}")
+        member.container._check_configuring()
+        self._check_room()
+        self.takers.append(Taker(member, port))
+
+    def _check_room(self) -> None:
+        if self.connector == SERVICE_CONNECTOR and self.takers:
+            raise UcmError("the connection has a server already")
+
+    def _is_behind(self, target: PortElementObject) -> bool:
+        return isinstance(target, LinkElement) and target.link is self
+
+    def remove(self, taker: Taker) -> None:
+        """It is no longer an end."""
+        self.takers.remove(taker)
+        taker.close()
+
+    # calls and messages
+
+    def send(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        """What happens when a client or emitter calls."""
+        if self.connector == SERVICE_CONNECTOR:
+            return self._request(method, arguments)
+        return [self._emit(method, arguments)]
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self.broken:
+            raise UcmError(f"the {self.broken} is broken")
+        if not self.takers:
+            raise UcmError("there is no server")
+        try:
+            return self._copied(self.takers[0].enter(method, self._copied(arguments)))
+        except DeclaredException as error:
+            raise DeclaredException(error.name, self._copied(error.fields)) from None
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        if self.broken:
+            return COMM_ERROR if self.broken == "transport" else INTERNAL_ERROR
+        for taker in self.takers:
+            if taker.entrance.is_open:
+                self._post(taker, method, self._copied(arguments))
+        return OK
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        with taker.lock:
+            if taker.entrance.is_open:
+                taker.messages.put(arguments[0])
+                if taker.thread is None:
+                    taker.thread = threading.Thread(target=self._deliver, args=(taker, method), daemon=True)
+                    taker.thread.start()
+
+    def _deliver(self, taker: Taker, method: str) -> None:
+        while (message := taker.messages.get()) is not None:
+            with suppress(Exception):  # nobody is there who could be told
+                taker.enter(method, [message])
+
+    def _copied(self, values: Sequence[Datum]) -> list[Datum]:
+        return [_copy(value) for value in values]
+
+
+def _copy(value: Datum) -> Datum:
+    return [_copy(one) for one in value] if isinstance(value, list) else value
+
+
+class UsesConnectors:
+    """The part of a container that has to do with connectors."""
+
+    link_class: type[Link] = Link
+
+    def link(self: Container, connector: str, interface: Interface) -> Link:  # type: ignore[misc]
+        """A connection without ends, with a connector of that name. Raises ``UcmError`` if there is no such connector."""
+        with self._operation():
+            if connector not in SENDERS:
+                raise UcmError(f"no connector {connector!r}")
+            link = self.link_class(self.manager, connector, interface)
+            self.manager.links.append(link)
+            return link
+
+    def _takers_of(self: Container, member: Member) -> list[tuple[Link, Taker]]:  # type: ignore[misc]
+        return [(link, taker) for link in self.manager.links for taker in link.takers if taker.member is member]
+
+    def _open_entrances(self: Container, member: Member) -> None:  # type: ignore[misc]
+        for _, taker in self._takers_of(member):
+            taker.entrance.open()
+
+    def _close_entrances(self: Container, member: Member) -> None:  # type: ignore[misc]
+        for _, taker in self._takers_of(member):
+            taker.close()
+
+    def _leave_links(self: Container, member: Member) -> None:  # type: ignore[misc]
+        for link, taker in self._takers_of(member):
+            link.remove(taker)

@@ -1,0 +1,391 @@
+"""A small UCM framework: containers of components with the life cycle of clause 11.2 and the API of 12.10.
+
+It knows nothing of the test suite but the interfaces of clause 11 that bodies implement. Where the specification leaves
+a choice it takes the strictest one: what it cannot do it refuses, and a refused operation changes nothing.
+
+Operations that change something are carried out one after the other, whatever thread they come from, and are refused
+when a callback of a body makes them; ``get_port_element`` and ``get_components`` may be called at any time.
+"""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import Enum
+
+from ucm_cts.adapters.contract.programming_model import (
+    BadParameter,
+    ComponentObject,
+    Connectable,
+    FragmentObject,
+    Implementation,
+    NotFound,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.reference.python.connectors import Link, UsesConnectors
+from ucm_cts.adapters.reference.python.container_services import OffersServices, Record, TracedElement
+from ucm_cts.adapters.reference.python.policies import Execution
+
+
+class State(Enum):
+    """Where a member is in the life cycle of 11.2.3; initialized and configured differ only in its connections."""
+
+    CONFIGURING = "initialized or configured"
+    READY = "ready"
+
+
+class Member:
+    """A component or fragment in a container: its body, its implementation and its state."""
+
+    def __init__(
+        self, number: int, implementation: Implementation, body: ComponentObject, container: Container
+    ) -> None:
+        self.id = number
+        self.implementation = implementation
+        self.body = body
+        self.container = container
+        self.state = State.CONFIGURING
+        self.execution = Execution(implementation.policies)
+        self.traced: dict[str, TracedElement] = {}
+
+
+@dataclass(frozen=True)
+class Connection:
+    """Required port element ``port`` of ``client``, connected to ``target``."""
+
+    id: int
+    client: Member
+    port: str
+    target: PortElementObject
+
+
+class Failures:
+    """Carries on when a body raises, and remembers that it did."""
+
+    def __init__(self) -> None:
+        self.first = ""
+
+    def attempt(self, callback: Callable[..., None], *arguments: object) -> bool:
+        """Call a body; False if it raised."""
+        try:
+            callback(*arguments)
+        except Exception as error:  # noqa: BLE001 - a body may raise anything
+            self.first = self.first or f"{callback.__name__} raised {type(error).__name__}: {error}"
+            return False
+        return True
+
+    def report(self) -> None:
+        """Raise ``UcmError`` if any call failed."""
+        if self.first:
+            raise UcmError(self.first)
+
+
+class Container(OffersServices, UsesConnectors):
+    """Members with a common life cycle (11.2.2.1)."""
+
+    def __init__(self, manager: ContainerManager | None) -> None:
+        self.manager: ContainerManager = manager or self  # type: ignore[assignment]  # the manager is its own
+        self.members: dict[int, Member] = {}
+        self.started: list[Member] = []
+        self.is_started = False
+        self.is_removed = False
+
+    # the Container API of 12.10
+
+    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
+        with self._operation():
+            self._check_configuring()
+            found = self._find_implementation(implementation, attributes)
+            member = Member(self._new_id(), found, self._instantiate(found), self)
+            failures = Failures()
+            failures.attempt(self._configure, member, attributes)
+            failures.report()
+            self.members[member.id] = member
+            return member.id
+
+    def remove_component(self, comp_instance: int) -> None:
+        with self._operation():
+            member = self._find_member(comp_instance)
+            self._check_removable(member)
+            failures = Failures()
+            for connection in self._connections_from(member):
+                self._disconnect(connection, failures)
+            self._remove(member, failures)
+            failures.report()
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        self._check_alive()
+        member = self._find_member(comp_instance)
+        if port_name not in member.implementation.provides:
+            raise NotFound(f"no provided port element {port_name!r}")
+        element = self._reference_to(member, port_name)
+        if element is None:
+            raise NotFound(f"the body gives no port element {port_name!r}")
+        return element
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        with self._operation():
+            member = self._find_member(instance)
+            if port_name not in member.implementation.requires:
+                raise BadParameter(f"no required port element {port_name!r}")
+            if to_port is None:
+                raise BadParameter("the reference to connect is null")
+            self._check_configuring()
+            if self._is_connected(member, port_name):
+                raise UcmError(f"{port_name!r} is connected already")
+            return self._connect_to(member, port_name, to_port)
+
+    def disconnect(self, connection: int) -> None:
+        with self._operation():
+            found = self.manager.connections.get(connection)
+            if found is None or found.client.container is not self:
+                raise NotFound(f"no connection {connection}")
+            self._check_configuring()
+            self._undo(found)
+
+    def start(self) -> None:
+        with self._operation():
+            if self.is_started:
+                return
+            self._check_startable()
+            failures = Failures()
+            for member in self._start_order():
+                if not self._start_up(member, failures):
+                    self._shut_down_started(failures)
+                    failures.report()
+            self._begin_operation()
+
+    def stop(self) -> None:
+        with self._operation():
+            failures = Failures()
+            self._shut_down_started(failures)
+            failures.report()
+
+    def get_components(self) -> list[int]:
+        self._check_alive()
+        return list(self.members)
+
+    # one concern each; what a variant of this framework overrides
+
+    def _new_id(self) -> int:
+        """A number that no component or connection of the runtime has, had or will have."""
+        return next(self.manager.numbers)
+
+    def _find_implementation(self, name: str, attributes: Mapping[str, str]) -> Implementation:
+        implementation = self.manager.implementations.get(name)
+        if implementation is None:
+            raise UcmError(f"no implementation {name!r}")
+        unknown = set(attributes).difference(implementation.attributes)
+        if unknown:
+            raise UcmError(f"{name!r} has no attribute {min(unknown)!r}")
+        self._check_policies(implementation)
+        return implementation
+
+    def _find_member(self, number: int) -> Member:
+        if number not in self.members:
+            raise NotFound(f"no component {number}")
+        return self.members[number]
+
+    def _check_alive(self) -> None:
+        if self.manager.is_removed or self.is_removed:
+            raise UcmError("the container has been removed")
+
+    def _check_configuring(self) -> None:
+        """Members and their connections change in the configuration phase only (11.2.3)."""
+        if self.is_started:
+            raise UcmError("the container has been started")
+
+    def _check_startable(self) -> None:
+        """Only a container whose members are all configured starts, so that nothing ever starts halfway."""
+        for member in self.members.values():
+            for port in member.implementation.requires:
+                if not self._is_connected(member, port):
+                    raise UcmError(f"{port!r} of component {member.id} is not connected")
+
+    def _check_removable(self, member: Member) -> None:
+        if member.state is State.READY:
+            raise UcmError(f"component {member.id} is ready; stop its container first")
+        if any(connection.client is not member for connection in self._connections_to(member)):
+            raise UcmError(f"another component is connected to component {member.id}")
+
+    def _instantiate(self, implementation: Implementation) -> ComponentObject:
+        try:
+            return implementation.create()
+        except Exception as error:
+            raise UcmError(f"{implementation.name!r} cannot be instantiated: {error}") from error
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        self._set_attributes(member, attributes)
+        if isinstance(member.body, FragmentObject):
+            member.body.set_container_interface(self)
+        self._check_body(member)
+        self._initialise(member)
+
+    def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
+        for name, value in attributes.items():
+            member.body.set_attribute(name, value)
+
+    def _initialise(self, member: Member) -> None:
+        member.body.on_init()
+
+    def _connect_to(self, member: Member, port: str, target: PortElementObject) -> int:
+        connection = Connection(self._new_id(), member, port, target)
+        self._connect(connection)
+        return connection.id
+
+    def _undo(self, connection: Connection) -> None:
+        failures = Failures()
+        self._disconnect(connection, failures)
+        failures.report()
+
+    def _connect(self, connection: Connection) -> None:
+        body = connection.client.body
+        if isinstance(body, Connectable):
+            failures = Failures()
+            failures.attempt(body.on_connect, connection.port, connection.target)
+            failures.report()
+        self.manager.connections[connection.id] = connection
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        del self.manager.connections[connection.id]
+        body = connection.client.body
+        if isinstance(body, Connectable):
+            failures.attempt(body.on_disconnect, connection.port)
+
+    def _start_order(self) -> Sequence[Member]:
+        return list(self.members.values())
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        if not failures.attempt(member.body.on_startup, self._dependencies_of(member)):
+            return False
+        member.state = State.READY
+        self.started.append(member)
+        return True
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        connections = self._connections_from(member)
+        return self._with_services(member, [PortConnection(c.port, (c.target,)) for c in connections])
+
+    def _begin_operation(self) -> None:
+        """All members have been started."""
+        self.is_started = True
+        for member in self.started:
+            self._open_entrances(member)
+            self._begin_execution(member)
+
+    def _shut_down_started(self, failures: Failures) -> None:
+        """Shut down, last started first, what has been started."""
+        for member in self.started:
+            self._close_entrances(member)
+            self._end_execution(member)
+        while self.started:
+            self._shut_down(self.started.pop(), failures)
+        self.is_started = False
+
+    def _shut_down(self, member: Member, failures: Failures) -> None:
+        self._end_execution(member)
+        member.state = State.CONFIGURING
+        failures.attempt(member.body.on_shutdown)
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        self._leave_links(member)
+        failures.attempt(member.body.on_remove)
+        member.execution.executor.close()
+        del self.members[member.id]
+
+    def _take_down(self, containers: Sequence[Container], failures: Failures) -> None:
+        """Shut down, disconnect and remove all members, each step for all before the next (11.2.3)."""
+        for container in containers:
+            container._shut_down_started(failures)
+        for container in containers:
+            container._disconnect_members(failures)
+        for container in containers:
+            container._remove_members(failures)
+            container.is_removed = True
+
+    def _disconnect_members(self, failures: Failures) -> None:
+        for connection in reversed(self._connections_of_members()):
+            self._disconnect(connection, failures)
+
+    def _remove_members(self, failures: Failures) -> None:
+        for member in reversed(list(self.members.values())):
+            self._remove(member, failures)
+
+    # looking up connections
+
+    def _is_connected(self, member: Member, port: str) -> bool:
+        return any(connection.port == port for connection in self._connections_from(member))
+
+    def _connections_from(self, member: Member) -> list[Connection]:
+        return [c for c in self.manager.connections.values() if c.client is member]
+
+    def _connections_to(self, member: Member) -> list[Connection]:
+        elements = [self._reference_to(member, port) for port in member.implementation.provides]
+        return [c for c in self.manager.connections.values() if any(c.target is element for element in elements)]
+
+    def _connections_of_members(self) -> list[Connection]:
+        touched = {c.id for m in self.members.values() for c in self._connections_from(m) + self._connections_to(m)}
+        return [c for c in self.manager.connections.values() if c.id in touched]
+
+    @contextmanager
+    def _operation(self) -> Iterator[None]:
+        """One operation at a time; a body that calls back into its container is told that it cannot."""
+        if self.manager.busy_thread == threading.get_ident():
+            raise UcmError("the runtime is in the middle of an operation")
+        with self.manager.lock:
+            self.manager.busy_thread = threading.get_ident()
+            try:
+                self._check_alive()
+                yield
+            finally:
+                self.manager.busy_thread = None
+
+
+class ContainerManager(Container):
+    """The root container, which is the runtime (11.2.2.2)."""
+
+    container_class: type[Container] = Container
+
+    def __init__(self, implementations: Sequence[Implementation]) -> None:
+        super().__init__(None)
+        self.implementations = {implementation.name: implementation for implementation in implementations}
+        self.sub_containers: list[Container] = []
+        self.connections: dict[int, Connection] = {}
+        self.links: list[Link] = []
+        self.log: list[Record] = []
+        self.numbers = itertools.count(1)
+        self.lock = threading.Lock()
+        self.busy_thread: int | None = None
+
+    def create_container(self) -> Container:
+        with self._operation():
+            container = self.container_class(self)
+            self.sub_containers.append(container)
+            return container
+
+    def remove_container(self, sub_container: Container | None) -> None:
+        with self._operation():
+            if sub_container is None or sub_container not in self.sub_containers:
+                raise NotFound("no such container")
+            failures = Failures()
+            self._remove_container(sub_container, failures)
+            failures.report()
+
+    def read_log(self) -> list[Record]:
+        """All records of the trace, oldest first (10.1.4.2)."""
+        return list(self.log)
+
+    def destroy(self) -> None:
+        with self._operation():
+            failures = Failures()
+            self._take_down([*self.sub_containers, self], failures)
+            failures.report()
+
+    def _remove_container(self, container: Container, failures: Failures) -> None:
+        self._take_down([container], failures)
+        self.sub_containers.remove(container)

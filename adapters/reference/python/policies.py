@@ -1,0 +1,212 @@
+"""Execution policies (10.1.3): which components are protected, which have a thread, and what the threads do.
+
+Whatever enters a protected component, through any reference or as ``run``, enters with the component's lock. A thread
+that is inside may enter again; calls that come back to the component on another thread wait, as any other call does.
+"""
+
+from __future__ import annotations
+
+import queue
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, TypeVar
+
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import (
+    ComponentExecution,
+    Implementation,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.contract.scenario import (
+    ACTIVE,
+    PROTECTED_PASSIVE,
+    SELF_EXECUTING,
+    SELF_EXECUTION_API,
+    UNPROTECTED_PASSIVE,
+    Policy,
+)
+
+if TYPE_CHECKING:
+    from ucm_cts.adapters.reference.python.framework import Member
+
+_PROTECTED = {SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE}
+_POLICIES = {*_PROTECTED, UNPROTECTED_PASSIVE}
+
+T = TypeVar("T")
+
+
+class Execution:
+    """How one component is executed: what its policies say, and the lock and threads it takes."""
+
+    def __init__(self, policies: Sequence[Policy]) -> None:
+        self.definition = next((p.definition for p in policies if p.definition in _POLICIES), "")
+        self.managed = {policy.port for policy in policies if policy.definition == ACTIVE}
+        self.lock = threading.RLock()
+        self.thread_inside: int | None = None
+        self.executor = Executor()
+        self.trigger: Trigger | None = None
+        self.references: dict[str, ProtectedElement] = {}
+
+    @property
+    def is_inside(self) -> bool:
+        """Is the calling thread in the component?"""
+        return self.thread_inside == threading.get_ident()
+
+
+class Executor:
+    """The thread of an active component; it is started by the first call."""
+
+    def __init__(self) -> None:
+        self._calls: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
+        self._lock = threading.Lock()
+        self._is_running = False
+        self._is_closed = False
+
+    def execute(self, work: Callable[[], T]) -> T:
+        """Have ``work`` done by the thread and wait for its outcome, which may be an exception."""
+        outcome: Future[T] = Future()
+
+        def call() -> None:
+            try:
+                outcome.set_result(work())
+            except BaseException as error:  # noqa: BLE001 - whatever it is, the caller gets it
+                outcome.set_exception(error)
+
+        with self._lock:
+            if self._is_closed:
+                raise UcmError("the component has been removed")
+            if not self._is_running:
+                threading.Thread(target=self._serve, daemon=True).start()
+                self._is_running = True
+            self._calls.put(call)
+        return outcome.result()
+
+    def close(self) -> None:
+        """End the thread, once the calls that are waiting have been served."""
+        with self._lock:
+            self._is_closed = True
+            self._calls.put(None)
+
+    def _serve(self) -> None:
+        while call := self._calls.get():
+            call()
+
+
+class Trigger:
+    """What makes a self-executing component run, from one start to the next stop."""
+
+    def __init__(self) -> None:
+        self.ended = threading.Event()
+        self._running = threading.RLock()
+
+    def run(self, run: Callable[[], None]) -> None:
+        """Run, unless it has ended."""
+        with self._running:
+            if not self.ended.is_set():
+                run()
+
+    def end(self) -> None:
+        """Run no more; a run that has begun is waited for."""
+        self.ended.set()
+        with self._running:
+            pass
+
+
+class ProtectedElement(PortElementObject):
+    """Stands for a provided port element of a protected component."""
+
+    def __init__(self, member: Member, port: str, element: PortElementObject) -> None:
+        self.member, self.port, self.element = member, port, element
+
+    def exchange(self, value: int) -> int:
+        return self.member.container._execute(self.member, self.port, lambda: self.element.exchange(value))
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return self.member.container._execute(self.member, self.port, lambda: self.element.call(method, arguments))
+
+
+class ExecutesComponents:
+    """The part of a container that applies execution policies. One concern each, for variants to override."""
+
+    period = 0.002
+    """Seconds between two runs of a self-executing component."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        policies = implementation.policies
+        for policy in policies:
+            if policy.definition not in _POLICIES or policy.parameters:
+                raise UcmError(f"{implementation.name!r} has an unknown policy: {policy}")
+            due = implementation.provides if policy.definition == ACTIVE else (None,)
+            if policy.port not in due:
+                raise UcmError(f"{policy.definition!r} cannot be applied to {policy.port or 'a component'!r}")
+        if len(policies) > 1 and any(policy.definition != ACTIVE for policy in policies):
+            raise UcmError(f"{implementation.name!r} has more than one execution policy")
+
+    def _check_body(self, member: Member) -> None:
+        if member.execution.definition == SELF_EXECUTING:
+            self._execution_api(member)
+
+    def _is_protected(self, member: Member) -> bool:
+        return member.execution.definition in _PROTECTED
+
+    def _reference_to(self, member: Member, port: str) -> PortElementObject | None:
+        """What others get to know of a provided port element: always the same object."""
+        element = member.body.get_portElement(port)
+        if element is None or not self._is_protected(member):
+            return element
+        return member.execution.references.setdefault(port, ProtectedElement(member, port, element))
+
+    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        """Enter a protected component at ``port``, or at ``run``."""
+        if port in member.execution.managed and not member.execution.is_inside:
+            return self._execute_on_own_thread(member, lambda: self._execute_alone(member, port, work))
+        return self._execute_alone(member, port, work)
+
+    def _execute_on_own_thread(self, member: Member, work: Callable[[], T]) -> T:
+        return member.execution.executor.execute(work)
+
+    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
+        with self._exclusion(member, port):
+            return work()
+
+    @contextmanager
+    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
+        """Only one thread at a time is in the component."""
+        execution = member.execution
+        with execution.lock:
+            outer, execution.thread_inside = execution.thread_inside, threading.get_ident()
+            try:
+                yield
+            finally:
+                execution.thread_inside = outer
+
+    def _begin_execution(self, member: Member) -> None:
+        """The component and its container are operational."""
+        if member.execution.definition == SELF_EXECUTING and member.execution.trigger is None:
+            trigger = member.execution.trigger = Trigger()
+            threading.Thread(target=self._keep_running, args=(member, trigger), daemon=True).start()
+
+    def _end_execution(self, member: Member) -> None:
+        """The component is about to be shut down; also called of one that never executed."""
+        if member.execution.trigger:
+            member.execution.trigger.end()
+            member.execution.trigger = None
+
+    def _keep_running(self, member: Member, trigger: Trigger) -> None:
+        while not trigger.ended.wait(self.period):
+            self._run(member, trigger)
+
+    def _run(self, member: Member, trigger: Trigger) -> None:
+        """Run once; nobody waits for the result, so an exception is nobody's."""
+        body_run = self._execution_api(member).run
+        with suppress(Exception):
+            self._execute(member, None, lambda: trigger.run(body_run))
+
+    def _execution_api(self, member: Member) -> ComponentExecution:
+        api = member.body.get_policy_element(SELF_EXECUTING, SELF_EXECUTION_API)
+        if api is None:
+            raise UcmError(f"component {member.id} does not provide {SELF_EXECUTION_API}")
+        return api

@@ -1,0 +1,70 @@
+"""What the tool chain does with a model, without files or processes: values in, values out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from importlib import import_module
+from pathlib import Path
+
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.reading import Reading, read_model
+from ucm_cts.adapters.reference.toolchain.checking import RULES, Plans, Rule, check
+from ucm_cts.adapters.reference.toolchain.diagnostics import Diagnostic
+
+Generator = Callable[[Model], Mapping[str, str]]
+"""Makes files, by their paths, of a well-formed model."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """A tool chain: how it reads, which rules it knows, and what it generates for each task."""
+
+    read: Callable[[bytes, str], Reading]
+    rules: Mapping[str, Rule]
+    generators: Mapping[str, Generator] = field(default_factory=dict)
+    _plans: Plans = field(init=False, repr=False, compare=False, default_factory=dict)
+
+    def check(self, text: bytes, file: str) -> tuple[Model | None, list[Diagnostic]]:
+        """The model in ``text``, and what is wrong with it; ``file`` is what diagnostics call it."""
+        reading = self.read(text, file)
+        told = [Diagnostic(file, p.line, p.message, clause=p.clause) for p in reading.problems]
+        if reading.model is None or told:
+            return None, told
+        told = check(reading.model, file, self.rules, self._plans)
+        return (None if told else reading.model), told
+
+    def generate(self, task: str, text: bytes, file: str) -> tuple[Mapping[str, str], list[Diagnostic]]:
+        """The files that ``task`` makes of the model in ``text``; none if something is wrong with it."""
+        model, told = self.check(text, file)
+        return (self.generators[task](model) if model is not None else {}), told
+
+
+def all_rules() -> Mapping[str, Rule]:
+    """The rules of all modules ``rules_*.py``."""
+    for path in sorted(Path(__file__).parent.glob("rules_*.py")):
+        import_module(f"ucm_cts.adapters.reference.toolchain.{path.stem}")
+    return RULES
+
+
+def reference() -> Program:
+    """The reference tool chain."""
+    return Program(read_model, all_rules(), {task: _loaded_when_used(*place) for task, place in _GENERATORS.items()})
+
+
+_GENERATORS = {
+    "idl": ("idl", "generate"),
+    "cpp11": ("cpp", "generate_cpp11"),
+    "cpp03": ("cpp", "generate_cpp03"),
+    "lwucm": ("lwucm_glue", "generate_lwucm"),
+}
+
+
+def _loaded_when_used(module: str, function: str) -> Generator:
+    """A generator that costs nothing until it is wanted: a check is to begin at once."""
+
+    def generate(model: Model) -> Mapping[str, str]:
+        found: Generator = getattr(import_module(f"ucm_cts.adapters.reference.toolchain.{module}"), function)
+        return found(model)
+
+    return generate

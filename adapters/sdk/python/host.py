@@ -1,0 +1,165 @@
+"""Serve a Python adapter: ``python -m ucm_cts.adapters.sdk.python.host ADAPTER``.
+
+ADAPTER is ``package.module:Class``, ``package.module`` with a function ``answer``, or the path of an extension module.
+Messages come on standard input and answers go to standard output, unless ``--listen tcp://HOST:PORT`` or
+``--listen unix:/PATH`` is given: then each connection gets a host process of its own. (``--control`` is for the harness.)
+What a framework prints goes to standard error.
+"""
+
+from __future__ import annotations
+
+import argparse
+import faulthandler
+import os
+import select
+import signal
+import socket
+import stat
+import sys
+import threading
+import time
+from contextlib import suppress
+from typing import NoReturn
+from urllib.parse import urlsplit
+
+from ucm_cts.adapters.contract.messages import Traced, from_host_decoder
+from ucm_cts.adapters.sdk.python.loading import Answer, CannotLoad, load
+from ucm_cts.adapters.sdk.python.template import Template, refuse
+
+_GRACE = 30.0  # seconds a host may work on after the other end of its connection has gone
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="python -m ucm_cts.adapters.sdk.python.host", description="Serve an adapter.")
+    parser.add_argument("adapter", help="package.module:Class, package.module, or a path")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--listen", metavar="ADDRESS", help="tcp://HOST:PORT or unix:/PATH")
+    how.add_argument("--control", type=int, help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    control = socket.socket(fileno=options.control) if options.control is not None else None
+    try:
+        answer = load(options.adapter)
+    except CannotLoad as error:
+        if control:
+            refuse(control, str(error))
+        parser.exit(2, f"{parser.prog}: {error}\n")
+    if control:
+        Template(control, lambda source, target: serve(answer, source, target)).serve()
+    elif options.listen:
+        try:
+            listener = _open_listener(options.listen)
+        except (OSError, ValueError) as error:
+            parser.exit(2, f"{parser.prog}: cannot listen on {options.listen}: {error}\n")
+        _listen(listener, answer)
+    else:
+        serve(answer, os.dup(0), os.dup(1))
+
+
+def serve(answer: Answer, source: int, target: int) -> NoReturn:
+    """Answer the lines that come from descriptor ``source`` to descriptor ``target`` until there are no more.
+
+    Takes the process over: what is printed goes to standard error, ``SIGUSR1`` prints the stacks of all threads there,
+    and the process ends without waiting for threads.
+    """
+    _keep_streams_apart()
+    faulthandler.enable(file=2)
+    faulthandler.register(signal.SIGUSR1, file=2, all_threads=True)
+
+    def write(message: bytes) -> None:
+        rest = memoryview(message)
+        while rest:
+            rest = rest[os.write(target, rest) :]
+
+    try:
+        with os.fdopen(source, "rb", buffering=1 << 16) as lines:
+            for line in lines:
+                if line == b"\n":
+                    continue
+                reply = answer(line, write)
+                write(reply + b"\n")
+                if _is_stuck(reply):
+                    break
+    except (BrokenPipeError, ConnectionResetError):
+        pass  # nobody wants the answers any more
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(0)
+
+
+def _keep_streams_apart() -> None:
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    os.close(nothing)
+    os.dup2(2, 1)
+    with suppress(AttributeError):  # when something else stands in for the streams
+        sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+
+
+def _is_stuck(reply: bytes) -> bool:
+    if b'"stuck":[' not in reply:
+        return False
+    message = from_host_decoder().decode(reply)
+    return isinstance(message, Traced) and bool(message.stuck)
+
+
+def _open_listener(address: str) -> socket.socket:
+    scheme, _, path = address.partition(":")
+    if scheme == "unix" and path:
+        _remove_stale(path)
+        listener = socket.socket(socket.AF_UNIX)
+        listener.bind(path)
+        listener.listen()
+        shown = address
+    elif scheme == "tcp":
+        place = urlsplit(address)
+        if not place.hostname or place.port is None:
+            raise ValueError("write tcp://HOST:PORT")
+        family = socket.AF_INET6 if ":" in place.hostname else socket.AF_INET
+        listener = socket.create_server((place.hostname, place.port), family=family)
+        shown = f"tcp://{place.netloc.rpartition(':')[0]}:{listener.getsockname()[1]}"
+    else:
+        raise ValueError("write tcp://HOST:PORT or unix:/PATH")
+    print(f"listening on {shown}", flush=True)
+    return listener
+
+
+def _remove_stale(path: str) -> None:
+    with suppress(FileNotFoundError):
+        if stat.S_ISSOCK(os.stat(path).st_mode):
+            with socket.socket(socket.AF_UNIX) as probe:
+                try:
+                    probe.connect(path)
+                except ConnectionRefusedError:
+                    os.unlink(path)
+
+
+def _listen(listener: socket.socket, answer: Answer) -> NoReturn:
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # ended hosts need no farewell
+    while True:
+        connection, _ = listener.accept()
+        if os.fork() == 0:
+            try:
+                listener.close()
+                signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+                if connection.family != socket.AF_UNIX:
+                    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                descriptor = connection.detach()
+                threading.Thread(target=_watch, args=(descriptor,), daemon=True).start()
+                serve(answer, descriptor, os.dup(descriptor))
+            finally:
+                os._exit(70)
+        connection.close()
+
+
+def _watch(descriptor: int) -> None:
+    """End a host whose framework hangs after the other end has gone."""
+    gone = select.poll()
+    gone.register(descriptor, getattr(select, "POLLRDHUP", select.POLLHUP))
+    gone.poll()
+    time.sleep(_GRACE)
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    with suppress(KeyboardInterrupt):
+        main()

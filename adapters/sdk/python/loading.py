@@ -1,0 +1,108 @@
+"""From the text that names a Python adapter to what answers wire messages."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.machinery
+import importlib.util
+import inspect
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import cast
+
+from ucm_cts.adapters.contract.adapter import Adapter
+from ucm_cts.adapters.sdk.python.engine import Emit, Engine
+
+Answer = Callable[[bytes, Emit], bytes]
+"""Answers one line of the wire protocol; may send lines ahead of the answer when a run is streamed."""
+
+
+class CannotLoad(Exception):
+    """The text names no adapter; the message says what is wrong and what to do."""
+
+
+def load(spec: str) -> Answer:
+    """What ``spec`` names: ``package.module:Class``, ``package.module`` or the path of an extension module.
+
+    The class is a subclass of ``Adapter``, the module has a function ``answer(message: bytes) -> bytes`` which may take
+    a second parameter ``emit`` as ``Engine.answer`` does. The current directory is searched too. Raises ``CannotLoad``.
+    """
+    module_name, colon, class_name = spec.partition(":")
+    if colon:
+        cls = _find_class(_import(module_name), class_name)
+        return Engine(cls).answer
+    module = _import_file(Path(spec)) if _is_path(spec) else _import(spec)
+    return _answer_of(module)
+
+
+def _answer_of(module: ModuleType) -> Answer:
+    answer = getattr(module, "answer", None)
+    if not callable(answer):
+        adapters = [name for name, value in vars(module).items() if _is_adapter(value) and value is not Adapter]
+        hint = f"; did you mean {module.__name__}:{adapters[0]}" if adapters else ""
+        raise CannotLoad(f"module {module.__name__} has no function answer(bytes) -> bytes{hint}")
+    if _can_stream(answer):
+        return cast(Answer, answer)
+    return lambda line, emit: cast(bytes, answer(line))
+
+
+def _can_stream(answer: Callable[..., object]) -> bool:
+    try:
+        return "emit" in inspect.signature(answer).parameters
+    except ValueError:  # functions of extension modules say it in the first line of their documentation
+        return "emit" in (answer.__doc__ or "").partition("\n")[0]
+
+
+def _is_path(spec: str) -> bool:
+    return os.sep in spec or spec.endswith((".so", ".pyd"))
+
+
+def _import(name: str) -> ModuleType:
+    if "" not in sys.path and os.getcwd() not in sys.path:
+        sys.path.insert(0, os.getcwd())
+    try:
+        return importlib.import_module(name)
+    except ModuleNotFoundError as error:
+        if error.name and (name == error.name or name.startswith(error.name + ".")):
+            raise CannotLoad(
+                f"there is no module {error.name}; it is looked for in {os.getcwd()}, on PYTHONPATH and among the "
+                f"packages of {sys.prefix}"
+            ) from None
+        raise CannotLoad(f"importing {name} failed: {error}; install what it needs beside ucm-cts") from error
+    except (Exception, SystemExit) as error:
+        raise CannotLoad(f"importing {name} failed: {type(error).__name__}: {error}") from error
+
+
+def _import_file(path: Path) -> ModuleType:
+    name = path.name.partition(".")[0]
+    try:
+        loader = importlib.machinery.ExtensionFileLoader(name, str(path.resolve()))
+        spec = importlib.util.spec_from_loader(name, loader)
+        assert spec
+        module = importlib.util.module_from_spec(spec)
+        loader.exec_module(module)
+    except Exception as error:
+        raise CannotLoad(f"{path} is no extension module of this Python ({type(error).__name__}: {error})") from error
+    return module
+
+
+def _find_class(module: ModuleType, name: str) -> type[Adapter]:
+    found = getattr(module, name, None)
+    if found is None:
+        adapters = [key for key, value in vars(module).items() if _is_adapter(value)]
+        there = f"; there is {', '.join(adapters)}" if adapters else ""
+        raise CannotLoad(f"module {module.__name__} has no {name}{there}")
+    if not _is_adapter(found):
+        raise CannotLoad(f"{module.__name__}:{name} is not a subclass of ucm_cts.adapters.contract.adapter.Adapter")
+    cls: type[Adapter] = found
+    if cls.__abstractmethods__:
+        missing = ", ".join(sorted(cls.__abstractmethods__))
+        raise CannotLoad(f"{module.__name__}:{name} does not implement {missing}")
+    return cls
+
+
+def _is_adapter(value: object) -> bool:
+    return inspect.isclass(value) and issubclass(value, Adapter)

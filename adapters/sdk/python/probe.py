@@ -1,0 +1,381 @@
+"""Probes: component bodies that record what a framework does to them and act as their plan says."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Datum, Interface
+from ucm_cts.adapters.contract.programming_model import (
+    ComponentExecution,
+    ComponentObject,
+    Connectable,
+    ContainerInterface,
+    DeclaredException,
+    FragmentObject,
+    Implementation,
+    PortConnection,
+    PortElementObject,
+)
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook
+from ucm_cts.adapters.contract.trace import (
+    Create,
+    Dependency,
+    Enter,
+    Exit,
+    Held,
+    MaybeReference,
+    Pushed,
+    Reference,
+    Reply,
+    Request,
+    Siblings,
+)
+from ucm_cts.adapters.sdk.python.counting import MessageCounts, Occupancy
+from ucm_cts.adapters.sdk.python.data import is_datum, overwrite, snapshot
+from ucm_cts.adapters.sdk.python.gates import Gates
+from ucm_cts.adapters.sdk.python.recorder import Recorder
+from ucm_cts.adapters.sdk.python.seal import Kept, KeptClass
+
+
+def is_integer(value: object) -> bool:
+    """Can the wire carry it? Whether it has 32 bits is the judge's matter."""
+    return isinstance(value, int) and -(2**63) <= value < 2**63
+
+
+class PlannedFailure(Exception):
+    """What a probe raises when its plan says ``raise``: an exception no interface declares."""
+
+
+class Stage(Kept):
+    """What the ``probes`` of one scenario share. ``patience`` is the longest wait of a probe, in seconds."""
+
+    __slots__ = ("_instances", "_lock", "gates", "messages", "occupancies", "probes", "recorder")
+
+    def __init__(self, recorder: Recorder, patience: float) -> None:
+        self.recorder = recorder
+        self.probes: list[Probe] = []
+        self.gates = Gates(patience)
+        self.messages = MessageCounts(patience)
+        self.occupancies: dict[int, Occupancy] | None = None
+        self._lock = threading.Lock()
+        self._instances: dict[str, int] = {}
+
+    def implementation(
+        self, name: str, declaration: Declaration, interfaces: Mapping[str, Interface] = {}
+    ) -> Implementation:
+        """The declaration as a framework sees it: an implementation whose bodies are probes on this stage."""
+        kind = _KINDS[declaration.connectable, declaration.fragment]
+        return Implementation(
+            name,
+            declaration.provides,
+            declaration.requires,
+            tuple(declaration.attributes),
+            declaration.connectable,
+            declaration.fragment,
+            lambda: kind(self, name, declaration),
+            declaration.policies,
+            {port: interfaces[interface] for port, interface in declaration.ports.items()},
+        )
+
+    @contextmanager
+    def stressing(self) -> Iterator[dict[int, Occupancy]]:
+        """Meanwhile probes record and do nothing, and count who meets whom: occupancies by probe."""
+        occupancies = self.occupancies = {}
+        try:
+            yield occupancies
+        finally:
+            self.occupancies = None
+
+    def number(self, probe: Probe, component: str) -> int:
+        """Number the next body made for ``component``, from 1, and record its creation."""
+        with self._lock:
+            self.probes.append(probe)
+            instance = self._instances[component] = self._instances.get(component, 0) + 1
+            self.recorder.record(Create, component=component, instance=instance)
+            return instance
+
+    def recognise(self, reference: Any) -> MaybeReference:
+        """What the trace calls ``reference``: a probe's own port element is recognised, anything else is opaque."""
+        if reference is None:
+            return None
+        if isinstance(reference, ProbePort) and reference.probe.stage is self:
+            return reference.identity
+        return "opaque"
+
+
+class ProbePort(PortElementObject, metaclass=KeptClass):
+    """A provided port element of a probe."""
+
+    def __init__(self, probe: Probe, port: str) -> None:
+        self.probe = probe
+        self.identity = Reference(probe.component, probe.instance, port)
+
+    def exchange(self, value: int) -> int:
+        return self.probe.exchange(self.identity.port, value)
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return self.probe.call(self.identity.port, method, arguments)
+
+
+class ProbeExecution(ComponentExecution, metaclass=KeptClass):
+    """What a self-executing probe provides to its container."""
+
+    def __init__(self, probe: Probe) -> None:
+        self.probe = probe
+
+    def run(self) -> None:
+        self.probe.run()
+
+
+class Probe(ComponentObject, metaclass=KeptClass):
+    """The ``instance``-th body made for ``component``. Silent, and without a plan, once the recording has stopped."""
+
+    def __init__(self, stage: Stage, component: str, declaration: Declaration) -> None:
+        self.stage = stage
+        self.component = component
+        self.instance = stage.number(self, component)
+        self._plan = declaration.plan
+        self._ports = {port: ProbePort(self, port) for port in declaration.provides}
+        executes_itself = any(policy.definition == s.SELF_EXECUTING for policy in declaration.policies)
+        self._execution = ProbeExecution(self) if executes_itself else None
+        self._attributes: dict[str, str] = {}
+        self._references: dict[str, list[PortElementObject]] = {}
+        self._container: ContainerInterface | None = None
+
+    def parts(self) -> tuple[object, ...]:
+        """All that frameworks are given of it."""
+        return (self, *self._ports.values(), *filter(None, [self._execution]))
+
+    def set_attribute(self, name: str, value: str) -> None:
+        if self._is_text("set_attribute", name, value):
+            self._attributes[name] = value
+
+    def on_init(self) -> None:
+        self._visit("on_init", attributes=dict(self._attributes))
+
+    def on_startup(self, dependencies: Sequence[PortConnection]) -> None:
+        given = self._read(dependencies)
+        self._references = {}
+        for port, references in given:
+            self._references.setdefault(port, []).extend(r for r in references if r is not None)
+        recognise = self.stage.recognise
+        self._visit(
+            "on_startup",
+            dependencies=tuple(Dependency(port, tuple(map(recognise, references))) for port, references in given),
+        )
+
+    def on_shutdown(self) -> None:
+        try:
+            self._visit("on_shutdown")
+        finally:
+            self._references = {}
+
+    def on_remove(self) -> None:
+        try:
+            self._visit("on_remove")
+        finally:
+            self._container = None
+
+    def get_portElement(self, provided: str) -> PortElementObject | None:
+        return self._ports.get(provided)
+
+    def get_policy_element(self, policy: str, element: str) -> ComponentExecution | None:
+        return self._execution if (policy, element) == (s.SELF_EXECUTING, s.SELF_EXECUTION_API) else None
+
+    def run(self) -> None:
+        """What the container of a self-executing probe calls."""
+        if not self._is_stressed():
+            self._visit("run")
+
+    def _is_stressed(self) -> bool:
+        """Under stress: count who is met here, and tell that there is nothing else to do."""
+        occupancies = self.stage.occupancies
+        if occupancies is None:
+            return False
+        occupancies.setdefault(id(self), Occupancy()).visit()
+        return True
+
+    def exchange(self, port: str, value: int) -> int:
+        """The business method of provided port element ``port``."""
+        if self._is_stressed():
+            return ~value
+        if not is_integer(value):
+            self.stage.recorder.complain(f"exchange was called with {value!r}, which is no integer")
+            value = 0
+        result = self._visit("exchange", result=~value, port=port, value=value)
+        assert result is not None
+        return result
+
+    def call(self, port: str, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        """Any method of provided port element ``port``, which has an interface."""
+        plan = self._plan.get("method", ())
+        if not self.stage.recorder.recording:
+            return []
+        if not (isinstance(arguments, list | tuple) and is_datum(arguments)):
+            self.stage.recorder.complain(f"{method} was called with {arguments!r}, which are no values")
+            return []
+        if any(isinstance(action, s.CountMessages) for action in plan):
+            self.stage.messages.add(self.component, self.instance, int(arguments[0]))
+            return ["ok"]
+        given = snapshot(arguments)
+        self._record(Enter, hook="method", port=port, method=method, arguments=given)
+        answer = s.Answer(method, ())
+        for action in plan:
+            if isinstance(action, s.RaiseError):
+                self._record(Exit, hook="method", raised=True)
+                raise PlannedFailure(f"{self.component} fails in {method}, as planned")
+            if not isinstance(action, s.Answer):
+                self._act(action)
+            elif action.method == method:
+                answer = action
+        results = snapshot(given if answer.results is None else answer.results)
+        self._record(Exit, hook="method", results=snapshot(results), exception=answer.exception)
+        if answer.overwrite and isinstance(arguments, list):
+            overwrite(arguments)
+        if answer.exception is not None:
+            raise DeclaredException(answer.exception, results)
+        return list(results)
+
+    def _visit(self, hook: Hook, result: int | None = None, **arguments: Any) -> int | None:
+        """Record ``enter``, carry out the plan, record ``exit``; returns what the hook returns."""
+        if not self.stage.recorder.recording:
+            return result
+        self._record(Enter, hook=hook, **arguments)
+        for action in self._plan.get(hook, ()):
+            if isinstance(action, s.RaiseError):
+                self._record(Exit, hook=hook, raised=True)
+                raise PlannedFailure(f"{self.component} fails in {hook}, as planned")
+            if isinstance(action, s.ReturnValue):
+                if hook == "exchange":
+                    result = action.value
+            else:
+                self._act(action)
+        self._record(Exit, hook=hook, value=result)
+        return result
+
+    def _act(self, action: Action) -> None:
+        if isinstance(action, s.CallPort):
+            for reference in tuple(self._references.get(action.port, ())):
+                self._call(action.port, reference, action.value)
+        elif isinstance(action, s.CallMethod):
+            for reference in tuple(self._references.get(action.port, ())):
+                self._call_method(action, reference)
+        elif isinstance(action, s.Burst):
+            for reference in tuple(self._references.get(action.port, ())):
+                self._push(action, reference)
+        elif isinstance(action, s.HoldAtGate):
+            gate = action.gate
+            self.stage.gates.hold(gate, lambda: self._record(Held, gate=gate))
+        elif isinstance(action, s.QuerySiblings):
+            self._query_siblings()
+
+    def _call(self, port: str, reference: PortElementObject, value: int) -> None:
+        self._record(Request, port=port, value=value)
+        try:
+            result = reference.exchange(value)
+        except Exception:  # noqa: BLE001 - whatever the callee raised
+            self._record(Reply, port=port, raised=True)
+            return
+        if not is_integer(result):
+            self.stage.recorder.complain(f"exchange returned {result!r} to a probe; it returns an integer")
+            return
+        self._record(Reply, port=port, value=result)
+
+    def _call_method(self, action: s.CallMethod, reference: PortElementObject) -> None:
+        arguments = list(snapshot(action.arguments))
+        self._record(Request, port=action.port, method=action.method, arguments=action.arguments)
+        try:
+            results = reference.call(action.method, arguments)
+        except DeclaredException as error:
+            self._reply(action, error.fields, error.name)
+        except Exception:  # noqa: BLE001 - whatever the callee raised
+            self._record(Reply, port=action.port, raised=True)
+        else:
+            self._reply(action, results)
+        overwrite(arguments)  # they are the caller's own
+
+    def _reply(self, action: s.CallMethod, results: Any, exception: str | None = None) -> None:
+        if not (isinstance(results, list | tuple) and is_datum(results)):
+            self.stage.recorder.complain(f"{action.method} gave {results!r} to a probe, which are no values")
+            results = ()
+        self._record(Reply, port=action.port, results=snapshot(results), exception=exception)
+
+    def _push(self, action: s.Burst, reference: PortElementObject) -> None:
+        answers: dict[str, int] = {}
+        for value in range(action.first, action.first + action.count):
+            try:
+                results = reference.call(s.PUSH, [value])
+                code = str(results[0]) if results else ""
+            except Exception:  # noqa: BLE001 - whatever the callee raised
+                code = "raised"
+            answers[code] = answers.get(code, 0) + 1
+        self._record(Pushed, port=action.port, first=action.first, count=action.count, answers=answers)
+
+    def _query_siblings(self) -> None:
+        try:
+            if self._container is None:
+                raise LookupError("no container interface was given")
+            members = tuple(self._container.get_components())
+        except Exception:  # noqa: BLE001 - whatever the framework raised
+            self._record(Siblings, raised=True)
+            return
+        if not all(map(is_integer, members)):
+            self.stage.recorder.complain(
+                f"get_components of the container interface returned {members!r}, not integers"
+            )
+            return
+        self._record(Siblings, ids=members)
+
+    def _read(self, dependencies: Sequence[PortConnection]) -> list[tuple[str, tuple[PortElementObject | None, ...]]]:
+        try:
+            given = [(connection.from_port, tuple(connection.to_port)) for connection in dependencies]
+        except (TypeError, AttributeError) as error:
+            self.stage.recorder.complain(f"on_startup takes a sequence of PortConnection values ({error})")
+            return []
+        return given if self._is_text("on_startup", *(port for port, _ in given)) else []
+
+    def _is_text(self, where: str, *names: Any) -> bool:
+        for name in names:
+            if not isinstance(name, str):
+                self.stage.recorder.complain(f"{where} was given {name!r} where a string is due")
+                return False
+        return True
+
+    def _record(self, kind: Any, **fields: Any) -> None:
+        self.stage.recorder.record(kind, component=self.component, instance=self.instance, **fields)
+
+
+class ConnectableProbe(Probe, Connectable):
+    """A probe that wants to hear of each connection."""
+
+    def on_connect(self, port_name: str, required: PortElementObject | None) -> None:
+        if self._is_text("on_connect", port_name):
+            self._visit("on_connect", port=port_name, reference=self.stage.recognise(required))
+
+    def on_disconnect(self, port_name: str) -> None:
+        if self._is_text("on_disconnect", port_name):
+            self._visit("on_disconnect", port=port_name)
+
+
+class FragmentProbe(Probe, FragmentObject):
+    """A probe that is a fragment."""
+
+    def set_container_interface(self, container: ContainerInterface) -> None:
+        self._container = container
+        self._visit("set_container_interface")
+
+
+class ConnectableFragmentProbe(ConnectableProbe, FragmentProbe):
+    """A fragment that wants to hear of each connection."""
+
+
+_KINDS: dict[tuple[bool, bool], type[Probe]] = {
+    (False, False): Probe,
+    (True, False): ConnectableProbe,
+    (False, True): FragmentProbe,
+    (True, True): ConnectableFragmentProbe,
+}

@@ -1,0 +1,127 @@
+"""Workers: the threads that a scenario names, and where they are."""
+
+from __future__ import annotations
+
+import re
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from pathlib import Path
+from typing import Literal
+
+from ucm_cts.adapters.sdk.python.seal import KeptClass
+
+Task = Callable[[], None]
+
+Where = Literal["done", "held", "blocked", "running"]
+
+_LOOKS = 5
+"""How often a thread must be found asleep, without having been awake in between, to count as blocked."""
+
+_BETWEEN_LOOKS = 0.0005
+"""Seconds. Nobody holds the interpreter for the looking thread meanwhile: who only waits for that, wakes up."""
+
+
+class _Worker:
+    def __init__(self, name: str) -> None:
+        self._tasks: deque[Task] = deque()
+        self._changed = threading.Condition()
+        self._busy = False
+        self._quitting = False
+        self.thread = threading.Thread(target=self._work, name=f"worker {name}", daemon=True)
+        self.thread.start()
+
+    def _work(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._tasks or self._quitting)
+                if not self._tasks:
+                    return
+                task = self._tasks.popleft()
+                self._busy = True
+            task()
+            with self._changed:
+                self._busy = False
+                self._changed.notify_all()
+
+    def queue(self, task: Task) -> None:
+        with self._changed:
+            self._tasks.append(task)
+            self._changed.notify_all()
+
+    def wait_until_idle(self, seconds: float) -> bool:
+        with self._changed:
+            return self._changed.wait_for(lambda: not self._tasks and not self._busy, max(seconds, 0))
+
+    def quit(self) -> None:
+        with self._changed:
+            self._quitting = True
+            self._changed.notify_all()
+
+
+class Workers(metaclass=KeptClass):
+    """Threads by name, each made when its first task is queued, each doing its tasks in order.
+
+    Tasks must not raise. ``patience`` is the longest wait in seconds.
+    """
+
+    def __init__(self, patience: float) -> None:
+        self._patience = patience
+        self._workers: dict[str, _Worker] = {}
+        self._lock = threading.Lock()
+
+    def queue(self, name: str, task: Task) -> None:
+        """Give worker ``name`` one more task; returns at once."""
+        with self._lock:
+            if name not in self._workers:
+                self._workers[name] = _Worker(name)
+            self._workers[name].queue(task)
+
+    def join(self, name: str) -> bool:
+        """Wait until worker ``name``, if there is one, has done all it was given; False when patience runs out."""
+        with self._lock:
+            worker = self._workers.get(name)
+        return worker is None or worker.wait_until_idle(self._patience)
+
+    def settle(self, name: str, is_held: Callable[[threading.Thread], bool]) -> Where:
+        """Wait until worker ``name`` is done, held or blocked by the operating system; ``running`` when patience runs out.
+
+        Where the operating system does not tell, nobody is seen to be blocked.
+        """
+        with self._lock:
+            worker = self._workers.get(name)
+        deadline = time.monotonic() + self._patience
+        before, looks = None, 0
+        while worker and not worker.wait_until_idle(0):
+            if is_held(worker.thread):
+                return "held"
+            sleeps = _sleeps(worker.thread)
+            looks = looks + 1 if sleeps is not None and sleeps == before else 1
+            before = sleeps
+            if before is not None and looks >= _LOOKS:
+                return "blocked"
+            if time.monotonic() >= deadline:
+                return "running"
+            time.sleep(_BETWEEN_LOOKS)
+        return "done"
+
+    def finish(self) -> tuple[str, ...]:
+        """End all workers; returns the names of those that did not come back in time. Queue nothing afterwards."""
+        deadline = time.monotonic() + self._patience
+        stuck = []
+        for name, worker in self._workers.items():
+            worker.quit()
+            if not worker.wait_until_idle(deadline - time.monotonic()):
+                stuck.append(name)
+        return tuple(stuck)
+
+
+def _sleeps(thread: threading.Thread) -> int | None:
+    """How often ``thread`` has gone to sleep, if it sleeps now; None if it does not, or nobody knows."""
+    try:
+        status = Path(f"/proc/self/task/{thread.native_id}/status").read_text()
+    except OSError:
+        return None
+    found = re.search(r"^State:\s+S.*^voluntary_ctxt_switches:\s+(\d+)", status, re.MULTILINE | re.DOTALL)
+    return int(found[1]) if found else None

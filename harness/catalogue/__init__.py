@@ -1,0 +1,1 @@
+"""What is required: documents with line numbers, requirements, interpretations, profiles."""

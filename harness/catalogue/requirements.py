@@ -1,0 +1,142 @@
+"""The requirement catalogue: every normative statement of the clauses under test, as data with provenance."""
+
+from __future__ import annotations
+
+import fnmatch
+import functools
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.catalogue.documents import read
+from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
+
+Level = Literal["shall", "should", "may", "statement"]
+"""How strongly the text speaks: an obligation, a recommendation, a permission, or a plain statement of what is."""
+
+
+class Requirement(Value, frozen=True):
+    """One statement of the specification, in the project's own words.
+
+    ``observed`` says how a trace or a model shows that it was kept or broken. It has exactly one of ``rules``, the
+    rules or model checks that stand for it; ``pending``, what the rule that is to stand for it still needs; and
+    ``untestable``, why no run can show it. ``interpretations`` are ids of the files in ``suite/interpretations``.
+    """
+
+    id: str
+    clause: str
+    title: str
+    level: Level
+    meaning: str
+    observed: str = ""
+    rules: tuple[str, ...] = ()
+    untestable: str = ""
+    interpretations: tuple[str, ...] = ()
+    profile: str = "container"
+    pending: str = ""
+
+
+SUITE = Path(__file__).parents[2] / "suite"
+
+
+class Interpretation(Value, frozen=True):
+    """A place where the text is silent or contradicts itself: the decision, and the readings a framework may take.
+
+    The first value of an option holds unless the vendor declares another. ``profile`` is the one that asks first.
+    """
+
+    id: str
+    clauses: tuple[str, ...]
+    text: str
+    options: dict[str, tuple[str, ...]] = {}
+    profile: str = "container"
+
+
+@functools.cache
+def load_requirements() -> tuple[Requirement, ...]:
+    """The whole catalogue, in the order of the clauses. Raises ``DocumentError``."""
+    return tuple(r for path in sorted((SUITE / "requirements").glob("*.yaml")) for r in read(path, list[Requirement]))
+
+
+def in_the_making(profile: str) -> str:
+    """Why a run cannot choose ``profile`` yet; nothing for a profile that is complete or that nobody knows."""
+    requirements = [r for r in load_requirements() if r.profile in PARTS.get(profile, (profile,))]
+    pending = sum(bool(r.pending) for r in requirements)
+    if not pending:
+        return ""
+    return (
+        f"profile '{profile}' is in the making: {pending} of its {len(requirements)} requirements are not checked yet; "
+        "'ucm-cts explain' lists them"
+    )
+
+
+@functools.cache
+def load_interpretations() -> tuple[Interpretation, ...]:
+    """All decisions about unclear places. Raises ``DocumentError``."""
+    return tuple(
+        msgspec.structs.replace(entry, profile=profile)
+        for profile, pattern in _INTERPRETATIONS.items()
+        for path in sorted((SUITE / "interpretations").glob(pattern))
+        for entry in read(path, list[Interpretation])
+    )
+
+
+_INTERPRETATIONS = {
+    "container": "clause_11.yaml",
+    "core": "clause_10_1.yaml",
+    "pim": "clause_9*.yaml",
+    "idl": "clause_12.yaml",
+    "cpp": "clause_13.yaml",
+}
+"""Where the decisions about unclear places are, by the part of a profile that asks first."""
+
+
+class Capability(Value, frozen=True):
+    """A part of 10.1 that a vendor claims or leaves out; ``text`` says what it is."""
+
+    id: str
+    clause: str
+    text: str
+
+
+class Need(Value, frozen=True):
+    """What the vendor must claim, or declare (``option=value``), for the ``requirements`` to apply: all of ``needs``, and one
+    of ``one_of`` if there are any. ``requirements`` may hold ``*`` and ``[...]``.
+    """
+
+    requirements: tuple[str, ...]
+    needs: tuple[str, ...] = ()
+    one_of: tuple[str, ...] = ()
+
+
+class Capabilities(Value, frozen=True):
+    """The parts of 10.1, and what requirements need of them."""
+
+    capabilities: tuple[Capability, ...]
+    needs: tuple[Need, ...]
+
+    def of(self, requirement: str) -> list[Need]:
+        """What ``requirement`` needs; nothing for one that always applies."""
+        return [n for n in self.needs if any(fnmatch.fnmatchcase(requirement, p) for p in n.requirements)]
+
+
+@functools.cache
+def load_capabilities() -> Capabilities:
+    """What a vendor may leave out. Raises ``DocumentError``."""
+    return read(SUITE / "capabilities.yaml", Capabilities)
+
+
+@functools.cache
+def load_options() -> Mapping[str, tuple[str, ...]]:
+    """The values of all options of the interpretations; the first one holds unless the vendor declares another."""
+    return {option: values for entry in load_interpretations() for option, values in entry.options.items()}
+
+
+@functools.cache
+def load_life_cycle() -> LifeCycleTable:
+    """The life-cycle table. Raises ``DocumentError``."""
+    return read(SUITE / "life_cycle.yaml", LifeCycleTable)

@@ -1,0 +1,338 @@
+"""The command line: ``ucm-cts run``, ``ics``, ``explain``, ``replay``. Thin: reads arguments, calls the pipeline, prints."""
+
+from __future__ import annotations
+
+import random
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+from click.core import ParameterSource
+
+import ucm_cts
+from ucm_cts.adapters.contract.messages import Welcome
+from ucm_cts.harness.catalogue.documents import DocumentError
+from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.cli.compare_command import compare
+from ucm_cts.harness.cli.explanation import explanation, overview
+from ucm_cts.harness.cli.explore_command import explore
+from ucm_cts.harness.cli.options import (
+    CONFORMANT,
+    HARNESS_FAILED,
+    NOT_CONFORMANT,
+    WRONG_USE,
+    Folder,
+    Seconds,
+    adapter_argument,
+    ics_option,
+    in_process_option,
+    leave,
+    profile_option,
+    seed_option,
+    timeout_option,
+    toolchain_option,
+)
+from ucm_cts.harness.cli.selftest_command import selftest
+from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.cli.toolchain_command import certify_toolchain, profiles_of
+from ucm_cts.harness.execution.campaign import Campaign
+from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.execution.repeating import looking, repeated
+from ucm_cts.harness.hosting.hosts import HostUnavailable
+from ucm_cts.harness.hosting.locate import WrongUse, locate
+from ucm_cts.harness.purposes.scripts import TestPurpose, read_scripts, to_scenario
+from ucm_cts.harness.purposes.selection import select
+from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
+from ucm_cts.harness.report.sequence_text import failure_text, replay_text
+from ucm_cts.harness.report.summary import summary
+from ucm_cts.harness.report.write import prepare_folder, save_report
+from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean, one_line
+from ucm_cts.harness.results.known_failures import known_today, stale, succeeded
+from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.statement.applicability import purposes_for
+from ucm_cts.harness.statement.files import check_subject, stated_by
+from ucm_cts.harness.statement.writing import write_statement, write_toolchain_statement
+from ucm_cts.harness.toolchains.description import read_toolchain
+from ucm_cts.reference_models.monitor import Judge
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(ucm_cts.__version__, prog_name="ucm-cts")
+def cli() -> None:
+    """Certify a UCM framework: does it do what the Unified Component Model says, and how do you know?"""
+
+
+@cli.command()
+@adapter_argument
+@profile_option
+@click.option("-k", "expression", default="", help="Only test purposes whose id, clause or requirement contains this.")
+@seed_option
+@click.option(
+    "--out",
+    type=Folder(file_okay=False, path_type=Path),
+    default=Path("ucm-cts-report"),
+    show_default=True,
+)
+@click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
+@ics_option
+@toolchain_option
+@click.option("--repeat", type=click.IntRange(min=1), default=1, show_default=True, help="Runs, with a seed each.")
+@in_process_option
+@timeout_option
+@click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
+@click.option(
+    "--incident-time",
+    type=Seconds(min=0),
+    default=Limits.incident_seconds,
+    show_default=True,
+    help="Seconds that crashes and hangs may take in all before scenarios that would meet more of them are left out.",
+)
+@click.option(
+    "--systematic",
+    type=click.IntRange(0, MOST_EXTRA),
+    default=0,
+    show_default=True,
+    help="Systematic suites find out frameworks with so many states more than the life-cycle table gives them.",
+)
+@click.pass_context
+def run(
+    context: click.Context,
+    adapter: str,
+    profile: str,
+    expression: str,
+    seed: int | None,
+    out: Path,
+    known_failures: Path | None,
+    ics: Path | None,
+    toolchain: Path | None,
+    repeat: int,
+    in_process: bool,
+    timeout: float,
+    memory: int,
+    incident_time: float,
+    systematic: int,
+) -> None:
+    """Run a profile on ADAPTER, or on a tool chain, and write report.html, report.json and junit.xml.
+
+    ADAPTER is a short name (reference-cpp, reference-py, ipopo, ...), package.module:Class, a pybind11 module, an
+    executable, tcp://host:port or unix:/path. Exit status: 0 conformant, 1 not conformant or inconclusive, 2 wrong
+    use, 3 the harness failed.
+    """
+    drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
+    if toolchain is not None:
+        _refuse(context, ("adapter", "repeat", "in_process", "timeout", "memory", "incident_time", "systematic"))
+        chosen = profile if _is_given(context, "profile") else TOOLCHAIN_PROFILES[0]
+        certify_toolchain(toolchain, chosen, expression, out, known_failures, ics, drawn)
+    if profile in TOOLCHAIN_PROFILES:
+        raise WrongUse(f"profile '{profile}' is of tool chains; name the file that describes one with --toolchain")
+    console = Output()
+    known = known_today(known_failures)
+    statement = stated_by(ics, adapter)
+    purposes = purposes_for(statement, profile, systematic)
+    if expression:
+        purposes = select(purposes, expression)
+        if not purposes:
+            raise WrongUse(f"no test purpose matches -k '{expression}'; try a requirement, a clause or an operation")
+    limits = Limits(timeout, memory, incident_seconds=incident_time)
+    door = locate(adapter, in_process)
+    reports: list[Report] = []
+    interrupted = False
+    cut_short = ""
+    with ends_like_interrupts():
+        while len(reports) < repeat and not (interrupted or cut_short):
+            which = f"run {len(reports) + 1} of {repeat}"
+            try:
+                with Driver(door, drawn + len(reports), limits) as driver:
+                    if reports and not _is_of(driver.identity, reports[0]):
+                        cut_short = f"{which} was of another product, '{_name(driver.identity)}'"
+                        continue
+                    if not reports:
+                        check_subject(statement, driver.identity, profile)
+                        _tell_who(driver.identity, profile, drawn, console)
+                        prepare_folder(out)
+                    campaign = Campaign(driver, profile, known, statement)
+                    try:
+                        _check(campaign, purposes, console, f"{which}: " if repeat > 1 else "")
+                    except KeyboardInterrupt:
+                        interrupted = True
+                    if not (interrupted and reports):  # what is half done would look unstable
+                        reports.append(campaign.report())
+            except (HostUnavailable, WrongUse) as problem:
+                if not reports:
+                    raise
+                cut_short = f"{which} could not begin: {problem}"
+        try:
+            report = repeated(reports, looking(door, limits, statement.claims))
+        except (HostUnavailable, KeyboardInterrupt) as problem:
+            interrupted = interrupted or isinstance(problem, KeyboardInterrupt)
+            report = repeated(reports, lambda failed, seed: None)
+        save_report(report, out)
+    console.print(summary(report, out))
+    outdated = stale(known, report.requirements) if not expression and not interrupted else []
+    for entry in outdated:
+        console.print(
+            f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it",
+            markup=False,
+            soft_wrap=True,
+        )
+    if interrupted:
+        console.print("interrupted: the report holds what was measured so far")
+    if cut_short:
+        console.print(f"{cut_short}; the report holds the runs before", markup=False, soft_wrap=True)
+    status = NOT_CONFORMANT if outdated or interrupted or cut_short or not succeeded(report) else CONFORMANT
+    leave(console, status, f"; the report is in {out}")
+
+
+def _is_given(context: click.Context, parameter: str) -> bool:
+    return context.get_parameter_source(parameter) is ParameterSource.COMMANDLINE
+
+
+def _refuse(context: click.Context, parameters: Sequence[str]) -> None:
+    """Raise ``WrongUse`` if one of ``parameters`` was given, because only adapters have them."""
+    for parameter in context.command.params:
+        if parameter.name in parameters and _is_given(context, parameter.name):
+            name = "ADAPTER" if parameter.name == "adapter" else parameter.opts[0]
+            raise WrongUse(
+                f"{name} is for frameworks behind adapters, and --toolchain names a tool chain; leave one out"
+            )
+
+
+def _is_of(identity: Welcome, report: Report) -> bool:
+    return (identity.product, identity.version) == (report.product, report.version)
+
+
+def _name(identity: Welcome) -> str:
+    return one_line(f"{identity.product} {identity.version}", 80)
+
+
+def _tell_who(identity: Welcome, profile: str, seed: int, console: Output) -> None:
+    told = f"UCM-CTS {ucm_cts.__version__}: {_name(identity)}, profile {profile}, seed {seed}"
+    console.print(told, markup=False, soft_wrap=True)
+
+
+def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output, which: str = "") -> None:
+    with progress_of(console) as progress:
+        task = progress.add_task(f"{which}checking", total=len(purposes))
+        failing = 0
+        for checked in campaign.check(purposes):
+            failing += bool(checked.failures)
+            progress.update(task, advance=1, description=f"{which}{failing} failing, {_short(checked.purpose.id)}")
+        progress.update(task, description="taking second looks")
+        campaign.look_again()
+        if failing:
+            progress.update(task, description="looking for the shortest scenarios")
+            for _ in campaign.shorten():
+                pass
+
+
+@cli.command()
+@adapter_argument
+@click.option(
+    "--out", type=click.Path(dir_okay=False, path_type=Path), default=Path("ucm-cts-ics.toml"), show_default=True
+)
+@toolchain_option
+@click.option("--force", is_flag=True, help="Write over a file that is there.")
+@click.pass_context
+def ics(context: click.Context, adapter: str, out: Path, toolchain: Path | None, force: bool) -> None:
+    """Write the statement of the product behind ADAPTER, or of a tool chain, for its vendor to edit.
+
+    It names the parts that can be claimed, every reading that can be declared, times and tolerances. As written it changes
+    nothing: give the edited one to 'ucm-cts run --ics'.
+    """
+    subject = adapter
+    if toolchain is not None:
+        _refuse(context, ("adapter",))
+        subject = f"--toolchain {toolchain}"
+        described = read_toolchain(toolchain)
+        write_toolchain_statement(out, described, profiles_of(described), toolchain, force)
+    else:
+        with ends_like_interrupts(), Driver(locate(adapter), 0) as driver:
+            identity = driver.identity
+        write_statement(out, identity, adapter, force)
+    console = Output()
+    console.print(f"{out} is written; edit it, then: ucm-cts run {subject} --ics {out}", markup=False, soft_wrap=True)
+    leave(console, CONFORMANT)
+
+
+@cli.command()
+@click.argument("requirement", default="", required=False)
+def explain(requirement: str) -> None:
+    """Show REQUIREMENT: clause, meaning, interpretation, scenarios. Without it, list the catalogue."""
+    console = Output()
+    if not requirement:
+        console.print(overview())
+    else:
+        console.print(explanation(requirement))
+    leave(console, CONFORMANT)
+
+
+@cli.command()
+@click.argument("file", type=click.Path(dir_okay=False, path_type=Path))
+@adapter_argument
+@ics_option
+@in_process_option
+@seed_option
+@timeout_option
+def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: int | None, timeout: float) -> None:
+    """Run the scenario in FILE on ADAPTER and print what happens as a sequence diagram.
+
+    Exit status 1 if any rule was broken.
+    """
+    if file.suffix == ".xml":
+        raise WrongUse(
+            f"{file} is a model and no scenario; the report shows the command that gives it to the tool chain again"
+        )
+    scripts = read_scripts(file)
+    judge = Judge(load_life_cycle(), stated_by(ics, adapter).claims)
+    console = Output()
+    failed = False
+    with ends_like_interrupts(), Driver(locate(adapter, in_process), seed or 0, Limits(timeout)) as driver:
+        for answer in driver.run((script.scenario, to_scenario(script)) for script in scripts):
+            execution = driver.revealed(answer)
+            product = one_line(f"{driver.identity.product} {driver.identity.version}", 80)
+            console.out(f"{execution.name} on {product}\n", highlight=False)
+            console.out(replay_text(execution), highlight=False)
+            if execution.incident is not None:
+                failed = True
+                told = f"{clean(execution.incident.detail)}\n{clean(execution.incident.stacks, LONGEST_STACKS)}"
+                console.out(f"\n{execution.incident.kind}: {told}", highlight=False)
+                continue
+            findings = [driver.reveal(f) for f in judge.judge(answer.disguised, answer.trace).findings]
+            for finding in findings:
+                console.out("\n" + failure_text(finding, execution), highlight=False)
+            failed = failed or bool(findings)
+            console.out(
+                "\nno rule was broken" if not findings else f"\n{len(findings)} rule(s) broken", highlight=False
+            )
+    leave(console, NOT_CONFORMANT if failed else CONFORMANT)
+
+
+cli.add_command(selftest)
+cli.add_command(explore)
+cli.add_command(compare)
+
+
+def main() -> None:
+    """The console entry point: turns what goes wrong into one clear line and an exit status."""
+    try:
+        cli(standalone_mode=False)
+    except click.exceptions.Exit as end:
+        sys.exit(end.exit_code)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(WRONG_USE)
+    except (WrongUse, DocumentError, HostUnavailable) as error:
+        click.echo(f"ucm-cts: {error}", err=True)
+        sys.exit(WRONG_USE)
+    except (click.exceptions.Abort, KeyboardInterrupt):
+        click.echo("ucm-cts: interrupted", err=True)
+        sys.exit(HARNESS_FAILED)
+    except Exception as error:  # noqa: BLE001 - the last resort; nobody shall read a traceback
+        click.echo(f"ucm-cts: the harness failed: {type(error).__name__}: {error}", err=True)
+        sys.exit(HARNESS_FAILED)
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 50 else text[:47] + "..."

@@ -1,0 +1,189 @@
+"""``ucm-cts explore``: what does ADAPTER do with scenarios that nobody wrote?"""
+
+from __future__ import annotations
+
+import random
+import re
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+import ucm_cts
+from ucm_cts.harness.cli.options import (
+    CONFORMANT,
+    NOT_CONFORMANT,
+    Folder,
+    adapter_argument,
+    framework_profile_option,
+    ics_option,
+    in_process_option,
+    leave,
+    seed_option,
+    timeout_option,
+)
+from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
+from ucm_cts.harness.execution.driver import Driver, Limits
+from ucm_cts.harness.exploring.exploration import Exploration, Replayed
+from ucm_cts.harness.exploring.exploration import Progress as HowFar
+from ucm_cts.harness.exploring.memory import Memory, Remembered, open_databases
+from ucm_cts.harness.exploring.printing import found_text, is_found, known_text, mishaps, write_exploration
+from ucm_cts.harness.hosting.locate import locate
+from ucm_cts.harness.report.write import prepare_folder, write_failures
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.incidents import finding_of_incident
+from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.statement.files import check_subject, stated_by
+
+FOR_INCIDENTS = 0.5
+"""The part of the budget that crashes and hangs may take before scenarios that would meet more of them are left out."""
+
+_UNITS = {"s": 1, "m": 60, "h": 3600}
+
+
+@dataclass(frozen=True)
+class Budget:
+    """So many seconds, or so many scenarios."""
+
+    amount: float
+    is_time: bool = True
+
+    def spent(self, far: HowFar, seconds: float) -> float:
+        """How much of it is gone."""
+        return seconds if self.is_time else far.scenarios
+
+
+class _Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 8.2
+    """A budget as people write it."""
+
+    name = "budget"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Budget:
+        match = re.fullmatch(r"(\d{1,9})(s|m|h|scenarios)|(\d{1,6}\.\d{1,3})(s|m|h)", str(value))
+        if match is None or not float(match[1] or match[3]):
+            self.fail(
+                f"'{value}' is no budget; write a time or a number of scenarios: 60s, 5m, 2h, 500scenarios.", param, ctx
+            )
+        amount, unit = float(match[1] or match[3]), match[2] or match[4]
+        return Budget(amount * _UNITS[unit]) if unit in _UNITS else Budget(amount, is_time=False)
+
+
+@click.command()
+@adapter_argument
+@click.option(
+    "--budget",
+    type=_Budget(),
+    default="60s",
+    show_default=True,
+    help="How long to draw scenarios, or how many: 60s, 5m, 2h, 500scenarios.",
+)
+@framework_profile_option
+@seed_option
+@click.option(
+    "--out", type=Folder(file_okay=False, path_type=Path), default=Path("ucm-cts-exploration"), show_default=True
+)
+@click.option(
+    "--database",
+    "databases",
+    multiple=True,
+    help="Where failures are remembered: a folder, readonly:folder, or module:NAME of a hypothesis ExampleDatabase. "
+    "May be given several times. Without it, the folder 'examples' in the folder of --out.",
+)
+@ics_option
+@in_process_option
+@timeout_option
+def explore(
+    adapter: str,
+    budget: Budget,
+    profile: str,
+    seed: int | None,
+    out: Path,
+    databases: Sequence[str],
+    ics: Path | None,
+    in_process: bool,
+    timeout: float,
+) -> None:
+    """Draw scenarios that nobody wrote, run them on ADAPTER, and shorten what fails.
+
+    Failures are remembered and tried first the next time. Exit status: 0 nothing found, 1 something found or
+    interrupted, 2 wrong use, 3 the harness failed.
+    """
+    console = Output()
+    statement = stated_by(ics, adapter)
+    drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
+    incident_seconds = FOR_INCIDENTS * budget.amount if budget.is_time else Limits.incident_seconds
+    limits = Limits(timeout, incident_seconds=incident_seconds)
+    with ends_like_interrupts(), Driver(locate(adapter, in_process), drawn, limits) as driver:
+        identity = driver.identity
+        check_subject(statement, identity, profile)
+        prepare_folder(out)
+        database = open_databases(databases or [str(out / "examples")])
+        memory = Memory(database, identity.product, profile)
+        name = one_line(f"{identity.product} {identity.version}", 80)
+        console.print(
+            f"UCM-CTS {ucm_cts.__version__}: exploring {name}, profile {profile}, seed {drawn}",
+            markup=False,
+            soft_wrap=True,
+        )
+        exploration = Exploration(driver, profile, statement, memory)
+        known, far, interrupted = _explore(exploration, memory, budget, console)
+        report = exploration.report()
+    write_failures(report, out)
+    write_exploration(report, far, known, out)
+    _remember(report, memory)
+    console.print(found_text(report, far, out))
+    if interrupted:
+        console.print("interrupted: what was found so far is kept, and shortened the next time")
+    found = is_found(report)
+    leave(console, NOT_CONFORMANT if found or interrupted else CONFORMANT, f"; what was found is in {out}")
+
+
+def _explore(
+    exploration: Exploration, memory: Memory, budget: Budget, console: Output
+) -> tuple[list[Replayed], HowFar, bool]:
+    """What is still there, how far it came, and whether it was interrupted."""
+    known: list[Replayed] = []
+    far = HowFar(0, 0, 0, 0, 0)
+    with _progress(console) as progress:
+        task = progress.add_task("trying what is remembered", total=budget.amount)
+        try:
+            known = exploration.replay()
+            if known or memory.unreadable:
+                console.print(known_text(known, memory.unreadable))
+            began = time.monotonic()
+            for far in exploration.explore():
+                spent = budget.spent(far, time.monotonic() - began)
+                _show(progress, task, far, spent)
+                if spent >= budget.amount:
+                    break
+            progress.update(task, description="looking for the shortest scenarios", completed=budget.amount)
+            exploration.finish()
+        except KeyboardInterrupt:
+            return known, far, True
+    return known, far, False
+
+
+def _progress(console: Output) -> Progress:
+    columns = TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn()
+    return Progress(*columns, console=console, transient=True)
+
+
+def _show(progress: Progress, task: TaskID, far: HowFar, spent: float) -> None:
+    told = (
+        f"{far.scenarios} scenarios, {far.rows} of {far.of} rows, {far.events} pairs of events, {far.failures} failures"
+    )
+    progress.update(task, description=told, completed=spent)
+
+
+def _remember(report: Report, memory: Memory) -> None:
+    for result in report.requirements:
+        for failed in result.findings:
+            if failed.execution is not None and not failed.unstable:
+                memory.remember(Remembered.of_finding(failed.finding, failed.execution.scenario))
+    for _, item in mishaps(report):
+        if item.incident.kind != "unreachable" and finding_of_incident(item.execution) is None:
+            memory.remember(Remembered.of_incident(item.execution))

@@ -1,0 +1,76 @@
+"""What several commands of the command line take, and how they end."""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+from typing import Any, NoReturn
+
+import click
+
+from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PROFILES
+from ucm_cts.harness.catalogue.requirements import in_the_making
+from ucm_cts.harness.cli.terminal import Output
+from ucm_cts.harness.execution.driver import Limits
+
+CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
+"""Exit statuses; what is not conformant may be merely inconclusive."""
+
+DEFAULT_ADAPTER = "reference-cpp"
+
+
+class Seconds(click.FloatRange):
+    """A time that passes."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        seconds = super().convert(value, param, ctx)
+        if not math.isfinite(seconds):
+            self.fail(f"'{value}' is no number of seconds.", param, ctx)
+        return seconds
+
+
+class Folder(click.Path):
+    """A folder that has a name."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value == "":
+            self.fail("name a folder for the report.", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+class Profile(click.Choice):  # type: ignore[type-arg] # generic since click 8.2
+    """What a run can check."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        unfinished = in_the_making(value)
+        if unfinished:
+            self.fail(f"{unfinished}; there is {', '.join(self.choices)}.", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+adapter_argument = click.argument("adapter", default=DEFAULT_ADAPTER, required=False)
+profile_option = click.option("--profile", type=Profile(PROFILES), default="container", show_default=True)
+framework_profile_option = click.option(
+    "--profile", type=Profile(FRAMEWORK_PROFILES), default="container", show_default=True
+)
+in_process_option = click.option("--in-process", is_flag=True, help="No host process: for debuggers and sanitizers.")
+seed_option = click.option("--seed", type=int, help="Repeat a run: names and payloads are drawn from it.")
+ics_option = click.option("--ics", type=click.Path(dir_okay=False, path_type=Path), help="The vendor's statement.")
+toolchain_option = click.option(
+    "--toolchain",
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="The tool chain that this file describes, instead of an adapter.",
+)
+timeout_option = click.option(
+    "--timeout", type=Seconds(min=0.1), default=Limits.seconds, show_default=True, help="Seconds a scenario may take."
+)
+
+
+def leave(console: Output, status: int, remainder: str = "") -> NoReturn:
+    """End with ``status``, unless something of what was to be read is lost."""
+    console.file.flush()
+    if console.error:
+        click.echo(f"ucm-cts: standard output cannot be written: {console.error}{remainder}", err=True)
+        sys.exit(HARNESS_FAILED)
+    sys.exit(status)

@@ -1,0 +1,244 @@
+"""``pytest --pyargs ucm_cts.suite --iut ADAPTER``: the same pipeline, one node a test purpose.
+
+Installed as a pytest plugin; it does nothing unless ``ucm_cts.suite`` is collected. The host and the verdicts live as
+long as the session; each node runs its purpose's scenarios on them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import random
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from ucm_cts.harness.execution.campaign import Campaign
+    from ucm_cts.harness.purposes.scripts import TestPurpose
+    from ucm_cts.harness.results.statement import Statement
+    from ucm_cts.harness.results.values import Execution, Report
+    from ucm_cts.reference_models.findings import Finding
+
+
+_PROFILE = "container"
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Options of the suite."""
+    group = parser.getgroup("ucm-cts", "UCM conformance")
+    group.addoption("--iut", metavar="ADAPTER", help="implementation under test, as for 'ucm-cts run'")
+    group.addoption("--iut-profile", default=_PROFILE, help="conformance profile (default: container)")
+    group.addoption("--iut-seed", type=int, help="repeat a run: names and payloads are drawn from it")
+    group.addoption("--iut-out", metavar="DIR", help="write report.html, report.json and junit.xml there")
+    group.addoption("--iut-known-failures", metavar="FILE", help="failures expected for now; they count as xfailed")
+    group.addoption("--iut-ics", metavar="FILE", help="the vendor's statement, as for 'ucm-cts run'")
+    group.addoption("--iut-timeout", type=_seconds, metavar="SECONDS", help="how long a scenario may take (default: 5)")
+    group.addoption("--iut-memory", type=int, metavar="MIB", help="how much memory a host may use (default: 1024)")
+    group.addoption(
+        "--iut-incident-time",
+        type=_seconds,
+        metavar="SECONDS",
+        help="how long crashes and hangs may take (default: 60)",
+    )
+    group.addoption("--iut-in-process", action="store_true", help="no host process: for debuggers and sanitizers")
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0 < seconds < math.inf:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of seconds")
+    return seconds
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Wrong use is told before anything runs."""
+    profile = config.getoption("--iut-profile")
+    if profile != _PROFILE:
+        from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
+        from ucm_cts.harness.catalogue.requirements import in_the_making
+
+        if profile not in FRAMEWORK_PROFILES:
+            problem = in_the_making(profile) or f"there is no profile '{profile}'"
+            raise pytest.UsageError(f"{problem}; there is {', '.join(FRAMEWORK_PROFILES)}")
+    if config.getoption("--iut-ics"):
+        _statement(config)
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Each suite module asks for the purposes of its clauses: ``CLAUSES`` is a tuple of prefixes."""
+    if not metafunc.module.__name__.startswith("ucm_cts.suite."):
+        return
+    from ucm_cts.harness.statement.applicability import purposes_for
+
+    profile = metafunc.config.getoption("--iut-profile")
+    chosen = [p for p in purposes_for(_statement(metafunc.config), profile) if _belongs(p, metafunc.module.CLAUSES)]
+    metafunc.parametrize("purpose", chosen or [None], ids=[p.id.replace(" ", "-") for p in chosen] or ["none"])
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """A module whose clauses have no purpose in this profile has nothing to check, nor to skip."""
+    empty = [item for item in items if _has_no_purpose(item)]
+    if empty:
+        config.hook.pytest_deselected(items=empty)
+        items[:] = [item for item in items if item not in empty]
+
+
+def _has_no_purpose(item: pytest.Item) -> bool:
+    if not isinstance(item, pytest.Function) or not item.module.__name__.startswith("ucm_cts.suite."):
+        return False
+    call = getattr(item, "callspec", None)
+    return call is not None and call.params.get("purpose", item) is None
+
+
+def _statement(config: pytest.Config) -> Statement:
+    """What the vendor states."""
+    if _STATEMENT not in config.stash:
+        from pathlib import Path
+
+        from ucm_cts.harness.catalogue.documents import DocumentError
+        from ucm_cts.harness.hosting.locate import WrongUse
+        from ucm_cts.harness.statement.files import stated_by
+
+        given = config.getoption("--iut-ics")
+        try:
+            config.stash[_STATEMENT] = stated_by(Path(given) if given else None, config.getoption("--iut") or "")
+        except (WrongUse, DocumentError) as error:
+            raise pytest.UsageError(str(error)) from None
+    return config.stash[_STATEMENT]
+
+
+def _belongs(purpose: TestPurpose, clauses: tuple[str, ...]) -> bool:
+    return any(purpose.clause == c or purpose.clause.startswith(c + ".") for c in clauses)
+
+
+@pytest.fixture(scope="session")
+def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
+    """The run against ``--iut``; its report is written when the session ends."""
+    from contextlib import ExitStack
+    from pathlib import Path
+
+    from ucm_cts.harness.catalogue.documents import DocumentError
+    from ucm_cts.harness.execution.campaign import Campaign
+    from ucm_cts.harness.execution.driver import Driver, Limits
+    from ucm_cts.harness.hosting.hosts import HostUnavailable
+    from ucm_cts.harness.hosting.locate import WrongUse, locate
+    from ucm_cts.harness.report.write import prepare_folder, save_report
+    from ucm_cts.harness.results.known_failures import known_today
+    from ucm_cts.harness.statement.files import check_subject
+
+    config = request.config
+    adapter, out, seed, list_of_known = (
+        config.getoption(f"--iut{name}") for name in ("", "-out", "-seed", "-known-failures")
+    )
+    if not adapter:
+        message = "say which implementation to test: --iut ADAPTER, for instance --iut reference-py"
+        pytest.exit(f"ucm-cts: {message}", returncode=2)
+    statement = _statement(config)
+    drawn = seed if seed is not None else random.SystemRandom().randrange(2**32)
+    given = {
+        limit: config.getoption(f"--iut-{name}")
+        for limit, name in (("seconds", "timeout"), ("memory", "memory"), ("incident_seconds", "incident-time"))
+    }
+    limits = Limits(**{limit: value for limit, value in given.items() if value is not None})
+    with ExitStack() as cleanup:
+        try:
+            known = known_today(Path(list_of_known) if list_of_known else None)
+            door = locate(adapter, config.getoption("--iut-in-process"))
+            driver = cleanup.enter_context(Driver(door, drawn, limits))
+            _ = driver.disguise  # asks who is there
+            profile = config.getoption("--iut-profile")
+            check_subject(statement, driver.identity, profile)
+            running = Campaign(driver, profile, known, statement)
+            if out:
+                prepare_folder(Path(out))
+        except (WrongUse, DocumentError, HostUnavailable) as error:
+            pytest.exit(f"ucm-cts: {error}", returncode=2)
+        yield running
+        running.look_again()
+        if out:
+            for _ in running.shorten():
+                pass
+        report = running.report()
+        config.stash[_UNDECIDED] = _undecided(running, report)
+        if out:
+            save_report(report, Path(out))
+
+
+_UNDECIDED = pytest.StashKey[list[str]]()
+_STATEMENT: pytest.StashKey[Statement] = pytest.StashKey()
+
+
+def _undecided(campaign: Campaign, report: Report) -> list[str]:
+    """What no node shows and yet is not green: a line each. Of a selection only what it meant to find out counts."""
+    from ucm_cts.harness.results.known_failures import stale
+    from ucm_cts.harness.statement.applicability import purposes_for
+
+    meant = {requirement for purpose in campaign.checked for requirement in purpose.requirements}
+    whole = len(campaign.checked) == len(purposes_for(campaign.statement, report.profile))
+    lines = [
+        f"{r.verdict} {r.id}: {r.reason}"
+        for r in report.requirements
+        if r.verdict in ("inconclusive", "error") and (whole or r.id in meant)
+    ]
+    lines += [
+        f"fail {r.id}: expected {f.finding.expected}; observed {f.finding.observed}"
+        for r in report.requirements
+        for f in r.findings
+        if f.execution is None and not f.waived and (whole or r.id in meant)
+    ]
+    if whole:
+        lines += [
+            f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it"
+            for entry in stale(campaign.known, report.requirements)
+        ]
+    return lines
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Nothing passes without having been exercised."""
+    if session.config.stash.get(_UNDECIDED, []) and session.exitstatus == pytest.ExitCode.OK:
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """Say what is not known."""
+    lines = config.stash.get(_UNDECIDED, [])
+    if lines:
+        terminalreporter.section("UCM conformance is not established", red=True)
+        for line in lines:
+            terminalreporter.write_line(line)
+
+
+@pytest.fixture
+def check(campaign: Campaign) -> object:
+    """Run a purpose and fail with what was expected and what was observed."""
+
+    def run(purpose: TestPurpose) -> None:
+        from ucm_cts.harness.results.known_failures import waiver_for
+
+        for checked in campaign.check([purpose]):
+            reasons = [waiver_for(f, campaign.known) if f is not None else "" for f, _ in checked.failures]
+            if reasons and all(reasons):
+                pytest.xfail("; ".join(sorted(set(reasons))))
+            stories = [_story(finding, execution) for finding, execution in checked.failures[:3]]
+            if stories:
+                more = len(checked.failures) - len(stories)
+                pytest.fail("\n\n".join(stories) + (f"\n\nand {more} more" if more > 0 else ""), pytrace=False)
+
+    return run
+
+
+def _story(finding: Finding | None, execution: Execution) -> str:
+    from ucm_cts.harness.report.sequence_text import failure_text
+    from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS
+
+    if finding is not None:
+        head = f"{finding.requirement}: expected {finding.expected}; observed {finding.observed}"
+        return f"{head}\nscenario {execution.name}\n{failure_text(finding, execution)}"
+    incident = execution.incident
+    assert incident is not None
+    blame = "" if incident.kind in FRAMEWORK_INCIDENTS else "\nThis says nothing about the framework."
+    return f"{incident.kind}: {incident.detail}{blame}\n{incident.stacks}"

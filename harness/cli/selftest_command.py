@@ -1,0 +1,190 @@
+"""``ucm-cts selftest``: does the suite catch what is wrong, and spare what is right?"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import click
+from rich.table import Table
+
+from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
+from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.report.order import clause_key
+from ucm_cts.harness.report.write import prepare_folder
+from ucm_cts.harness.selftest.cheating import all_cheats
+from ucm_cts.harness.selftest.conducting import Conduct, Result
+from ucm_cts.harness.selftest.killing import Subject, Thoroughness, all_mutants, all_variants, names
+from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult, by_clause
+from ucm_cts.harness.selftest.models_killing import all_models
+from ucm_cts.harness.selftest.page import write_matrix
+from ucm_cts.harness.selftest.toolchains import ToolChainSubject, all_subjects
+
+TOLD_EVERY = 50
+"""Where no progress can be drawn, it is told each time so many have been examined."""
+
+LISTED = 40
+"""So many survivors, spills and wronged variants are told in the terminal; the page has them all."""
+
+
+@click.command()
+@click.argument("names_wanted", metavar="[NAME]...", nargs=-1)
+@click.option("--quick", is_flag=True, help="Leave each mutant as soon as it is killed, and the variants out.")
+@click.option("--whole", is_flag=True, help="Everybody goes through all of profile core, not only clauses of interest.")
+@click.option("--jobs", type=click.IntRange(min=1), default=2 * (os.cpu_count() or 1), show_default=True)
+@click.option("--seed", type=int, default=1, show_default=True)
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False, path_type=Path),
+    default=Path("ucm-cts-selftest"),
+    show_default=True,
+    help="Where the kill matrix goes: matrix.html and matrix.json.",
+)
+@click.option("--toolchains", is_flag=True, help="Examine tool chains, derived from the reference tool chain.")
+@click.option("--list", "listed", is_flag=True, help="Name all mutants and variants, and run nothing.")
+def selftest(
+    names_wanted: Sequence[str],
+    quick: bool,
+    whole: bool,
+    jobs: int,
+    seed: int,
+    out: Path,
+    toolchains: bool,
+    listed: bool,
+) -> None:
+    """Run the suite on subjects whose verdict is known: mutants, each with one defect, conformant variants, and cheats.
+
+    A mutant is killed if each requirement that it violates fails, and a finding names the events in which it differs from
+    the framework it was made from. Exit status 1 if one survives or fails something else, if a variant
+    is failed, or a cheat not found out.
+    """
+    console = Output()
+    subjects: Mapping[str, Subject | ToolChainSubject]
+    cheats: list[str] = []
+    models: tuple[str, ...] = ()
+    if toolchains:
+        subjects = all_subjects()
+        chosen: list[Subject | ToolChainSubject] = list(names(subjects, names_wanted))
+    else:
+        subjects = {**all_mutants(), **all_variants()}
+        chosen = list(names(subjects, names_wanted, all_cheats()))
+        cheats = [name for name in all_cheats() if name in names_wanted or not names_wanted]
+        models = () if names_wanted else all_models()
+    if listed:
+        _list(chosen, cheats, models, console)
+        return
+    conduct = Conduct(
+        [subject for subject in chosen if subject.breaks],
+        [subject for subject in chosen if not subject.breaks and not quick],
+        Thoroughness(seed, whole, quick),
+        jobs,
+        models,
+        cheats if names_wanted or not quick else [],
+        is_all=not (names_wanted or quick),
+        of_toolchains=toolchains,
+    )
+    if not conduct.number:
+        raise WrongUse("--quick leaves conformant variants out, and nobody else is named; leave out --quick")
+    if not toolchains and not any(isinstance(s, Subject) and s.is_native for s in subjects.values()):
+        console.print("native mutants are left out: their executable comes with an installed ucm-cts, and is not here")
+    prepare_folder(out)
+    interrupted = _conduct(conduct, console)
+    write_matrix(conduct.matrix, out)
+    console.print(summary(conduct.matrix))
+    _tell_the_rest(conduct.matrix, console)
+    console.print(f"{out / 'matrix.html'} shows the kill matrix", markup=False, soft_wrap=True)
+    if interrupted:
+        console.print("interrupted: the matrix holds what was found so far")
+    sys.exit(0 if conduct.matrix.is_proved and not interrupted else 1)
+
+
+def _list(
+    chosen: Sequence[Subject | ToolChainSubject], cheats: Sequence[str], models: Sequence[str], console: Output
+) -> None:
+    for subject in chosen:
+        told = f"breaks {', '.join(subject.breaks)}: {subject.lie}" if subject.breaks else "is conformant"
+        console.print(f"{subject.name} {told}", markup=False, soft_wrap=True)
+    for name in cheats:
+        console.print(f"{name} cheats: {all_cheats()[name].lie}", markup=False, soft_wrap=True)
+    for requirement in models:
+        console.print(f"models of {requirement} are spoilt, in every way", markup=False, soft_wrap=True)
+
+
+def _conduct(conduct: Conduct, console: Output) -> bool:
+    """Run everybody; True if interrupted."""
+    done = wrong = 0
+    with ends_like_interrupts(), progress_of(console) as progress:
+        total = conduct.number
+        task = progress.add_task("examining", total=total)
+
+        def tell(result: Result) -> None:
+            nonlocal done, wrong
+            done += 1
+            wrong += not is_well(result)
+            if not console.is_terminal and (done == 1 or done % TOLD_EVERY == 0):
+                console.print(f"{done} of {total} examined, {wrong} not as they should be")
+                console.file.flush()
+            progress.update(task, advance=1, description=f"{wrong} not as they should be, {result.name[:40]}")
+
+        try:
+            conduct.run(tell)
+        except KeyboardInterrupt:
+            return True
+    return False
+
+
+def summary(matrix: Matrix) -> Table:
+    """Mutants and requirements by clause."""
+    table = Table("clause", "mutants", "killed", "spills", "requirements", "with a killed mutant", title="Kill matrix")
+    groups = by_clause(matrix.mutants)
+    killers = matrix.killers
+    for clause in sorted(groups, key=clause_key):
+        mutants = groups[clause]
+        due = [r for r in matrix.testable if r.removeprefix("R-").rpartition("-")[0] == clause]
+        table.add_row(clause, *_counts(mutants), str(len(due)), str(sum(bool(killers[r]) for r in due)))
+    all_due = [r for r in matrix.testable if killers[r]]
+    table.add_section()
+    table.add_row("all", *_counts(matrix.mutants), str(len(matrix.testable)), str(len(all_due)))
+    spared = sum(variant.is_spared for variant in matrix.variants)
+    found = len(matrix.cheats) - len(matrix.undetected)
+    table.caption = (
+        f"{spared} of {len(matrix.variants)} conformant variants spared; "
+        f"{found} of {len(matrix.cheats)} cheats come out as they should; {matrix.seconds:.0f} s"
+    )
+    return table
+
+
+def is_well(result: Result) -> bool:
+    """Is it as it should be?"""
+    match result:
+        case MutantResult():
+            return result.is_killed and not result.spills
+        case VariantResult():
+            return result.is_spared
+        case _:
+            return result.is_as_it_should
+
+
+def _counts(mutants: Sequence[MutantResult]) -> tuple[str, str, str]:
+    killed = sum(mutant.is_killed for mutant in mutants)
+    return str(len(mutants)), str(killed), str(sum(bool(mutant.spills) for mutant in mutants))
+
+
+def _tell_the_rest(matrix: Matrix, console: Output) -> None:
+    lines = [
+        *(f"{m.name} survives: {m.trouble or ', '.join(m.survives)}" for m in matrix.survivors),
+        *(f"{m.name} also fails {k.requirement}: {k.observed}" for m in matrix.spilling for k in m.spills),
+        *(f"{v.name} is conformant and fails {k.requirement}: {k.observed}" for v in matrix.wronged for k in v.failed),
+        *(
+            f"{c.name} cheats, and {', '.join(c.came_out) or 'nothing'} comes out: {c.trouble}"
+            for c in matrix.undetected
+        ),
+        *(f"{requirement} is broken by no mutant that was killed" for requirement in matrix.unproved),
+        *(f"{v.name} is conformant: {v.trouble or ', '.join(v.incidents)}" for v in matrix.wronged if not v.failed),
+    ]
+    for line in lines[:LISTED]:
+        console.print(line, markup=False, soft_wrap=True)
+    if len(lines) > LISTED:
+        console.print(f"and {len(lines) - LISTED} more")

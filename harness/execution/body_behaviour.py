@@ -1,0 +1,216 @@
+"""Bodies and threads of a trace: who is where, and does everybody do what it was told to?"""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.scenario import Declaration, Scenario
+from ucm_cts.adapters.contract.trace import (
+    BodyEvent,
+    Call,
+    Create,
+    Dependency,
+    Enter,
+    Exit,
+    Held,
+    Pushed,
+    Reply,
+    Request,
+    Siblings,
+)
+from ucm_cts.harness.execution.planned_actions import Act, Plan, is_as_planned, plan_of
+
+_NONE_HELD: dict[str, int] = {}
+"""Held by a body that was given no references. Nobody adds to it."""
+
+
+class Body:
+    """One that was made; ``held`` is how many references it holds of each port element."""
+
+    __slots__ = ("declaration", "held", "plans")
+
+    def __init__(self, declaration: Declaration) -> None:
+        self.declaration = declaration
+        self.held = _NONE_HELD
+        self.plans: dict[str, Plan] = {}
+
+    def plan(self, hook: s.Hook) -> Plan:
+        """What it has to do there."""
+        plan = self.plans.get(hook)
+        if plan is None:
+            plan = self.plans[hook] = plan_of(self.declaration, hook)
+        return plan
+
+    def be_given(self, dependencies: tuple[Dependency, ...]) -> None:
+        """It hears which references there are."""
+        self.held = {}
+        for dependency in dependencies:
+            given = sum(reference is not None for reference in dependency.references)
+            self.held[dependency.port] = self.held.get(dependency.port, 0) + given
+
+
+class Frame:
+    """What a thread is inside of: an operation, a call of a body, or a ``body``. There ``acts`` is what it has done by now,
+    and ``held`` what it held when it was entered.
+    """
+
+    __slots__ = ("acts", "body", "event", "held")
+
+    def __init__(self, event: Call | Enter | Request, body: Body | None = None) -> None:
+        self.event = event
+        self.body = body
+        self.acts: list[Act] = []
+        self.held = body.held if body is not None else _NONE_HELD
+
+
+class Thread:
+    """``clock`` is when its last event was, ``frames`` what it is inside of, ``number`` how the trace calls it."""
+
+    __slots__ = ("clock", "frames", "number")
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self.clock: int | None = None
+        self.frames: list[Frame] = []
+
+    def entered(self, event: BodyEvent) -> Frame | None:
+        """Where the body that acts is; None if this thread is not inside it."""
+        frame = self.frames[-1] if self.frames else None
+        inside = frame.event if frame is not None else None
+        if type(inside) is Enter and inside.instance == event.instance and inside.component == event.component:
+            return frame
+        return None
+
+
+class Acting:
+    """Follows bodies event by event. Each check tells what is wrong with its event, None if nothing is."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self.made: dict[str, list[Body]] = {name: [] for name in scenario.components}
+
+    def exists(self, component: str, instance: int) -> bool:
+        """Was it made?"""
+        return 1 <= instance <= len(self.made.get(component, ()))
+
+    def body(self, event: BodyEvent) -> Body | None:
+        """The body that the event is about; None if it was never made."""
+        made = self.made.get(event.component)
+        return made[event.instance - 1] if made and 1 <= event.instance <= len(made) else None
+
+    def astray(self, event: BodyEvent) -> str:
+        """Why the body that acts cannot do so: it was never made, or is not entered."""
+        if event.component not in self.made:
+            return f"there is no component {event.component}"
+        if not self.exists(event.component, event.instance):
+            return f"instance {event.instance} of {event.component} was never made"
+        return f"{event.component} acts without having been entered"
+
+    def check_create(self, event: Create, thread: Thread) -> str | None:
+        bodies = self.made.get(event.component)
+        if bodies is None:
+            return self.astray(event)
+        bodies.append(Body(self.scenario.components[event.component]))
+        due = len(bodies)
+        return None if event.instance == due else f"instance {event.instance} is made after {due - 1}"
+
+    def check_enter(self, event: Enter, thread: Thread) -> str | None:
+        body = self.body(event)
+        if body is None:
+            return self.astray(event)
+        problem = _entry_problem(body.declaration, event)
+        if event.dependencies is not None:
+            body.be_given(event.dependencies)
+        thread.frames.append(Frame(event, body))
+        return problem
+
+    def check_request(self, event: Request, thread: Thread) -> str | None:
+        body = self.body(event)
+        if body is None:
+            return self.astray(event)
+        within = next((frame for frame in reversed(thread.frames) if frame.body is not None), None)
+        if within is not None:
+            within.acts.append(event)
+        thread.frames.append(Frame(event))
+        declaration = body.declaration
+        known = event.port in declaration.requires or event.port in [p.element for p in declaration.policies]
+        return None if known else f"a request through {event.port!r}"
+
+    def check_reply(self, event: Reply, thread: Thread) -> str | None:
+        asked = thread.frames[-1].event if thread.frames else None
+        same = isinstance(asked, Request) and asked.port == event.port and asked.instance == event.instance
+        if not same or asked.component != event.component:  # type: ignore[union-attr]
+            exists = self.exists(event.component, event.instance)
+            return "a reply without its request" if exists else self.astray(event)
+        thread.frames.pop()
+        return None
+
+    def check_act(self, event: Pushed | Siblings | Held, thread: Thread) -> str | None:
+        frame = thread.entered(event)
+        if frame is None or frame.body is None:
+            return self.astray(event)
+        frame.acts.append(event)
+        if isinstance(event, Pushed):
+            told = sum(event.answers.values())
+            return None if told == event.count else f"{told} answers to {event.count} messages"
+        if isinstance(event, Held):
+            actions = frame.body.plan(frame.event.hook).actions  # type: ignore[union-attr]
+            if event.gate not in {a.gate for a in actions if isinstance(a, s.HoldAtGate)}:
+                return f"held at {event.gate!r}, which the plan does not name"
+        return None
+
+    def check_exit(self, event: Exit, thread: Thread) -> str | None:
+        frame = thread.entered(event)
+        if frame is None or frame.body is None:
+            return self.astray(event)
+        thread.frames.pop()
+        enter, body, acts = frame.event, frame.body, frame.acts
+        assert isinstance(enter, Enter)
+        if enter.hook != event.hook:
+            return f"{event.hook} is left where {enter.hook} was entered"
+        actions, raises, returned = plan = body.plan(enter.hook)
+        if event.raised != raises:
+            return f"{event.hook} {'raised' if event.raised else 'did not raise'} against its plan"
+        if event.hook == "method" and not event.raised:
+            due = _due_results(plan, enter)
+            if (event.results, event.exception) != due:
+                return f"{enter.method} gave {event.results!r}, its plan says {due[0]!r}"
+        if actions or acts:  # most bodies have nothing to do
+            now, before = body.held, frame.held
+            if not is_as_planned(actions, acts, (now,) if now is before else (now, before)):
+                return f"{event.component} did not act in {event.hook} as its plan says"
+        if event.hook == "on_shutdown":
+            body.held = _NONE_HELD
+        if event.hook != "exchange" or event.raised or enter.value is None:
+            return None
+        value = ~enter.value if returned is None else returned
+        return None if event.value == value else f"exchange returned {event.value}, its plan says {value}"
+
+
+def _due_results(plan: Plan, enter: Enter) -> tuple[tuple[Datum, ...] | None, str | None]:
+    """What a method gives back, and the exception that it is left with."""
+    answers = [a for a in plan.actions if isinstance(a, s.Answer) and a.method == enter.method]
+    if not answers:
+        return (), None
+    own = answers[-1].results
+    return enter.arguments if own is None else own, answers[-1].exception
+
+
+def _entry_problem(declaration: Declaration, event: Enter) -> str | None:
+    """Why a body of this declaration cannot be entered so."""
+    hook = event.hook
+    if (hook == "on_startup") != (event.dependencies is not None):
+        return f"{hook} {'with' if event.dependencies is not None else 'without'} dependencies"
+    if hook == "exchange":
+        right = event.value is not None and event.port in declaration.provides
+        return None if right else f"exchange on {event.port!r} with {event.value!r}"
+    if hook == "method":
+        right = event.method is not None and event.arguments is not None and event.port in declaration.ports
+        return None if right else f"method {event.method!r} on {event.port!r}"
+    if hook == "run" and all(policy.definition != s.SELF_EXECUTING for policy in declaration.policies):
+        return "run of a component that does not execute by itself"
+    if hook in ("on_connect", "on_disconnect") and not declaration.connectable:
+        return f"{hook} on a body that is not Connectable"
+    if hook == "set_container_interface" and not declaration.fragment:
+        return "set_container_interface on a body that is no fragment"
+    return None

@@ -1,0 +1,210 @@
+"""One run against one implementation under test: drive, judge, take a second look, shorten, and add up."""
+
+from __future__ import annotations
+
+import datetime
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import ucm_cts
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
+from ucm_cts.harness.execution.confirmation import TIMED, Doubt, Doubts
+from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.execution.shortening import Shortening
+from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.results.incidents import finding_of_incident
+from ucm_cts.harness.results.known_failures import KnownFailure
+from ucm_cts.harness.results.statement import Statement, default_statement
+from ucm_cts.harness.results.tally import Cause, Tally, overall
+from ucm_cts.harness.results.values import Effort, Execution, Report
+from ucm_cts.harness.statement.checks import check_statement
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.verdicts import Ledger
+
+SECONDS_FOR_SECOND_LOOKS = 60
+"""How long second looks may take in all; what was not looked at again stands."""
+
+NOT_LOOKED_AT = "failures without a second look"
+"""Among the measures: there was no time left for so many."""
+
+
+@dataclass(frozen=True)
+class Checked:
+    """What came out for one test purpose: the failures its scenarios showed, of whatever requirement."""
+
+    purpose: TestPurpose
+    executions: int
+    failures: tuple[tuple[Finding | None, Execution], ...]
+
+
+class Campaign:
+    """Runs test purposes on the driver's implementation and collects verdicts. Use ``check`` often, ``report`` once."""
+
+    def __init__(
+        self,
+        driver: Driver,
+        profile: str,
+        known_failures: Sequence[KnownFailure] = (),
+        statement: Statement | None = None,
+        watch: Callable[[Answer, Ledger], None] | None = None,
+        distinct_incidents: bool = False,
+    ) -> None:
+        """``watch`` is told of each answer that is a trace, and of what the judge says of it. Of ``distinct_incidents`` the
+        report has one of each cause, of others all.
+        """
+        self._driver = driver
+        self._watch = watch
+        self._profile = profile
+        self.known = known_failures
+        self.statement = statement or default_statement()
+        self.checked: list[TestPurpose] = []
+        self._judge = Judge(load_life_cycle(), self.statement.claims)
+        self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
+        self._tally = Tally(distinct_incidents)
+        check_statement(self.statement, profile, self._requirements, self._tally)
+        self._doubts = Doubts(driver, self._judge)
+        self._payloads = Payloads(driver.seed)
+        self._timed: dict[str, tuple[str, Scenario]] = {}
+        self._spent: dict[str, float] = {}
+        self._began = time.monotonic()
+        self._started = datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")
+
+    def check(self, purposes: Iterable[TestPurpose]) -> Iterator[Checked]:
+        """Run all scenarios of ``purposes`` in one pipelined stream; yields each purpose as soon as it is judged."""
+        queue: list[TestPurpose] = []
+
+        def cases() -> Iterator[tuple[str, Scenario]]:
+            for purpose in purposes:
+                queue.append(purpose)
+                for name, scenario in self._scenarios_of(purpose):
+                    yield name, self._payloads.deal(scenario)
+
+        answers = self._driver.run(cases())
+        failures: list[tuple[Finding | None, Execution]] = []
+        done = 0
+        since = time.monotonic()
+        for answer in answers:
+            purpose = queue[0]
+            failures.extend(self._take(answer, purpose))
+            done += 1
+            if done == len(purpose.scenarios):
+                now = time.monotonic()
+                self._spent[purpose.clause] = self._spent.get(purpose.clause, 0.0) + now - since
+                since = now
+                self.checked.append(purpose)
+                yield Checked(queue.pop(0), done, tuple(failures))
+                failures, done = [], 0
+
+    def _scenarios_of(self, purpose: TestPurpose) -> tuple[tuple[str, Scenario], ...]:
+        """Its scenarios; where values are drawn, within what the vendor says of them."""
+        return purpose.draw(self._driver.seed, self.statement.claims.readings) if purpose.draw else purpose.scenarios
+
+    def _take(self, answer: Answer, purpose: TestPurpose) -> Iterator[tuple[Finding | None, Execution]]:
+        if answer.incident is not None:
+            execution = self._driver.revealed(answer)
+            self._tally.add_incident(execution, purpose.requirements)
+            yield finding_of_incident(execution), execution
+            if answer.is_whole:
+                yield from self._judge_who_hung(answer, execution)
+            return
+        ledger = self._judge.judge(answer.disguised, answer.trace)
+        if self._watch is not None:
+            self._watch(answer, ledger)
+        if not ledger.findings:
+            self._tally.add(Execution(answer.name, answer.scenario, answer.trace), ledger, ())
+            for requirement in TIMED.intersection(ledger.exercises).difference(self._timed):
+                self._timed[requirement] = answer.name, answer.scenario
+            return
+        execution = self._driver.revealed(answer)
+        stand, doubted = self._doubts.sort(answer, ledger.findings)
+        findings = [self._driver.reveal(finding) for finding in stand]
+        self._tally.add(execution, ledger, findings)
+        self._doubt(execution, doubted)
+        for finding in findings:
+            yield finding, execution
+
+    def _judge_who_hung(self, answer: Answer, execution: Execution) -> Iterator[tuple[Finding, Execution]]:
+        """Threads that never came back may be what a rule forbids; the trace tells."""
+        stand, doubted = self._doubts.sort(answer, self._judge.judge(answer.disguised, answer.trace).findings)
+        for finding in map(self._driver.reveal, stand):
+            self._tally.exercised[finding.requirement] += 1
+            self._tally.add_failure(finding, execution)
+            yield finding, execution
+        self._doubt(execution, doubted)
+
+    def look_again(self, at_passes: bool = True) -> None:
+        """Take a second look at each failure that was seen once, at one of each requirement that failed more often, and at each
+        requirement that was kept and depends on time, unless passes are of no interest.
+
+        They are run with another timeout and another schedule. What flips is unstable, and no verdict.
+        """
+        began = time.monotonic()
+        last = began + SECONDS_FOR_SECOND_LOOKS
+        standing: set[str] = set()
+        for failure in list(self._tally.failures.values()):
+            execution, requirement = failure.execution, failure.finding.requirement
+            if execution is None or execution.incident is not None or failure.unstable:
+                continue
+            if failure.occurrences > 1 and requirement in standing:
+                continue
+            if time.monotonic() > last:
+                self._tally.measures[NOT_LOOKED_AT] += 1
+                continue
+            doubt = self._doubts.of_failure(failure.finding, execution)
+            if doubt is not None:
+                self._doubt(execution, [doubt])
+            else:
+                standing.add(requirement)
+        failed = {requirement for requirement, _, _ in self._tally.failures}
+        kept = [case for requirement, case in self._timed.items() if at_passes and requirement not in failed]
+        for name, scenario in {name: scenario for name, scenario in kept}.items():
+            if time.monotonic() > last:
+                break
+            answer, stand, doubted = self._doubts.of_pass(name, scenario)
+            execution = self._driver.revealed(answer)
+            for finding in stand:
+                self._tally.add_failure(self._driver.reveal(finding), execution)
+            self._doubt(execution, doubted)
+        self._spent["second looks"] = self._spent.get("second looks", 0.0) + time.monotonic() - began
+
+    def _doubt(self, execution: Execution, doubts: Iterable[Doubt]) -> None:
+        for doubt in doubts:
+            steady = self._driver.revealed(doubt.steady) if doubt.steady is not None else None
+            self._tally.doubt(self._driver.reveal(doubt.finding), execution, doubt.reason, steady)
+
+    def shorten(self) -> Iterator[Cause]:
+        """Look for the shortest scenario of each failure; yields each cause when it is done."""
+        yield from Shortening(self._driver, self._judge, self._doubts, self._tally).of_all()
+
+    def report(self) -> Report:
+        """All verdicts of the run so far."""
+        results = self._tally.results(self._requirements, self.known)
+        incidents = self._tally.incidents
+        identity = self._driver.identity
+        return Report(
+            product=identity.product,
+            version=identity.version,
+            profile=self._profile,
+            verdict=overall(results, incidents),
+            requirements=results,
+            transitions=self._tally.transitions(load_life_cycle()),
+            incidents=incidents,
+            adapter=self._driver.adapter,
+            suite_version=ucm_cts.__version__,
+            seed=self._driver.seed,
+            started=self._started,
+            seconds=round(time.monotonic() - self._began, 3),
+            scenarios=self._tally.scenarios,
+            events=self._tally.events,
+            statement=self.statement,
+            readings={option: tuple(sorted(values)) for option, values in sorted(self._tally.readings.items())},
+            effort=Effort(
+                dict(self._tally.measures.most_common()),
+                {clause: round(seconds, 3) for clause, seconds in self._spent.items()},
+            ),
+        )

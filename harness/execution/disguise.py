@@ -1,0 +1,210 @@
+"""Random spellings: a framework sees names and payloads that are different in each run, so nothing can be hard-coded.
+
+Traces are judged in the disguised spelling, against the disguised scenario; only what people read is revealed.
+A name the framework made up stays as it is and therefore never equals a name of the scenario.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+import string
+from collections.abc import Sequence
+from typing import TypeVar
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Datum, Interface
+from ucm_cts.adapters.contract.data_values import read_spelled
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
+from ucm_cts.harness.hosting.locate import WrongUse
+from ucm_cts.harness.purposes.payloads import EDGES, LARGEST
+
+T = TypeVar("T")
+
+_LETTERS = "bcdfghjklmnpqrstvwxz"
+
+
+class Disguise:
+    """A reversible renaming of all names and payloads, drawn from ``seed``; grows as scenarios are disguised.
+
+    ``port_element_name`` is the framework's own way to make one name of ``{port}`` and ``{element}``; raises
+    ``WrongUse`` if it does not say how.
+    """
+
+    def __init__(self, seed: int, port_element_name: str) -> None:
+        _check(port_element_name)
+        self._random = random.Random(seed)
+        self._port_element_name = port_element_name
+        self._tokens: dict[str, str] = {}
+        self._ports: dict[str, str] = {}
+        self._values: dict[int, int] = {}
+        self._plain: dict[str, str] = {}
+        self._pattern: re.Pattern[str] | None = None
+
+    def scenario(self, scenario: Scenario) -> Scenario:
+        """``scenario`` in disguise."""
+        for interface in scenario.interfaces.values():
+            self._name_methods(sorted(interface.methods, key=len))
+        return Scenario(
+            {self._name(name): self._declaration(d) for name, d in scenario.components.items()},
+            tuple(self._step(step) for step in scenario.steps),
+            scenario.patience,
+            {
+                self._name(name): Interface(
+                    {self._method(m): what for m, what in interface.methods.items()},
+                    tuple(map(self._method, interface.inherited)),
+                )
+                for name, interface in scenario.interfaces.items()
+            },
+        )
+
+    def reveal(self, value: T) -> T:
+        """``value``, any message value or finding, with each known disguise replaced by what it stands for."""
+        if self._pattern is None:
+            alternatives = sorted(self._plain, key=len, reverse=True)
+            self._pattern = re.compile("|".join(map(_found, alternatives)) or r"(?!)")
+        text = msgspec.json.encode(value).decode()
+        revealed = self._pattern.sub(lambda match: self._plain[match.group()], text)
+        return msgspec.json.decode(revealed.encode(), type=type(value))
+
+    def _remember(self, disguised: str, plain: str) -> None:
+        self._plain[_as_json(disguised)] = _as_json(plain)
+        self._pattern = None
+
+    def _name(self, plain: str) -> str:
+        token = self._tokens.get(plain)
+        if token is None:
+            token = "".join(self._random.choices(_LETTERS, k=9))
+            self._tokens[plain] = token
+            self._remember(token, plain)
+        return token
+
+    def _name_methods(self, methods: Sequence[str]) -> None:
+        """A method whose name begins with that of another one, which comes before it, still does so in disguise."""
+        for number, method in enumerate(methods):
+            beginnings = [other for other in methods[:number] if method.startswith(other)]
+            if beginnings and method not in self._tokens and not s.STANDARD_METHODS & {method, beginnings[-1]}:
+                token = self._name(beginnings[-1]) + "".join(self._random.choices(_LETTERS, k=3))
+                self._tokens[method] = token
+                self._remember(token, method)
+
+    def _port(self, plain: str) -> str:
+        spelled = self._ports.get(plain)
+        if spelled is None:
+            port, _, element = plain.partition(".")
+            spelled = self._port_element_name.format(port=self._name(port), element=self._name(element))
+            self._ports[plain] = spelled
+            self._remember(spelled, plain)
+        return spelled
+
+    def _value(self, plain: int) -> int:
+        if plain in EDGES:
+            return plain
+        value = self._values.get(plain)
+        if value is None:
+            value = self._random.randrange(10**9, LARGEST)
+            while str(value) in self._plain:
+                value = self._random.randrange(10**9, LARGEST)
+            if plain < 0:
+                value = ~value
+            self._values[plain] = value
+            self._remember(str(value), str(plain))
+            self._remember(str(~value), str(~plain))
+        return value
+
+    def _declaration(self, d: Declaration) -> Declaration:
+        return Declaration(
+            tuple(map(self._port, d.provides)),
+            tuple(map(self._port, d.requires)),
+            {self._name(name): self._configured(value) for name, value in d.attributes.items()},
+            d.connectable,
+            d.fragment,
+            {hook: tuple(map(self._action, actions)) for hook, actions in d.plan.items()},
+            tuple(map(self._policy, d.policies)),
+            {self._port(port): self._name(interface) for port, interface in d.ports.items()},
+        )
+
+    def _configured(self, plain: str) -> str:
+        """Only words are disguised; values of types are read by some frameworks."""
+        return self._name(plain) if read_spelled(plain) is None else plain
+
+    def _policy(self, policy: Policy) -> Policy:
+        """Definitions have standard names, which are no secret."""
+        parameters = dict(policy.parameters)
+        if s.METHODS_TO_TRACE in parameters:
+            named = parameters[s.METHODS_TO_TRACE]
+            parameters[s.METHODS_TO_TRACE] = re.sub(r"\w+", lambda method: self._method(method.group()), named)
+        return msgspec.structs.replace(
+            policy,
+            port=self._port(policy.port) if policy.port is not None else None,
+            element=self._port(policy.element) if policy.element is not None else None,
+            parameters=parameters,
+        )
+
+    def _method(self, plain: str) -> str:
+        """Methods of 10.1 have standard names."""
+        return plain if plain in s.STANDARD_METHODS else self._name(plain)
+
+    def _action(self, action: Action) -> Action:
+        match action:
+            case s.CallPort():
+                return s.CallPort(self._port(action.port), self._value(action.value))
+            case s.ReturnValue():
+                return s.ReturnValue(self._value(action.value))
+            case s.CallMethod():
+                port, method = self._port(action.port), self._method(action.method)
+                return msgspec.structs.replace(action, port=port, method=method, arguments=self._arguments(action))
+            case s.Answer():
+                return msgspec.structs.replace(action, method=self._method(action.method))
+            case s.Burst():
+                return msgspec.structs.replace(action, port=self._port(action.port))
+            case _:
+                return action
+
+    def _arguments(self, call: s.CallMethod) -> tuple[Datum, ...]:
+        """Messages for the log begin with a name."""
+        match call.method, call.arguments:
+            case "log", (severity, str(message)):
+                return severity, re.sub(r"^[A-Za-z]+", lambda name: self._name(name.group()), message)
+            case _:
+                return call.arguments
+
+    def _step(self, step: Step) -> Step:
+        replace = msgspec.structs.replace
+        match step:
+            case s.AddComponent():
+                return replace(step, component=self._name(step.component), bind=step.bind or step.component)
+            case s.GetPortElement() | s.Connect() | s.Attach() | s.Detach():
+                return replace(step, port=self._port(step.port))
+            case s.Link():
+                return replace(step, interface=self._name(step.interface))
+            case s.AwaitMessages():
+                return replace(step, component=self._name(step.component))
+            case s.Invoke():
+                return replace(step, value=self._value(step.value))
+            case _:
+                return step
+
+
+def _found(disguised: str) -> str:
+    """A pattern for ``disguised``; a payload is never a part of a longer number, such as a time."""
+    return rf"(?<!\d){disguised}(?!\d)" if disguised.lstrip("-").isdigit() else re.escape(disguised)
+
+
+def _as_json(text: str) -> str:
+    """``text`` as it stands between the quotes of JSON."""
+    return msgspec.json.encode(text).decode()[1:-1]
+
+
+def _check(port_element_name: str) -> None:
+    try:
+        fields = [name for _, name, _, _ in string.Formatter().parse(port_element_name) if name is not None]
+        port_element_name.format(port="", element="")
+    except (ValueError, LookupError, AttributeError):
+        fields = []
+    if sorted(fields) != ["element", "port"]:
+        raise WrongUse(
+            f"the adapter spells port elements '{port_element_name}'; that must hold {{port}} and {{element}} once each"
+        )

@@ -1,0 +1,241 @@
+"""Drives scenarios through a host: disguised, pipelined, with a second look at whatever went wrong."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections import deque
+from collections.abc import Iterable, Iterator
+from contextlib import closing
+from dataclasses import dataclass, replace
+from types import TracebackType
+from typing import Self, TypeVar
+
+import msgspec
+
+from ucm_cts.adapters.contract.messages import Refused, Run, Traced, Welcome
+from ucm_cts.adapters.contract.scenario import Scenario, Stress
+from ucm_cts.adapters.contract.trace import Event, Trace
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.host_clock import HostClock
+from ucm_cts.harness.execution.integrity import believable, contradiction
+from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
+from ucm_cts.harness.hosting.hosts import Hosts, Limits
+from ucm_cts.harness.hosting.locate import Door
+from ucm_cts.harness.results.incidents import Patience
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
+
+__all__ = ["Answer", "Circumstances", "Driver", "Limits"]
+
+T = TypeVar("T")
+
+MOST_UNTRIED = 32
+"""So many scenarios in a row are left out before what came before them, and they themselves, are answered."""
+
+_HOST_IS_GONE: frozenset[IncidentKind] = FRAMEWORK_INCIDENTS | {"flood", "garbage", "protocol"}
+
+
+@dataclass(frozen=True)
+class Answer:
+    """One scenario and what came of it. ``trace`` is spelled as ``disguised`` is; after an incident it is what is known.
+
+    That is everything if ``is_whole``: the host itself told it, and which of its threads never came back.
+    """
+
+    name: str
+    scenario: Scenario
+    disguised: Scenario
+    trace: Trace
+    incident: Incident | None = None
+    is_whole: bool = False
+
+
+@dataclass(frozen=True)
+class Circumstances:
+    """How a scenario is run again: so many times as patient, and perhaps with all threads of the host on one core."""
+
+    patience: float = 1
+    one_core: bool = False
+
+
+class Driver:
+    """Runs scenarios on the implementation behind ``door``; names and payloads are drawn from ``seed``."""
+
+    def __init__(self, door: Door, seed: int, limits: Limits | None = None) -> None:
+        self._hosts = Hosts(door, limits)
+        self.adapter = door.text
+        self.seed = seed
+        self._disguise: Disguise | None = None
+        self._numbers = itertools.count()
+        self._patience = Patience(self._hosts.limits.incident_seconds)
+        self._is_near = door.kind in ("python", "executable")
+        self._clock: tuple[int, HostClock] = (0, HostClock(self._is_near))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._hosts.close()
+
+    @property
+    def identity(self) -> Welcome:
+        """Who is tested. Starts a host; raises ``WrongUse`` or ``HostUnavailable`` if there is none."""
+        return self._hosts.welcome
+
+    @property
+    def disguise(self) -> Disguise:
+        """The random spelling of this run."""
+        if self._disguise is None:
+            self._disguise = Disguise(self.seed, self.identity.port_element_name)
+        return self._disguise
+
+    def run(self, cases: Iterable[tuple[str, Scenario]], insist: bool = False) -> Iterator[Answer]:
+        """The answers to ``cases`` (name, scenario), in order; many are on their way at a time.
+
+        When patience with incidents has run out, some are answered as ``untried``, unless the caller does ``insist``. There
+        may be no end to ``cases``: never are many drawn for an answer.
+        """
+        source = iter(cases)
+        returned: deque[_Case] = deque()
+        waiting: deque[_Case] = deque()
+        more = True
+
+        def runs() -> Iterator[Run]:
+            nonlocal more
+            left_out = 0
+            while left_out < MOST_UNTRIED:
+                case = returned.popleft() if returned else self._next(source)
+                if case is None:
+                    more = False
+                    return
+                untried = None if insist else self._patience.not_tried(case.scenario)
+                waiting.append(replace(case, untried=untried))
+                left_out = left_out + 1 if untried is not None else 0
+                if untried is None:
+                    yield case.run
+
+        def untried() -> Iterator[Answer]:
+            while waiting and waiting[0].untried is not None:
+                case = waiting.popleft()
+                yield Answer(case.name, case.scenario, case.run.scenario, (), case.untried)
+
+        while more or returned:
+            lost = False
+            with closing(self._hosts.run(runs())) as replies:
+                began = time.monotonic()
+                for reply in replies:
+                    yield from untried()
+                    case = waiting.popleft()
+                    trace, incident = self._examine(case, reply, insist)
+                    self._patience.heard(case.run.scenario, trace if incident is None else ())
+                    lost = incident is not None and incident.kind in _HOST_IS_GONE
+                    if incident is not None and lost:
+                        self._patience.spend(time.monotonic() - began, case.run.scenario, incident, trace)
+                    told = isinstance(reply.reply, Traced) and incident is not None and incident.kind == "hang"
+                    yield Answer(case.name, case.scenario, case.run.scenario, trace, incident, told)
+                    if lost:
+                        break
+                    began = time.monotonic()
+            yield from untried()
+            returned.extendleft(reversed(waiting))  # what was on its way to a host that is gone
+            waiting.clear()
+
+    def _next(self, source: Iterator[tuple[str, Scenario]]) -> _Case | None:
+        case = next(source, None)
+        if case is None:
+            return None
+        name, scenario = case
+        return _Case(name, scenario, Run(next(self._numbers), self.disguise.scenario(scenario)))
+
+    def again(self, name: str, scenario: Scenario, circumstances: Circumstances) -> Answer:
+        """The same scenario run once more, on a host of its own, in other ``circumstances``.
+
+        The trace is empty if there is none that can be believed. May be called between two answers of a ``run``.
+        """
+        asked = _lasting(scenario, circumstances.patience)
+        disguised = self.disguise.scenario(asked)
+        reply = self._hosts.look_again(Run(next(self._numbers), disguised), circumstances.one_core).reply
+        if not isinstance(reply, Traced) or contradiction(disguised, reply.events, bool(reply.stuck)) is not None:
+            return Answer(name, asked, disguised, ())
+        return Answer(name, asked, disguised, reply.events)
+
+    def reveal(self, value: T) -> T:
+        """``value`` in the script's own names."""
+        return self.disguise.reveal(value)
+
+    def revealed(self, answer: Answer) -> Execution:
+        """The answer as an execution that people can read."""
+        return Execution(
+            answer.name,
+            answer.scenario,
+            self._reveal_trace(answer.trace),
+            answer.incident and self.reveal(answer.incident),
+        )
+
+    def _reveal_trace(self, trace: Trace) -> Trace:
+        return self.reveal(_Whole(trace)).trace
+
+    def _examine(self, case: _Case, answer: HostAnswer, insist: bool) -> tuple[Trace, Incident | None]:
+        run, reply = case.run, answer.reply
+        if isinstance(reply, Traced):
+            problem = contradiction(run.scenario, reply.events, bool(reply.stuck)) or self._out_of_time(answer)
+            if problem is not None:
+                return reply.events, Incident("contradiction", problem)
+            if not set(reply.stuck) <= set(case.scenario.may_stay):
+                return reply.events, Incident("hang", f"threads that never came back: {', '.join(reply.stuck)}")
+            return reply.events, None
+        if isinstance(reply, Refused):
+            return (), Incident("refused", reply.reason)
+        if reply.kind not in FRAMEWORK_INCIDENTS:
+            return (), reply
+        if not insist and not self._patience.is_worth_a_look(run.scenario, reply.kind):
+            return (), reply
+        return self._second_look(run, reply)
+
+    def _out_of_time(self, answer: HostAnswer) -> str | None:
+        """Why the host cannot have lived through what it tells."""
+        received = time.monotonic_ns()
+        if self._clock[0] != answer.host:
+            self._clock = answer.host, HostClock(self._is_near)
+        events = answer.reply.events if isinstance(answer.reply, Traced) else ()
+        return self._clock[1].contradiction(events, answer.sent, received)
+
+    def _second_look(self, run: Run, first: Incident) -> tuple[Trace, Incident]:
+        """The same scenario once more, each event sent as it happens: what led to the incident?"""
+        began = time.monotonic()
+        second = self._hosts.look_again(run)
+        self._patience.looked(time.monotonic() - began)
+        if isinstance(second.reply, Incident) and second.reply.kind == first.kind:
+            return believable(run.scenario, second.happened), msgspec.structs.replace(
+                second.reply, stacks=second.reply.stacks or first.stacks
+            )
+        return (), msgspec.structs.replace(first, reproduced=False)
+
+
+def _lasting(scenario: Scenario, times: float) -> Scenario:
+    """``scenario`` so many times as patient; whoever is stressed is stressed so many times as long."""
+    steps = tuple(
+        msgspec.structs.replace(step, milliseconds=round(step.milliseconds * times))
+        if isinstance(step, Stress)
+        else step
+        for step in scenario.steps
+    )
+    return msgspec.structs.replace(scenario, steps=steps, patience=round(scenario.patience * times))
+
+
+@dataclass(frozen=True)
+class _Case:
+    """One scenario on its way: what is sent, and why it is not sent after all."""
+
+    name: str
+    scenario: Scenario
+    run: Run
+    untried: Incident | None = None
+
+
+class _Whole(msgspec.Struct, frozen=True):
+    """A trace as one value, so that it can be revealed at once."""
+
+    trace: tuple[Event, ...]

@@ -1,0 +1,303 @@
+"""Can this trace be true? What no host that tells the truth can answer is the adapter's fault, never a verdict."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import (
+    Call,
+    Counted,
+    Create,
+    Enter,
+    Event,
+    Exit,
+    Held,
+    Opened,
+    Paused,
+    Pushed,
+    Raise,
+    Reference,
+    Reply,
+    Request,
+    Return,
+    Settled,
+    Siblings,
+    Skip,
+    Stressed,
+    Timeout,
+)
+from ucm_cts.harness.execution.body_behaviour import Acting, Frame, Thread
+from ucm_cts.harness.execution.step_order import Turns
+from ucm_cts.harness.purposes.scripts import bound_by, used_by
+
+_WAITS = (s.ReachGate, s.Join)
+_TOLD = {Counted: s.AwaitMessages, Paused: s.Pause, Stressed: s.Stress}
+"""What tells that such a step is done."""
+_OF_SCENARIO = frozenset((*_WAITS, s.OpenGate, s.Settle, s.AwaitMessages, s.Pause))
+_OPTIONAL = (s.Link, s.Attach, s.Detach, s.Break, s.Mend, s.ReadLog)
+"""What an adapter need not offer."""
+_ID_GIVING = (s.AddComponent, s.Connect, s.Invoke)
+
+_PUNCTUALITY, _GRAIN = 0.9, 5_000_000
+"""A wait for patience that ends after this part of it, less so many nanoseconds, is believed: clocks differ."""
+
+_LONGEST_PATIENCE = 24 * 60 * 60 * 1000
+_NANOSECONDS = 1_000_000
+
+
+def contradiction(scenario: Scenario, trace: Iterable[Event], stuck: bool = False) -> str | None:
+    """Why ``trace`` cannot be what happened when ``scenario`` ran; None if it can.
+
+    ``stuck`` traces may leave steps open; the trace is read once, event by event. Checks order, nesting, threads, gates, completeness, and that bodies kept to
+    their plans.
+    """
+    check = _Check(scenario)
+    for event in trace:
+        problem = check.take(event)
+        if problem:
+            return problem
+    return None if stuck else check.end()
+
+
+def believable(scenario: Scenario, events: Sequence[Event]) -> tuple[Event, ...]:
+    """``events`` as far as they can be true."""
+    check = _Check(scenario)
+    for index, event in enumerate(events):
+        if check.take(event):
+            return tuple(events[:index])
+    return tuple(events)
+
+
+class _Check(Acting):
+    """Follows the steps of a scenario, and bodies on the way."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        super().__init__(scenario)
+        self.taken = 0
+        self.done: dict[int, bool] = {}
+        self.threads: dict[int, Thread] = {}
+        self.bound = {s.MANAGER, s.UNKNOWN, s.NIL}
+        self.null = {s.NIL}
+        self.turns = Turns(scenario)
+        self.waiting: dict[int, Held] = {}
+        self.arrivals: Counter[str] = Counter()
+        self.opened: set[str] = set()
+        patience = min(max(scenario.patience, 0), _LONGEST_PATIENCE) * _NANOSECONDS
+        self.shortest_wait = patience * _PUNCTUALITY - _GRAIN
+
+    def take(self, event: Event) -> str | None:
+        """What is wrong with the next event."""
+        self.taken += 1
+        if event.n != self.taken:
+            return f"event number {event.n} where {self.taken} is due"
+        thread = self.threads.get(event.thread)
+        if thread is None:
+            thread = self.threads[event.thread] = Thread(event.thread)
+        elif thread.clock is not None and event.t < thread.clock:
+            return f"event {event.n} is earlier than the one before it on thread {event.thread}"
+        problem = self.check_gate(event) if self.waiting else None
+        if problem is None:
+            problem = _CHECKS[type(event)](self, event, thread)
+        thread.clock = event.t
+        return f"event {event.n}: {problem}" if problem else None
+
+    def end(self) -> str | None:
+        """What is wrong if nothing follows."""
+        for number, step in enumerate(self.scenario.steps):
+            if isinstance(step, s.ReachGate):
+                if number not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
+                    return f"step {number} (reach) has met nobody at {step.gate!r} and not run out of patience"
+            elif not isinstance(step, s.Join) and not self.done.get(number):
+                return f"step {number} ({s.operation(step)}) is missing or not ended"
+        return None
+
+    def check_gate(self, event: Event) -> str | None:
+        """A body that is held lets its thread go on when the gate is open, patience has run out or all is over."""
+        held = self.waiting.pop(event.thread, None)
+        if held is None or held.gate in self.opened or event.t - held.t >= self.shortest_wait:
+            return None
+        if all(self.done.get(number) for number in self.turns.steps[None] if not self.is_wait(number)):
+            return None
+        return f"{held.component} goes on although gate {held.gate!r} is closed"
+
+    def is_wait(self, number: int) -> bool:
+        return isinstance(self.scenario.steps[number], _WAITS)
+
+    def check_turn(self, number: int, thread: Thread) -> str | None:
+        """A thread takes its steps one by one, in order; what it leaves behind without a trace must be over."""
+        if thread.frames:
+            return f"step {number} begins while another one is open on thread {thread.number}"
+        problem = self.turns.begin(number, thread.number)
+        if problem or not self.turns.passed:
+            return problem
+        for passed in self.turns.passed:
+            step = self.scenario.steps[passed]
+            if isinstance(step, s.ReachGate):
+                if passed not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
+                    return f"step {number} comes after step {passed} (reach), which has met nobody at {step.gate!r}"
+            elif isinstance(step, s.Join):
+                before = [n for n in self.turns.steps.get(step.worker, ()) if n < passed and not self.is_wait(n)]
+                if passed not in self.done and not all(self.done.get(n) for n in before):
+                    return f"step {number} comes after step {passed} (join), and '{step.worker}' is not done"
+            elif passed not in self.done:
+                return f"step {number} comes after step {passed} ({s.operation(step)}), which is missing"
+        return None
+
+    def check_begin(self, event: Call | Skip, thread: Thread) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if type(step) in _OF_SCENARIO:
+            return f"step {event.step} is no operation"
+        frames = thread.frames
+        if isinstance(event, Skip) and isinstance(step, _OPTIONAL) and event.variable == s.operation(step) and frames:
+            top = frames.pop().event
+            self.done[event.step] = True
+            is_own = isinstance(top, Call) and top.step == event.step
+            return None if is_own else f"step {event.step} is skipped and was not begun"
+        if event.step in self.done:
+            return f"step {event.step} is carried out twice"
+        missing = self.missing(step)
+        if isinstance(event, Skip) and event.variable not in missing:
+            return f"step {event.step} is skipped although {event.variable} is bound"
+        if isinstance(event, Call) and missing:
+            return f"step {event.step} is carried out although {missing[0]} is not bound"
+        problem = self.check_turn(event.step, thread)
+        self.done[event.step] = isinstance(event, Skip)
+        if isinstance(event, Call):
+            thread.frames.append(Frame(event))
+        return problem
+
+    def missing(self, step: s.Step) -> list[str]:
+        """The variables that ``step`` reads and that are not bound, or that hold nothing it could call."""
+        if type(step) is s.Invoke:
+            return [] if step.ref in self.bound and step.ref not in self.null else [step.ref]
+        return [variable for variable in used_by(step) if variable not in self.bound]
+
+    def check_timeout(self, event: Timeout, thread: Thread) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if not isinstance(step, _WAITS) or event.step in self.done:
+            return f"step {event.step} is not a wait"
+        if thread.clock is not None and event.t - thread.clock < self.shortest_wait:
+            return f"step {event.step} runs out of patience too early"
+        problem = self.check_turn(event.step, thread)
+        self.done[event.step] = True
+        return problem
+
+    def check_told(self, event: Counted | Paused | Stressed, thread: Thread) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if not isinstance(step, _TOLD[type(event)]) or event.step in self.done:
+            return f"step {event.step} is not what was done"
+        if isinstance(step, s.Pause) and thread.clock is not None:
+            due = step.milliseconds * _NANOSECONDS * _PUNCTUALITY - _GRAIN
+            if event.t - thread.clock < due:
+                return f"step {event.step} ends too early"
+        if isinstance(event, Counted) and not 0 <= event.distinct <= event.received:
+            return f"step {event.step} has counted {event.distinct} of {event.received}"
+        problem = self.check_turn(event.step, thread)
+        self.done[event.step] = True
+        return problem
+
+    def check_opened(self, event: Opened, thread: Thread) -> str | None:
+        number = self.turns.next_open(event.gate, event.thread)
+        if number is None:
+            return f"gate {event.gate!r} is opened where no step does so"
+        problem = self.check_turn(number, thread)
+        self.done[number] = True
+        self.opened.add(event.gate)
+        return problem
+
+    def check_settled(self, event: Settled, thread: Thread) -> str | None:
+        number = self.turns.next_settle(event.worker, event.thread)
+        if number is None:
+            return f"'{event.worker}' is looked for where no step does so"
+        problem = self.check_turn(number, thread)
+        self.done[number] = True
+        before = [n for n in self.turns.steps.get(event.worker, ()) if n < number and not self.is_wait(n)]
+        if event.where == "done" and not all(self.done.get(n) for n in before):
+            return f"'{event.worker}' is said to be done and is not"
+        return problem
+
+    def check_end(self, event: Return | Raise, thread: Thread) -> str | None:
+        step = self.step(event)
+        if isinstance(step, str):
+            return step
+        if type(step) in _OF_SCENARIO:
+            return f"step {event.step} is no operation"
+        frames = thread.frames
+        top = frames[-1].event if frames else None
+        if not isinstance(top, Call) or top.step != event.step:
+            return f"step {event.step} ends without being open on thread {event.thread}"
+        frames.pop()
+        self.done[event.step] = True
+        if isinstance(event, Raise):
+            return None
+        too_early = event.t - top.t < self.shortest_wait
+        if isinstance(step, s.ReadLog) and len(event.records or ()) < step.records and too_early:
+            return f"step {event.step} gives up waiting for {step.records} records too early"
+        if type(step) is s.Invoke:
+            return None if type(event.value) is int and event.records is None else self.check_value(step, event)
+        self.bound.update(bound_by(step))
+        if isinstance(step, s.GetPortElement):
+            (self.null.add if event.value is None else self.null.discard)(step.bind)
+        return self.check_value(step, event)
+
+    def step(self, event: Call | Skip | Return | Raise | Timeout | Counted | Paused | Stressed) -> s.Step | str:
+        """The event's step, or that there is none."""
+        if not 0 <= event.step < len(self.scenario.steps):
+            return f"there is no step {event.step}"
+        return self.scenario.steps[event.step]
+
+    def check_value(self, step: s.Step, event: Return) -> str | None:
+        value = event.value
+        if isinstance(step, s.ReadLog) != (event.records is not None):
+            return f"{s.operation(step)} returned {'no ' if event.records is None else ''}records"
+        if isinstance(step, _ID_GIVING):
+            fits = isinstance(value, int)
+        elif isinstance(step, s.GetComponents):
+            fits = isinstance(value, tuple)
+        elif isinstance(step, s.GetPortElement):
+            fits = value is None or value == "opaque" or isinstance(value, Reference)
+        else:
+            fits = value is None
+        if not fits:
+            return f"{s.operation(step)} cannot return {value!r}"
+        if isinstance(value, Reference) and value.instance > len(self.made.get(value.component, ())):
+            return f"a reference to {value.component}#{value.instance}, which was never made"
+        return None
+
+    def check_held(self, event: Held, thread: Thread) -> str | None:
+        self.arrivals[event.gate] += 1
+        self.waiting[event.thread] = event
+        return self.check_act(event, thread)
+
+
+_CHECKS: dict[type, Callable[[_Check, Any, Thread], str | None]] = {
+    Call: _Check.check_begin,
+    Skip: _Check.check_begin,
+    Return: _Check.check_end,
+    Raise: _Check.check_end,
+    Timeout: _Check.check_timeout,
+    Opened: _Check.check_opened,
+    Settled: _Check.check_settled,
+    Counted: _Check.check_told,
+    Paused: _Check.check_told,
+    Stressed: _Check.check_told,
+    Create: _Check.check_create,
+    Enter: _Check.check_enter,
+    Exit: _Check.check_exit,
+    Request: _Check.check_request,
+    Reply: _Check.check_reply,
+    Siblings: _Check.check_act,
+    Held: _Check.check_held,
+    Pushed: _Check.check_act,
+}
+"""What looks at each kind of event."""

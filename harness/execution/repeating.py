@@ -1,0 +1,129 @@
+"""The same run several times, with other seeds: a requirement whose verdict is not the same in all of them is unstable."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+
+import msgspec
+
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.driver import Circumstances, Driver, Limits
+from ucm_cts.harness.hosting.locate import Door
+from ucm_cts.harness.results.tally import cause_of, overall
+from ucm_cts.harness.results.values import (
+    Effort,
+    Execution,
+    FailedExecution,
+    Report,
+    RequirementResult,
+    TransitionResult,
+)
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.monitor import Judge
+
+SEEDS = 3
+"""Of so many runs that did not show a failure its scenario is run again, until it is not shown."""
+
+Steady = Callable[[FailedExecution, int], Execution | None]
+"""Runs the scenario of a failure with the seed of another run; the execution, unless that one shows the failure, too."""
+
+
+def looking(door: Door, limits: Limits, claims: Claims) -> Steady:
+    """Looks for a steady execution on hosts behind ``door``."""
+    judge = Judge(load_life_cycle(), claims)
+
+    def steady(failed: FailedExecution, seed: int) -> Execution | None:
+        if failed.execution is None:
+            return None
+        with Driver(door, seed, limits) as driver:
+            answer = driver.again(failed.execution.name, failed.execution.scenario, Circumstances())
+            findings = judge.judge(answer.disguised, answer.trace).findings
+            shown = not answer.trace or any(f.requirement == failed.finding.requirement for f in findings)
+            return None if shown else driver.revealed(answer)
+
+    return steady
+
+
+def repeated(reports: Sequence[Report], steady: Steady) -> Report:
+    """One report of all runs, which differ in their seeds only; the first one's is the report's."""
+    first = reports[0]
+    if len(reports) == 1:
+        return first
+    requirements = tuple(
+        _result(results, reports, steady) for results in zip(*(r.requirements for r in reports), strict=True)
+    )
+    incidents = tuple(incident for report in reports for incident in report.incidents)
+    return msgspec.structs.replace(
+        first,
+        verdict=overall(requirements, incidents),
+        requirements=requirements,
+        incidents=incidents,
+        transitions=tuple(map(_transition, zip(*(r.transitions for r in reports), strict=True))),
+        seconds=round(sum(report.seconds for report in reports), 3),
+        scenarios=sum(report.scenarios for report in reports),
+        events=sum(report.events for report in reports),
+        readings=_readings(reports),
+        effort=_effort(reports),
+        runs=len(reports),
+    )
+
+
+def _result(results: Sequence[RequirementResult], reports: Sequence[Report], steady: Steady) -> RequirementResult:
+    """The verdict that all runs agree on, or that it is unstable."""
+    verdicts = Counter(result.verdict for result in results)
+    exercised = sum(result.exercised for result in results)
+    worst = next(
+        (result for result in results if result.verdict == "fail"),
+        max(results, key=lambda result: len(result.findings)),
+    )
+    if len(verdicts) == 1:
+        findings = _joined(results)
+        return msgspec.structs.replace(worst, exercised=exercised, findings=findings)
+    told = ", ".join(f"{verdict} in {number}" for verdict, number in verdicts.most_common())
+    reason = f"unstable: of {len(results)} runs with other seeds {told}"
+    kept = [r.seed for r, result in zip(reports, results, strict=True) if result.verdict == "pass"][:SEEDS]
+
+    def other(failed: FailedExecution) -> Execution | None:
+        return failed.steady or next(filter(None, (steady(failed, seed) for seed in kept)), None)
+
+    findings = tuple(
+        msgspec.structs.replace(failed, unstable=reason, steady=other(failed)) for failed in _joined(results)
+    )
+    return msgspec.structs.replace(worst, verdict="inconclusive", exercised=exercised, findings=findings, reason=reason)
+
+
+def _joined(results: Sequence[RequirementResult]) -> tuple[FailedExecution, ...]:
+    """Each cause once, with all its occurrences."""
+    known: dict[tuple[str, str, str], FailedExecution] = {}
+    for failed in (failed for result in results for failed in result.findings):
+        cause = cause_of(failed.finding)
+        before = known.get(cause, msgspec.structs.replace(failed, occurrences=0))
+        known[cause] = msgspec.structs.replace(before, occurrences=before.occurrences + failed.occurrences)
+    return tuple(known.values())
+
+
+def _transition(rows: Sequence[TransitionResult]) -> TransitionResult:
+    return TransitionResult(
+        rows[0].row,
+        sum(row.exercised for row in rows),
+        sum(row.violated for row in rows),
+        tuple(sorted({reading for row in rows for reading in row.readings})),
+    )
+
+
+def _readings(reports: Sequence[Report]) -> dict[str, tuple[str, ...]]:
+    options = sorted({option for report in reports for option in report.readings})
+    return {
+        option: tuple(sorted({value for report in reports for value in report.readings.get(option, ())}))
+        for option in options
+    }
+
+
+def _effort(reports: Sequence[Report]) -> Effort:
+    measures: Counter[str] = Counter()
+    seconds: Counter[str] = Counter()
+    for report in reports:
+        measures.update(report.effort.measures)
+        seconds.update(report.effort.seconds)
+    return Effort(dict(measures.most_common()), {clause: round(spent, 3) for clause, spent in seconds.items()})

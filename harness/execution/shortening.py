@@ -1,0 +1,102 @@
+"""Looks for the shortest scenario of each failure, and the smallest values in it, that show the same cause."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness.execution import shrink, smaller_values
+from ucm_cts.harness.execution.confirmation import Doubts
+from ucm_cts.harness.execution.driver import Answer, Driver
+from ucm_cts.harness.results.incidents import finding_of_incident
+from ucm_cts.harness.results.tally import Cause, Tally, cause_of
+from ucm_cts.harness.results.values import Execution, IncidentKind
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.monitor import Judge
+
+_QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
+"""Incidents whose scenarios are shortened; each try of another one would cost its whole deadline."""
+
+SECONDS_FOR_SHORTER_CRASHES = 20
+"""How long shorter scenarios of crashes are looked for; each try takes two hosts."""
+
+SECONDS_FOR_SHORTER = 10
+"""How long a shorter scenario of one failure is looked for, before the try that is the last."""
+
+SECONDS_FOR_ALL_SHORTER = 180
+"""The same for all failures of a run."""
+
+SECONDS_FOR_SMALLER_VALUES = 5
+"""How long a smaller value is looked for that fails like the one found."""
+
+
+class Shortening:
+    """Of the failures that ``tally`` holds: what is found takes their place there."""
+
+    def __init__(self, driver: Driver, judge: Judge, doubts: Doubts, tally: Tally) -> None:
+        self._driver = driver
+        self._judge = judge
+        self._doubts = doubts
+        self._tally = tally
+
+    def of_all(self) -> Iterator[Cause]:
+        """Look for the shortest scenario of each failure; yields each cause when it is done."""
+        until = time.monotonic() + SECONDS_FOR_SHORTER_CRASHES
+        last = time.monotonic() + SECONDS_FOR_ALL_SHORTER
+        for cause, failure in list(self._tally.failures.items()):
+            if failure.execution is None or failure.unstable:
+                continue
+            incident = failure.execution.incident
+            ends = min(time.monotonic() + SECONDS_FOR_SHORTER, last)
+
+            def first_failing(candidates: Sequence[Scenario], cause: Cause = cause, ends: float = ends) -> int | None:
+                shown = self._show(cause, candidates, until) if time.monotonic() < ends else None
+                if shown is None:
+                    return None
+                self._tally.replace(cause, *shown[1:])
+                return shown[0]
+
+            if incident is None:
+                soon = min(time.monotonic() + SECONDS_FOR_SMALLER_VALUES, last)
+                smaller_values.smallest(failure.finding, failure.execution, first_failing, self._driver.seed, soon)
+            smaller = self._tally.failures[cause].execution
+            if smaller is not None and (incident is None or incident.kind in _QUICK):
+                shrink.shortest(smaller.scenario, first_failing)
+            yield cause
+
+    def _show(
+        self, cause: Cause, candidates: Sequence[Scenario], until: float
+    ) -> tuple[int, Finding, Execution] | None:
+        """The first of ``candidates`` that shows ``cause``; all are run, so that the host stays in step.
+
+        Those that may end the host are run one by one, no more than needed, and none after ``until``.
+        """
+        first: tuple[int, Finding, Execution] | None = None
+        cases = [(f"{cause[0]}-shortest", c) for c in candidates]
+        known = self._tally.failures[cause].execution
+        alone = known is not None and known.incident is not None
+        answers = self._one_by_one(cases, until) if alone else self._driver.run(cases)
+        for index, answer in enumerate(answers):
+            if first is None:
+                execution = self._driver.revealed(answer)
+                shown = [finding for finding in self._findings(answer, execution) if cause_of(finding) == cause]
+                if shown:
+                    first = index, shown[0], execution
+            if first is not None and alone:
+                break
+        return first
+
+    def _one_by_one(self, cases: Sequence[tuple[str, Scenario]], until: float) -> Iterator[Answer]:
+        for case in cases:
+            if time.monotonic() > until:
+                return
+            yield from self._driver.run([case], insist=True)
+
+    def _findings(self, answer: Answer, execution: Execution) -> list[Finding]:
+        """What is wrong with one answer, as people read it."""
+        if answer.incident is not None:
+            finding = finding_of_incident(execution)
+            return [finding] if finding is not None else []
+        findings = self._judge.judge(answer.disguised, answer.trace).findings
+        return [self._driver.reveal(finding) for finding in self._doubts.stalled(answer, findings)]

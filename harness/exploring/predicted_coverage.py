@@ -1,0 +1,43 @@
+"""What a scenario would do if all went well: the transitions of the life-cycle model that it takes instances through.
+
+The reference model carries the scenario out itself, so that thousands can be compared before one is sent.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import get_args
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario, Step
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
+from ucm_cts.reference_models.model.prediction import Prediction
+
+Transition = tuple[str, ...]
+"""Rows of the life-cycle table: one after the other for one instance, or all that stand for one operation together."""
+
+_CALLS = get_args(s.ContainerCall)
+
+
+def transitions(table: LifeCycleTable, scenario: Scenario) -> frozenset[Transition]:
+    """The transitions that ``scenario`` takes, and steps for connectors by what comes before and after them."""
+    prediction = Prediction(table, scenario.components)
+    latest: dict[int, str] = {}
+    found: set[Transition] = set()
+    for step in scenario.steps:
+        if not isinstance(step, _CALLS):
+            continue
+        window = prediction.perform(step)
+        found.add(("together", *sorted({row.id for _, row in window.roles})))
+        for member, row in window.roles:
+            found.add(("then", latest.get(id(member), ""), row.id))
+            if member is not None:
+                latest[id(member)] = row.id
+    for before, after in pairwise(scenario.steps):
+        if not all(isinstance(step, (*_CALLS, s.Invoke)) for step in (before, after)):
+            found.add(("steps", _told(before), _told(after)))
+    return frozenset(found)
+
+
+def _told(step: Step) -> str:
+    return f"{s.operation(step)} {getattr(step, 'role', '')}"

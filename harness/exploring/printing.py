@@ -1,0 +1,249 @@
+"""What an exploration found, for people and machines."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Sequence
+from pathlib import Path
+
+import msgspec
+from rich.console import Group, RenderableType
+from rich.text import Text
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.exploring.exploration import Fate, Progress, Replayed
+from ucm_cts.harness.exploring.memory import Remembered
+from ucm_cts.harness.report.write import write_whole
+from ucm_cts.harness.results.failures import file_name, incident_file, replay_command, shortest_first
+from ucm_cts.harness.results.foreign import clean_report, one_line
+from ucm_cts.harness.results.incident_causes import cause_of_incident, during
+from ucm_cts.harness.results.incidents import is_waiting
+from ucm_cts.harness.results.values import Execution, FailedExecution, IncidentReport, Report, RequirementResult
+
+FILE = "exploration.json"
+
+SHOWN = 20
+"""So many failures, and so many incidents, are told in the terminal; the file has them all."""
+
+_COLOURS: dict[Fate, str] = {"still there": "red", "no longer shown": "green", "not told": "yellow"}
+
+_STEPS = 12
+"""So many steps of the shortest scenario are told."""
+
+
+class Failure(Value, frozen=True):
+    """One cause of failure; ``file`` is the shortest scenario found, relative to the folder, ``replay`` a command for there."""
+
+    requirement: str
+    clause: str
+    title: str
+    rule: str
+    cause: str
+    expected: str
+    observed: str
+    occurrences: int
+    steps: tuple[str, ...]
+    file: str
+    replay: str
+    unstable: str = ""
+
+
+class Mishap(Value, frozen=True):
+    """One cause of incidents: the shortest scenario that met it, and how often it was met."""
+
+    kind: str
+    detail: str
+    operation: str
+    occurrences: int
+    steps: tuple[str, ...]
+    file: str
+    replay: str
+
+
+class Known(Value, frozen=True):
+    """A remembered failure, or the ``kind`` of a remembered incident, and whether it is still there; null if nobody knows."""
+
+    requirement: str
+    kind: str
+    cause: str
+    still_there: bool | None
+
+
+class Found(Value, frozen=True):
+    """All that one exploration says."""
+
+    product: str
+    version: str
+    adapter: str
+    profile: str
+    suite_version: str
+    seed: int
+    seconds: float
+    scenarios: int
+    rows_visited: int
+    rows: int
+    pairs_of_events: int
+    failures: tuple[Failure, ...]
+    incidents: tuple[Mishap, ...]
+    known: tuple[Known, ...]
+
+
+def is_found(report: Report) -> bool:
+    """Did anything fail, or not come back although nobody may wait for ever?"""
+    return bool(mishaps(report)) or any(result.verdict == "fail" for result in report.requirements)
+
+
+def mishaps(report: Report) -> list[tuple[int, IncidentReport]]:
+    """Incidents with their numbers, less what was not tried, and less calls that may wait for a start that never comes.
+
+    Once such calls have been seen waiting, a hang of which nothing more is known is taken for another one.
+    """
+    waiting = [is_waiting(item.execution) for item in report.incidents]
+    return [
+        (number, item)
+        for number, item in enumerate(report.incidents)
+        if item.incident.kind != "untried"
+        and not waiting[number]
+        and not (any(waiting) and item.incident.kind == "hang" and not item.execution.trace)
+    ]
+
+
+def write_exploration(report: Report, far: Progress, known: Sequence[Replayed], out: Path) -> None:
+    """Write ``exploration.json`` into ``out``."""
+    content = msgspec.json.encode(_found(clean_report(report), far, known))
+    write_whole(out / FILE, msgspec.json.format(content, indent=2) + b"\n")
+
+
+def _found(report: Report, far: Progress, known: Sequence[Replayed]) -> Found:
+    return Found(
+        report.product,
+        report.version,
+        report.adapter,
+        report.profile,
+        report.suite_version,
+        report.seed,
+        report.seconds,
+        far.scenarios,
+        far.rows,
+        far.of,
+        far.events,
+        _failures(report),
+        tuple(_mishap(report, number, item) for number, item in enumerate(report.incidents)),
+        tuple(map(_known, known)),
+    )
+
+
+def _mishap(report: Report, number: int, item: IncidentReport) -> Mishap:
+    cause, file = cause_of_incident(item.execution), incident_file(number)
+    told = item.incident.kind, item.incident.detail, cause.operation, item.occurrences, _steps(item.execution)
+    return Mishap(*told, file, replay_command(file, report))
+
+
+def _known(replayed: Replayed) -> Known:
+    one = replayed.remembered
+    is_there = {"still there": True, "no longer shown": False}.get(replayed.fate)
+    return Known(one.requirement, "" if one.requirement else one.rule, one.cause, is_there)
+
+
+def _failures(report: Report) -> tuple[Failure, ...]:
+    return tuple(
+        _failure(report, result, number, failed)
+        for result in report.requirements
+        for number, failed in enumerate(shortest_first(result.findings))
+    )
+
+
+def _failure(report: Report, result: RequirementResult, number: int, failed: FailedExecution) -> Failure:
+    finding, file = failed.finding, file_name(result.id, number)
+    told = result.id, result.clause, result.title, finding.rule, finding.cause, finding.expected, finding.observed
+    steps = _steps(failed.execution) if failed.execution is not None else ()
+    return Failure(*told, failed.occurrences, steps, file, replay_command(file, report), failed.unstable)
+
+
+def _steps(execution: Execution) -> tuple[str, ...]:
+    return tuple(s.operation(step) for step in execution.scenario.steps)
+
+
+def known_text(known: Sequence[Replayed], unreadable: int) -> RenderableType:
+    """What became of the failures that were remembered."""
+    lines = [
+        Text.assemble((f"{k.fate:15}  ", _COLOURS[k.fate]), f"{_name(k.remembered)}  {one_line(_observed(k), 200)}")
+        for k in known
+    ]
+    if unreadable:
+        lines.append(Text(f"{unreadable} remembered failures cannot be read by this version and are left alone", "dim"))
+    return Group(*map(_cut, lines))
+
+
+def _name(one: Remembered) -> str:
+    return one.requirement or one.rule
+
+
+def _observed(replayed: Replayed) -> str:
+    incident = replayed.remembered.incident
+    return replayed.remembered.observed + (during(incident) if incident is not None else "")
+
+
+def found_text(report: Report, far: Progress, out: Path) -> RenderableType:
+    """The end of an exploration: how much was run, then each cause of failure in a few lines."""
+    failures = _failures(report)
+    standing = [failure for failure in failures if not failure.unstable]
+    incidents = mishaps(report)
+    found = f"{len(standing)} causes of failure" if standing else "nothing found"
+    if incidents:
+        found = f"{len(standing)} causes of failure, {len(incidents)} of incidents"
+    left_out = sum(item.occurrences for item in report.incidents if item.incident.kind == "untried")
+    drawn = f"{far.scenarios} scenarios{f' ({left_out} not tried)' if left_out else ''}"
+    covered = f"{far.rows} of {far.of} rows of the life-cycle table, {far.events} pairs of events"
+    lines = [
+        Text.assemble(
+            (("✗ " if is_found(report) else "✓ ") + found, "bold red" if is_found(report) else "bold green"),
+            f"  in {drawn}: {covered}",
+        )
+    ]
+    for failure in standing[:SHOWN]:
+        lines += [Text(), *_told(failure, report, out)]
+    if len(standing) > SHOWN:
+        lines += [Text(), Text(f"and {len(standing) - SHOWN} more causes of failure")]
+    lines += [
+        _cut(Text.assemble(("? ", "yellow"), (f.requirement, "bold"), f"  {one_line(f.unstable, 300)}"))
+        for f in failures
+        if f.unstable
+    ][:SHOWN]
+    if incidents:
+        lines.append(Text())
+    for number, item in incidents[:SHOWN]:
+        often = f"{item.occurrences} times" if item.occurrences > 1 else "once"
+        what = f"{one_line(item.incident.detail, 160)}{during(cause_of_incident(item.execution))}"
+        told = f"  {often}  {incident_file(number)}  {what}"
+        lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), told)))
+    if len(incidents) > SHOWN:
+        lines.append(Text(f"and {len(incidents) - SHOWN} more causes of incidents"))
+    waiting = sum(item.occurrences for item in report.incidents if is_waiting(item.execution))
+    if waiting:
+        lines.append(
+            Text(f"{waiting} scenarios hung in calls that may wait for a component to be started: no failure", "dim")
+        )
+    if failures or incidents:
+        lines += [Text(), Text.assemble("all     ", (str(out / FILE), "bold"), overflow="fold")]
+    return Group(*lines)
+
+
+def _told(failure: Failure, report: Report, out: Path) -> list[Text]:
+    steps = ", ".join(failure.steps[:_STEPS]) + (", ..." if len(failure.steps) > _STEPS else "")
+    statement = f" --ics {shlex.quote(str(out / 'failures' / 'ics.toml'))}" if report.statement.source else ""
+    replay = f"ucm-cts replay {shlex.quote(str(out / failure.file))} {shlex.quote(one_line(report.adapter))}{statement}"
+    return [
+        _cut(Text.assemble(("✗ ", "red"), (failure.requirement, "bold"), f"  {one_line(failure.title)}")),
+        _cut(Text.assemble(("  expected  ", "green"), one_line(failure.expected, 300))),
+        _cut(Text.assemble(("  observed  ", "red"), one_line(failure.observed, 300))),
+        _cut(Text.assemble(("  shortest  ", "dim"), f"{len(failure.steps)} steps: {steps}")),
+        Text.assemble(("  replay    ", "dim"), replay, overflow="fold"),
+    ]
+
+
+def _cut(text: Text) -> Text:
+    """One line stays one line."""
+    text.no_wrap, text.overflow = True, "ellipsis"
+    return text

@@ -1,0 +1,1 @@
+"""Test purposes about data types and their values (10.1.1)."""

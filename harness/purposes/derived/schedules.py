@@ -1,0 +1,302 @@
+"""Gate schedules: scenarios that provoke overlap in a component with an execution policy, all orders of few callers (10.1.3.2).
+
+The first caller is held inside at a gate. Each of the others is sent off and looked for, so that it is known to be inside or
+to wait; then the gate is opened and everybody must come back.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter, message_interface
+from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
+from ucm_cts.harness.purposes.scripts import TestPurpose
+
+_PORTS = ("in.api", "aux.api")
+_SERVICE_PORT = "service.api"
+_MESSAGE_PORT = "message.api"
+_SERVICE = Interface({"serve": Method((Parameter("given", "IN", Integer("LONG")),))})
+_MESSAGE = message_interface(Integer("ULONG"))
+_CLAUSE = "10.1.3.2"
+_MOMENT = 20
+"""Milliseconds: whoever is not kept out, and nobody waits for, shows in them."""
+
+_A_WHILE = 50
+"""Milliseconds that nobody runs after stop."""
+
+_INTERFACES = {"service": _SERVICE, "message": _MESSAGE}
+_INTERFACE_OF = {_SERVICE_PORT: "service", _MESSAGE_PORT: "message"}
+_CONNECTOR_OF: dict[str, Literal["simple_service_connector", "simple_message_connector"]] = {
+    _SERVICE_PORT: "simple_service_connector",
+    _MESSAGE_PORT: "simple_message_connector",
+}
+_ROLES: dict[str, tuple[Literal["server", "receiver"], Literal["client", "emitter"]]] = {
+    _SERVICE_PORT: ("server", "client"),
+    _MESSAGE_PORT: ("receiver", "emitter"),
+}
+
+
+@dataclass(frozen=True)
+class _Way:
+    """A way into the server: its port element, called by the test or by a component, perhaps of another container; that of
+    the service through a service connector, that of messages through a message connector.
+    """
+
+    port: str
+    client: str = ""
+
+    @property
+    def name(self) -> str:
+        return f"{self.port.partition('.')[0]}{f' by {self.client}' if self.client else ''}"
+
+
+_CLIENTS = ("component", "component elsewhere")
+_WAYS = tuple(_Way(port, client) for client in ("", *_CLIENTS) for port in _PORTS)
+_SERVICE_WAYS = tuple(_Way(_SERVICE_PORT, client) for client in _CLIENTS)
+_MESSAGE_WAY = _Way(_MESSAGE_PORT, "component")
+
+
+@dataclass(frozen=True)
+class _Kind:
+    """A server under test: its policies, and what overlap in it would break, by the ports of two callers."""
+
+    name: str
+    policies: tuple[Policy, ...]
+    same: tuple[str, ...]
+    different: tuple[str, ...]
+
+
+_KINDS = (
+    _Kind("protected passive", (Policy(s.PROTECTED_PASSIVE),), ("R-10.1.3.2-13",), ("R-10.1.3.2-16",)),
+    _Kind("unprotected passive", (Policy(s.UNPROTECTED_PASSIVE),), ("R-10.1.3.2-20",), ("R-10.1.3.2-20",)),
+    _Kind("active on one port", (Policy(s.ACTIVE, "in.api"),), ("R-10.1.3.2-09",), ("R-10.1.3.2-10",)),
+    _Kind(
+        "active on two ports",
+        (Policy(s.ACTIVE, "in.api"), Policy(s.ACTIVE, "aux.api")),
+        ("R-10.1.3.2-09",),
+        ("R-10.1.3.2-09",),
+    ),
+)
+_ACTIVE_SERVICE = _Kind(
+    "active on a service", (Policy(s.ACTIVE, _SERVICE_PORT),), ("R-10.1.3.2-09",), ("R-10.1.3.2-10",)
+)
+_ACTIVE_RECEIVER = _Kind(
+    "active on messages",
+    (Policy(s.ACTIVE, "in.api"), Policy(s.ACTIVE, _MESSAGE_PORT)),
+    ("R-10.1.3.2-09",),
+    ("R-10.1.3.2-09",),
+)
+_SELF_EXECUTING = _Kind("self-executing", (Policy(s.SELF_EXECUTING),), ("R-10.1.3.2-06",), ("R-10.1.3.2-06",))
+
+
+def overlap_purposes() -> list[TestPurpose]:
+    """Two callers on every pair of ways, and three on every combination of ports, for each kind of server."""
+    purposes = []
+    for kind in _KINDS:
+        for same, requirements in ((True, kind.same), (False, kind.different)):
+            chosen = [ways for ways in _combinations() if (len({way.port for way in ways}) == 1) == same]
+            ports = "one port" if same else "several ports"
+            scenarios = tuple(
+                (f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways)) for ways in chosen
+            )
+            text = f"Callers of {ports} of a component that is {kind.name} are sent while one is held inside."
+            purposes.append(
+                TestPurpose(f"{kind.name}/{ports}", _CLAUSE, text, (*requirements, *_served(kind)), scenarios)
+            )
+    for kind in (*_KINDS, _ACTIVE_SERVICE):
+        scenarios = tuple(
+            (f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways))
+            for ways in _combinations_with_services()
+        )
+        text = f"Clients of a service connector call a component that is {kind.name} while one is held inside."
+        concerned = tuple(dict.fromkeys((*kind.same, *kind.different, *_served(kind))))
+        purposes.append(TestPurpose(f"{kind.name}/services", _CLAUSE, text, concerned, scenarios))
+    purposes += [_active_as_a_whole(), *_receivers(), *_after_something()]
+    entered = (*_WAYS, *_SERVICE_WAYS, _MESSAGE_WAY)
+    runs = tuple((f"self-executing/{way.name}", _meeting_with_run(way)) for way in entered)
+    text = "A self-executing component runs, once started and once started again, and one run at a time."
+    alone = ("R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03", "R-10.1.3.2-05")
+    purposes.append(TestPurpose("self-executing/alone", _CLAUSE, text, alone, (("self-executing/alone", _runs()),)))
+    purposes.append(
+        TestPurpose(
+            "two execution policies",
+            "10.1.3",
+            "A component has more than one execution policy.",
+            ("R-10.1.3-03",),
+            tuple((f"two policies/{one} and {other}", _contradictory(one, other)) for one, other in _PAIRS),
+        )
+    )
+    text = "Callers of a self-executing component are sent while its run is held inside."
+    purposes.append(TestPurpose("self-executing/run and ports", _CLAUSE, text, ("R-10.1.3.2-06",), runs))
+    return purposes
+
+
+def _active_as_a_whole() -> TestPurpose:
+    """The policy is attached to the component, by vendors who allow that beside ports (active-applicability)."""
+    kind = _Kind("active as a whole", (Policy(s.ACTIVE),), ("R-10.1.3.2-09",), ("R-10.1.3.2-09",))
+    pairs = itertools.product(_WAYS[: len(_PORTS)], repeat=2)
+    scenarios = tuple((f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways)) for ways in pairs)
+    text = f"A component that is {kind.name} is called by two, one while the other is held inside."
+    under = ("protected-active-applicability=onBoth",)
+    return TestPurpose(kind.name, _CLAUSE, text, kind.same, scenarios, under=under)
+
+
+def _receivers() -> list[TestPurpose]:
+    """A message is pushed to a component while a call is held inside, and a call is made while a message is."""
+    purposes = []
+    for kind in (*_KINDS, _ACTIVE_RECEIVER, _SELF_EXECUTING):
+        pairs = ((_WAYS[0], _MESSAGE_WAY), (_MESSAGE_WAY, _WAYS[0]))
+        scenarios = tuple((f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways)) for ways in pairs)
+        text = f"A component that is {kind.name} is called and gets a message, one while the other is held inside."
+        purposes.append(TestPurpose(f"{kind.name}/messages", _CLAUSE, text, kind.different, scenarios))
+    return purposes
+
+
+def _after_something() -> list[TestPurpose]:
+    """Protected components are still protected after a call that raised, and after a restart."""
+    purposes = []
+    ways = _WAYS[: len(_PORTS)]
+    for kind in (_KINDS[0], _KINDS[3], _SELF_EXECUTING):
+        scenarios = (
+            (f"{kind.name}/after a call that raised", _meeting(kind, ways, raised=True)),
+            (f"{kind.name}/after a restart", _meeting(kind, ways, restarted=True)),
+        )
+        text = f"A component that is {kind.name} is called by two, after a call of it has raised, and after a restart."
+        purposes.append(TestPurpose(f"{kind.name}/afterwards", _CLAUSE, text, kind.different, scenarios))
+    return purposes
+
+
+def _served(kind: _Kind) -> tuple[str, ...]:
+    return () if kind.name.startswith("unprotected") else ("R-10.1.3.2-17",)
+
+
+def _combinations() -> Iterator[tuple[_Way, ...]]:
+    yield from itertools.product(_WAYS, repeat=2)
+    yield from itertools.product(_WAYS[: len(_PORTS)], repeat=3)
+
+
+def _combinations_with_services() -> Iterator[tuple[_Way, ...]]:
+    """Clients of the service among themselves, and beside the test."""
+    yield from itertools.product(_SERVICE_WAYS, repeat=2)
+    for way in _SERVICE_WAYS:
+        yield from itertools.permutations((_WAYS[0], way))
+    yield (*_SERVICE_WAYS, _WAYS[0])
+
+
+def _meeting(kind: _Kind, ways: tuple[_Way, ...], raised: bool = False, restarted: bool = False) -> Scenario:
+    """All are sent to the server, which may have ``raised`` or been ``restarted`` before."""
+    hold = (s.HoldAtGate("inside"),)
+    method: tuple[s.Action, ...] = (s.RaiseError(),) if raised else (*hold, s.Answer(s.PUSH, ("ok",)))
+    if not raised and _MESSAGE_WAY not in ways:
+        method = hold
+    all_ways = (*ways, _SERVICE_WAYS[0]) if raised else ways
+    server = _server(all_ways, {"exchange": hold, "method": method}, kind.policies)
+    callers = [f"caller {number}" for number in range(len(ways))]
+    calls: list[Step] = [s.Stop(), s.Start()] if restarted else []
+    calls += [s.Invoke(f"way {len(ways)}", 21)] if raised else []
+    for number, caller in enumerate(callers):
+        calls.append(s.Invoke(f"way {number}", number + 1, thread=caller))
+        calls.append(s.ReachGate("inside") if number == 0 else s.Settle(caller))
+    if _MESSAGE_WAY in ways or kind.policies == (Policy(s.UNPROTECTED_PASSIVE),):
+        calls.append(s.Pause(_MOMENT))
+    calls += [s.OpenGate("inside"), *map(s.Join, callers)]
+    if _MESSAGE_WAY in ways:
+        calls.append(s.ReachGate("inside", total=len(ways)))
+    return _scenario(server, all_ways, calls)
+
+
+def _meeting_with_run(way: _Way) -> Scenario:
+    plan: dict[s.Hook, tuple[s.Action, ...]] = {"run": (s.HoldAtGate("running"),)}
+    is_message = way == _MESSAGE_WAY
+    if is_message:
+        plan["method"] = (s.HoldAtGate("got"), s.Answer(s.PUSH, ("ok",)))
+    server = _server((way,), plan, _SELF_EXECUTING.policies)
+    calls: list[Step] = [s.OpenGate("got")] if is_message else []
+    calls += [s.ReachGate("running"), s.Invoke("way 0", 1, thread="caller"), s.Settle("caller")]
+    calls += [s.Pause(_MOMENT)] if is_message else []
+    calls += [s.OpenGate("running"), s.Join("caller"), *([s.ReachGate("got")] if is_message else [])]
+    return _scenario(server, (way,), calls)
+
+
+_PAIRS = tuple(itertools.combinations((s.SELF_EXECUTING, s.ACTIVE, s.PROTECTED_PASSIVE, s.UNPROTECTED_PASSIVE), 2))
+
+
+def _contradictory(one: str, other: str) -> Scenario:
+    policies = tuple(Policy(name, "in.api" if name == s.ACTIVE else None) for name in (one, other))
+    steps = (s.AddComponent("server"), s.Start(), s.Stop(), s.GetComponents())
+    return Scenario({"server": Declaration(_PORTS, policies=policies)}, steps)
+
+
+def _runs() -> Scenario:
+    plan: dict[s.Hook, tuple[s.Action, ...]] = {"run": (s.HoldAtGate("running"),)}
+    several = s.ReachGate("running", more=6)
+    steps = (
+        s.AddComponent("server"),
+        s.Start(),
+        s.ReachGate("running"),
+        s.ReachGate("running", more=1),  # it must not come: the patience it takes is the time for a second run to show
+        s.OpenGate("running"),
+        several,
+        s.Stop(),
+        s.Pause(_A_WHILE),  # a run that comes too late shows before the next start
+        s.GetComponents(),
+        s.Start(),
+        several,
+        s.Stop(),
+        s.Pause(_A_WHILE),
+        s.GetComponents(),
+    )
+    return Scenario({"server": Declaration(plan=plan, policies=_SELF_EXECUTING.policies)}, steps)
+
+
+def _server(
+    ways: tuple[_Way, ...], plan: dict[s.Hook, tuple[s.Action, ...]], policies: tuple[Policy, ...]
+) -> Declaration:
+    """It has a service, and gets messages, only where somebody calls or pushes."""
+    ports = {port: name for port, name in _INTERFACE_OF.items() if any(way.port == port for way in ways)}
+    if not ports:
+        plan = {hook: actions for hook, actions in plan.items() if hook != "method"}
+    return Declaration((*_PORTS, *ports), plan=plan, policies=policies, ports=ports)
+
+
+def _scenario(server: Declaration, ways: tuple[_Way, ...], calls: list[Step]) -> Scenario:
+    """The server is set up with one client for each way that wants one, called, and stopped."""
+    components = {"server": server}
+    steps: list[Step] = [s.AddComponent("server")]
+    elsewhere = any(way.client == "component elsewhere" for way in ways)
+    if elsewhere:
+        steps.append(s.CreateContainer("elsewhere"))
+    for port, interface in server.ports.items():
+        steps.append(s.Link(_CONNECTOR_OF[port], interface, f"line of {port}"))
+        steps.append(s.Attach(f"line of {port}", _ROLES[port][0], "server", port))
+    for number, way in enumerate(ways):
+        if not way.client:
+            steps.append(s.GetPortElement("server", way.port, f"way {number}"))
+            continue
+        client, container = f"client {number}", "elsewhere" if way.client == "component elsewhere" else s.MANAGER
+        components[client] = _client(way, number)
+        if way.port in _INTERFACE_OF:
+            steps.append(s.AddComponent(client, container))
+            steps.append(s.Attach(f"line of {way.port}", _ROLES[way.port][1], client, "out.api", container))
+        else:
+            steps.append(s.GetPortElement("server", way.port, f"goal {number}"))
+            steps.append(s.AddComponent(client, container))
+            steps.append(s.Connect(client, "out.api", f"goal {number}", f"link {number}", container))
+        steps.append(s.GetPortElement(client, "in.api", f"way {number}", container))
+    steps += [s.Start(), *([s.Start("elsewhere")] if elsewhere else []), *calls]
+    steps += [*([s.Stop("elsewhere")] if elsewhere else []), s.Stop(), s.GetComponents()]
+    return Scenario(components, tuple(steps), interfaces={name: _INTERFACES[name] for name in server.ports.values()})
+
+
+def _client(way: _Way, number: int) -> Declaration:
+    if way.port not in _INTERFACE_OF:
+        call: s.Action = s.CallPort("out.api", number + 11)
+        return Declaration(("in.api",), ("out.api",), plan={"exchange": (call,)})
+    call = s.CallMethod("out.api", s.PUSH if way == _MESSAGE_WAY else "serve", (number + 11,))
+    return Declaration(
+        ("in.api",), ("out.api",), plan={"exchange": (call,)}, ports={"out.api": _INTERFACE_OF[way.port]}
+    )

@@ -1,0 +1,248 @@
+"""Scenario scripts: the files under suite/scenarios, and saved scenarios, in one format (docs/scenarios.md)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import AnyType, Interface, message_interface
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step
+from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.catalogue.documents import DocumentError, read, read_lines
+from ucm_cts.harness.purposes.probes import ProbeType, load_probe_types
+from ucm_cts.harness.purposes.script_values import value_problems
+
+SCENARIOS = Path(__file__).parents[2] / "suite" / "scenarios"
+
+
+class Part(Value, frozen=True):
+    """A component of a script: a ``probe`` of the models with a plan, or, in saved scenarios, its ports spelled out."""
+
+    probe: str = ""
+    provides: tuple[str, ...] = ()
+    requires: tuple[str, ...] = ()
+    attributes: dict[str, str] = {}
+    connectable: bool = False
+    fragment: bool = False
+    plan: dict[Hook, tuple[Action, ...]] = {}
+    policies: tuple[Policy, ...] = ()
+    ports: dict[str, str] = {}
+
+
+class Script(Value, frozen=True):
+    """One scenario as a person writes it: its name, its test purpose, the requirements it means to exercise.
+
+    ``messages`` are further interfaces: message_intf (10.1.6.2), bound to these types.
+    """
+
+    scenario: str
+    components: dict[str, Part]
+    steps: tuple[Step, ...]
+    purpose: str = ""
+    exercises: tuple[str, ...] = ()
+    patience: int = 2000
+    interfaces: dict[str, Interface] = {}
+    messages: dict[str, AnyType] = {}
+    may_stay: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class TestPurpose:
+    """What one test node checks: scenarios that provoke the situation ``text`` describes.
+
+    ``clause`` groups purposes; ``requirements`` are those the scenarios mean to exercise. Rules of others watch too.
+    ``draw`` gives the same scenarios with values that are drawn from a run's seed, within the vendor's readings. It is only
+    for vendors under whose readings all of ``under`` hold: ``option=value``, or several values with ``|`` between them.
+    """
+
+    __test__ = False
+
+    id: str
+    clause: str
+    text: str
+    requirements: tuple[str, ...]
+    scenarios: tuple[tuple[str, Scenario], ...]
+    draw: Callable[[int, Mapping[str, str]], tuple[tuple[str, Scenario], ...]] | None = None
+    under: tuple[str, ...] = ()
+
+
+def load_scripts(directory: Path = SCENARIOS) -> list[Script]:
+    """All scripts of the suite, file by file in alphabetical order. Raises ``DocumentError`` with file and line."""
+    scripts: list[Script] = []
+    seen: dict[str, Path] = {}
+    for path in sorted(directory.glob("*.yaml")):
+        for script in read_scripts(path):
+            if script.scenario in seen:
+                raise DocumentError(path, None, f"scenario '{script.scenario}' is also in {seen[script.scenario]}")
+            seen[script.scenario] = path
+            scripts.append(script)
+    return scripts
+
+
+def read_scripts(path: Path) -> list[Script]:
+    """The script, or list of scripts, in the file at ``path``. Raises ``DocumentError`` with file and line."""
+    raw, lines = read_lines(path)
+    many = isinstance(raw, list)
+    scripts = read(path, list[Script]) if many else [read(path, Script)]
+    if not scripts:
+        raise DocumentError(path, 1, "holds no scenario")
+    for index, script in enumerate(scripts):
+        place = f"$[{index}]" if many else "$"
+        for where, problem in problems(script):
+            raise DocumentError(path, lines.get(f"{place}{where}", lines.get(place)), problem)
+    return scripts
+
+
+def to_scenario(script: Script, probes: dict[str, ProbeType] | None = None) -> Scenario:
+    """The scenario that a script stands for, probes replaced by their ports."""
+    probes = probes or load_probe_types()
+    components = {}
+    for name, part in script.components.items():
+        probe = probes.get(part.probe)
+        components[name] = Declaration(
+            provides=probe.provides if probe else part.provides,
+            requires=probe.requires if probe else part.requires,
+            attributes=part.attributes,
+            connectable=part.connectable,
+            fragment=part.fragment,
+            plan=part.plan,
+            policies=part.policies,
+            ports=part.ports,
+        )
+    return Scenario(components, script.steps, script.patience, _interfaces_of(script), script.may_stay)
+
+
+def _interfaces_of(script: Script) -> dict[str, Interface]:
+    return script.interfaces | {name: message_interface(of) for name, of in script.messages.items()}
+
+
+def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list[tuple[str, str]]:
+    """What a schema cannot say: (place in the script, what is wrong and how to mend it)."""
+    probes = probes or load_probe_types()
+    found: list[tuple[str, str]] = []
+    interfaces = _interfaces_of(script)
+    for name, part in script.components.items():
+        where = f".components.{name}"
+        if name in (s.MANAGER, s.UNKNOWN, s.NIL):
+            found.append((where, f"'{name}' is reserved; choose another name"))
+        if part.probe and part.probe not in probes:
+            found.append((f"{where}.probe", f"no probe '{part.probe}'; there are {', '.join(sorted(probes))}"))
+        elif part.probe:
+            unknown = [a for a in part.attributes if a not in probes[part.probe].attributes]
+            if unknown:
+                found.append((f"{where}.attributes", f"probe '{part.probe}' has no attribute '{unknown[0]}'"))
+        strange = [i for i in part.ports.values() if i not in interfaces]
+        if strange:
+            found.append((f"{where}.ports", f"no interface '{strange[0]}'; there are {_list(interfaces)}"))
+        found += [(where + place, problem) for place, problem in value_problems(part.ports, part.plan, interfaces)]
+    bound = {s.MANAGER: "container"}
+    workers: set[str] = set()
+    actions = [a for p in script.components.values() for plan in p.plan.values() for a in plan]
+    gates = {a.gate for a in actions if isinstance(a, s.HoldAtGate)}
+    for index, step in enumerate(script.steps):
+        where = f".steps[{index}]"
+        for variable, kind in uses(step):
+            if variable in (s.UNKNOWN, s.NIL):
+                if not _may_stand_for(variable, kind, step):
+                    found.append((where, f"'{variable}' is no {kind} here; name one that an earlier step binds"))
+            elif variable not in bound:
+                there = ", ".join(sorted(bound))
+                found.append((where, f"'{variable}' is not bound by an earlier step; there are {there}"))
+            elif bound[variable] != kind:
+                found.append((where, f"'{variable}' holds a {bound[variable]}, not a {kind}"))
+        for variable in bound_by(step):
+            kind = kind_bound_by(step)
+            if bound.setdefault(variable, kind) != kind:
+                found.append(
+                    (where, f"'{variable}' holds a {bound[variable]} already; bind the {kind} to another name")
+                )
+        if isinstance(step, s.OpenGate | s.ReachGate) and step.gate not in gates:
+            found.append(
+                (where, f"no plan holds at gate '{step.gate}'; there are {', '.join(sorted(gates)) or 'none'}")
+            )
+        if isinstance(step, s.Link) and step.interface not in interfaces:
+            found.append((where, f"no interface '{step.interface}'; there are {_list(interfaces)}"))
+        if isinstance(step, s.AwaitMessages) and step.component not in script.components:
+            found.append((where, f"no component '{step.component}'; there are {_list(script.components)}"))
+        if isinstance(step, s.Join | s.Settle) and step.worker not in workers:
+            found.append((where, f"no earlier step runs on thread '{step.worker}'"))
+        if step.thread:
+            workers.add(step.thread)
+    for index, worker in overlaps(script.steps):
+        found.append((f".steps[{index}]", f"'{worker}' may still be operating a container; join it first"))
+    return found
+
+
+def _list(names: Iterable[str]) -> str:
+    return ", ".join(sorted(names)) or "none"
+
+
+def _may_stand_for(variable: str, kind: str, step: Step) -> bool:
+    """Nobody operates a container that is nil; only to remove it can be asked for."""
+    if variable == s.UNKNOWN:
+        return kind in ("component", "connection")
+    return kind == "reference" or isinstance(step, s.RemoveContainer)
+
+
+def overlaps(steps: tuple[Step, ...]) -> Iterator[tuple[int, str]]:
+    """Steps that operate a container while a worker may still do so."""
+    busy: set[str] = set()
+    for index, step in enumerate(steps):
+        if isinstance(step, s.ContainerCall):
+            if busy:
+                yield index, min(busy)
+            busy.update([step.thread] if step.thread else [])
+        elif isinstance(step, s.Join):
+            busy.discard(step.worker)
+
+
+def uses(step: Step) -> tuple[tuple[str, str], ...]:
+    """The variables a step reads, each with the kind of thing it must hold."""
+    match step:
+        case s.RemoveComponent() | s.GetPortElement():
+            return (step.container, "container"), (step.id, "component")
+        case s.Connect():
+            return (step.container, "container"), (step.id, "component"), (step.to, "reference")
+        case s.Disconnect():
+            return (step.container, "container"), (step.connection, "connection")
+        case s.AddComponent() | s.Start() | s.Stop() | s.GetComponents() | s.RemoveContainer():
+            return ((step.container, "container"),)
+        case s.Invoke():
+            return ((step.ref, "reference"),)
+        case s.Attach() | s.Detach():
+            return (step.link, "link"), (step.container, "container"), (step.id, "component")
+        case s.Break() | s.Mend():
+            return ((step.link, "link"),)
+        case s.Stress():
+            return tuple((ref, "reference") for ref in step.refs)
+        case _:
+            return ()
+
+
+def used_by(step: Step) -> tuple[str, ...]:
+    """The variables a step reads."""
+    return tuple(variable for variable, _ in uses(step))
+
+
+def kind_bound_by(step: Step) -> str:
+    """The kind of thing that a step binds."""
+    kinds = {
+        s.AddComponent: "component",
+        s.GetPortElement: "reference",
+        s.Connect: "connection",
+        s.Link: "link",
+    }
+    return kinds.get(type(step), "container")
+
+
+def bound_by(step: Step) -> tuple[str, ...]:
+    """The variables a step binds."""
+    match step:
+        case s.AddComponent():
+            return (step.bind or step.component,)
+        case s.GetPortElement() | s.Connect() | s.CreateContainer() | s.Link():
+            return (step.bind,)
+        case _:
+            return ()

@@ -1,0 +1,80 @@
+"""The test purposes of a profile: those of the scripts and those derived from the life-cycle table."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+
+from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, load_requirements
+from ucm_cts.harness.purposes.data.scenarios import data_purposes
+from ucm_cts.harness.purposes.derived.circles import circle_purposes
+from ucm_cts.harness.purposes.derived.container_services import container_service_purposes
+from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
+from ucm_cts.harness.purposes.derived.messages import message_purposes
+from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
+from ucm_cts.harness.purposes.derived.services import service_purposes
+from ucm_cts.harness.purposes.derived.startups import startup_purposes
+from ucm_cts.harness.purposes.derived.stress import stress_purposes
+from ucm_cts.harness.purposes.derived.unforeseen import unforeseen_purposes
+from ucm_cts.harness.purposes.probes import load_probe_types
+from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario
+from ucm_cts.harness.purposes.systematic.purposes import systematic_purposes
+
+_CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
+    overlap_purposes,
+    circle_purposes,
+    stress_purposes,
+    message_purposes,
+    service_purposes,
+    container_service_purposes,
+)
+"""Where the purposes of profile core come from, beside scripts and those of data_scenarios.py."""
+
+
+@functools.cache
+def load_purposes(profile: str, *readings: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
+    """All test purposes of ``profile``: scripts first, because they read best when they fail.
+
+    Those for other ``readings`` (``option=value``) are left out; of an option that is not declared the first value holds.
+    Systematic suites are those for so many ``extra_states``.
+    """
+    known = _readings(readings)
+    data = data_purposes(known) if "core" in PARTS[profile] else []
+    systematic = systematic_purposes(known, extra_states)
+    return tuple(purpose for purpose in (*_all_purposes(profile), *systematic, *data) if _is_for(purpose, known))
+
+
+def _is_for(purpose: TestPurpose, readings: dict[str, str]) -> bool:
+    wanted = (condition.partition("=") for condition in purpose.under)
+    return all(readings[option] in values.split("|") for option, _, values in wanted)
+
+
+def _readings(declared: tuple[str, ...]) -> dict[str, str]:
+    first = {option: values[0] for option, values in load_options().items()}
+    return first | {option: value for option, _, value in (reading.partition("=") for reading in declared)}
+
+
+@functools.cache
+def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
+    clauses = {r.id: r.clause for r in load_requirements() if r.profile in PARTS[profile]}
+    probes = load_probe_types()
+    scripted = [
+        TestPurpose(
+            script.scenario,
+            clauses[script.exercises[0]],
+            script.purpose,
+            script.exercises,
+            ((script.scenario, to_scenario(script, probes)),),
+        )
+        for script in load_scripts()
+        if script.exercises[0] in clauses
+    ]
+    combined = [purpose for source in _CORE for purpose in source()] if "core" in PARTS[profile] else []
+    return (*scripted, *generated_purposes(load_life_cycle()), *startup_purposes(), *unforeseen_purposes(), *combined)
+
+
+def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:
+    """The purposes whose id, clause or requirements contain one of the words of ``expression`` (separated by ``or``)."""
+    words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
+    return tuple(p for p in purposes if any(w in " ".join((p.id, p.clause, *p.requirements)).lower() for w in words))

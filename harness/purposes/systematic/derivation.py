@@ -1,0 +1,153 @@
+"""Derives machines from the life-cycle table, as far as it and what the vendor declares determine the next state."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.harness.purposes.systematic.machine import Machine, Move, Permitted
+from ucm_cts.harness.purposes.systematic.permission import Permission
+from ucm_cts.harness.purposes.systematic.settings import Input, Setting
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
+from ucm_cts.reference_models.model.prediction import Prediction, Way
+from ucm_cts.reference_models.model.runtime import Runtime, Window
+
+State = tuple[object, ...]
+"""What of a runtime decides its further behaviour: phases, members, connections."""
+
+
+def derive(table: LifeCycleTable, setting: Setting, readings: Mapping[str, str]) -> Machine:
+    """The machine of ``setting`` for a vendor who declares ``readings``.
+
+    An input is defined in a state if the judge judges it there, and all ways in which it may go lead to one known state.
+    Where an operation may fail half-way and leave a state that nobody can know, that is permitted, and the machine goes on
+    as if it had not been so.
+    """
+    return _Derivation(table, Claims(readings), setting).machine()
+
+
+class _Derivation:
+    def __init__(self, table: LifeCycleTable, claims: Claims, setting: Setting) -> None:
+        self.setting = setting
+        self.first = Prediction(table, dict(setting.components))
+        self.permission = Permission(table, claims)
+        self.outputs: dict[Permitted, int] = {}
+
+    def machine(self) -> Machine:
+        """Searches the states breadth first."""
+        first = state_of(self.first.runtime)
+        assert first is not None
+        numbers = {first: 0}
+        waiting = deque([(first, self.first)])
+        moves: list[dict[int, Move]] = []
+        while waiting:
+            state, now = waiting.popleft()
+            moves.append({})
+            for number, meant in enumerate(self.setting.inputs):
+                asked = _named(now.runtime, meant)
+                window = now.look(asked.step)
+                after = self.after(now, state, asked, window) if is_defined(now, window) else None
+                if after is None:
+                    continue
+                reached, then, way = after
+                if reached not in numbers:
+                    numbers[reached] = len(numbers)
+                    waiting.append((reached, then))
+                permitted = self.permitted(now.runtime, window, way)
+                moves[-1][number] = Move(numbers[reached], self.outputs.setdefault(permitted, len(self.outputs)))
+        return Machine(tuple(i.name for i in self.setting.inputs), tuple(self.outputs), tuple(moves))
+
+    def after(
+        self, now: Prediction, state: State, asked: Input, window: Window
+    ) -> tuple[State, Prediction, Way] | None:
+        """The one known state that ``asked`` leads to, the model in that state, and a way there; None unless there is
+        just one.
+        """
+        reached: dict[State, tuple[Prediction, Way]] = {}
+        for way in now.ways(window):
+            if not self.permission.permits(now.runtime, window, way):
+                continue
+            if window.forgiving and way.answer == "UCM_ERROR":
+                return None  # perhaps for a reason that the table does not know: the judge loses track
+            if _changes_nothing(asked.step, way):
+                reached.setdefault(state, (now, way))
+                continue
+            then = now.fork()
+            then.carry_out(asked.step, way)
+            after = state_of(then.runtime)
+            if after is None and not _is_half_done(way):
+                return None
+            if after is None or after in reached:
+                continue
+            for step in asked.follow if way.answer == "return" else ():
+                then.perform(step)
+            reached[after] = then, way
+        if len(reached) != 1:
+            return None
+        [(after, (then, way))] = reached.items()
+        return after, then, way
+
+    def permitted(self, runtime: Runtime, window: Window, usual: Way) -> Permitted:
+        """What may be seen of the operation that is about to begin, of the ``usual`` way first."""
+        ways = (usual, *self.permission.ways(runtime, window))
+        seen = dict.fromkeys(o for way in ways for o in self.permission.seen(runtime, window, way))
+        return Permitted(tuple(seen), window.forgiving)
+
+
+def _named(runtime: Runtime, asked: Input) -> Input:
+    """A container that is not there is asked for by a null reference."""
+    if isinstance(asked.step, s.RemoveContainer):
+        container = runtime.containers.get(asked.step.container)
+        if container is None or container.removed:
+            return Input(asked.name, s.RemoveContainer(s.NIL))
+    return asked
+
+
+def is_defined(now: Prediction, window: Window) -> bool:
+    """Can the window's step be taken now, and would it be judged?"""
+    step = window.step
+    if isinstance(step, s.Connect) and step.to != s.NIL:
+        _, provider = now.runtime.reference(step.to)
+        if provider is None or provider.gone:
+            return False
+    if isinstance(step, s.AddComponent) and step.component in now.runtime.scenario.components:
+        member = now.runtime.members.get(step.bind or step.component)
+        if member is not None and not member.gone:
+            return False  # its name would be another's
+    if isinstance(step, s.CreateContainer):
+        container = now.runtime.containers.get(step.bind)
+        if container is not None and not container.removed:
+            return False
+    return window.judged
+
+
+def _changes_nothing(step: s.ContainerCall, way: Way) -> bool:
+    """An operation that is refused, and of which nobody hears. Starts and stops are, even so, looked at."""
+    if isinstance(step, s.GetPortElement | s.GetComponents):
+        return True
+    return way.answer != "return" and not any(way.callbacks) and not isinstance(step, s.Start | s.Stop)
+
+
+def _is_half_done(way: Way) -> bool:
+    """An operation that fails after somebody has heard of it."""
+    return way.answer != "return" and any(way.callbacks)
+
+
+def state_of(runtime: Runtime) -> State | None:
+    """What of the runtime decides how it goes on: phases, members, connections. None if some of it is not known."""
+    if runtime.destroyed:
+        return ("destroyed",)
+    containers = [c for c in runtime.containers.values() if not c.removed]
+    members = [m for c in containers for m in c.live_members()]
+    connections = [c for m in members for c in m.connections]
+    if any(c.started is None or c.doubtful for c in containers) or any(m.suspended or m.doubtful for m in members):
+        return None
+    if any(c.live is None or c.ambiguous for c in connections):
+        return None
+    return (
+        tuple(sorted((c.name, bool(c.started)) for c in containers)),
+        tuple(sorted((m.name, m.operational) for m in members)),
+        tuple(sorted((c.name, c.provider.name if c.provider else "") for c in connections if c.live)),
+    )

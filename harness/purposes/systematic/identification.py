@@ -1,0 +1,129 @@
+"""Which words tell states apart: separating words, the characterisation set W, harmonised state identifiers.
+
+Two states are told apart by a word that is defined in both and at some point permits different things in each: nothing
+that is right after the one is right after the other. An implementation that does right in both is then, for certain, in
+two different states of its own.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import deque
+from collections.abc import Iterator, Sequence
+
+from ucm_cts.harness.purposes.systematic.machine import Machine, Move, Word
+
+Pair = tuple[int, int]
+
+
+class NotReduced(Exception):
+    """States of the machine cannot be told apart: it has no suite that could identify them. ``pairs`` are these."""
+
+    def __init__(self, machine: Machine, pairs: Sequence[Pair]) -> None:
+        one, other = (" ".join(machine.inputs[i] for i in machine.cover[state]) for state in pairs[0])
+        super().__init__(f"nothing tells the states after '{one}' and after '{other}' apart")
+        self.pairs = tuple(pairs)
+
+
+def told_apart(machine: Machine) -> Machine:
+    """The machine as far as its states can be told apart: of two that cannot, nothing more is asked in the one in which
+    less can be asked, so that it need not be identified. Transitions lead there as before.
+    """
+    while True:
+        try:
+            separating_words(machine)
+        except NotReduced as problem:
+            states = {state for pair in problem.pairs for state in pair} - {0}
+            machine = _without(machine, min(states, key=lambda state: (len(machine.moves[state]), -state)))
+        else:
+            return machine
+
+
+def _without(machine: Machine, last: int) -> Machine:
+    """Nothing is asked in state ``last``. States that are reached no other way are left out."""
+    numbers = {0: 0}
+    moves: list[dict[int, Move]] = []
+    waiting = deque([0])
+    while waiting:
+        state = waiting.popleft()
+        moves.append({})
+        for asked, move in machine.moves[state].items() if state != last else ():
+            if move.next not in numbers:
+                numbers[move.next] = len(numbers)
+                waiting.append(move.next)
+            moves[-1][asked] = Move(numbers[move.next], move.output)
+    return Machine(machine.inputs, machine.outputs, tuple(moves))
+
+
+def separating_words(machine: Machine) -> dict[Pair, Word]:
+    """For each two states in which anything can be asked a shortest word that tells them apart. Raises ``NotReduced``."""
+    states = [state for state in range(len(machine.moves)) if state not in machine.final]
+    open_pairs = list(itertools.combinations(states, 2))
+    words: dict[Pair, Word] = {}
+    while open_pairs:
+        found = {pair: word for pair in open_pairs if (word := _longer(machine, pair, words)) is not None}
+        if not found:
+            raise NotReduced(machine, open_pairs)
+        words |= found
+        open_pairs = [pair for pair in open_pairs if pair not in found]
+    return words
+
+
+def _longer(machine: Machine, pair: Pair, words: dict[Pair, Word]) -> Word | None:
+    """A word for ``pair``: an input that tells at once, or one that leads to two states that ``words`` tell apart."""
+    moves, others = machine.moves[pair[0]], machine.moves[pair[1]]
+    shared = [asked for asked in moves if asked in others]
+    for asked in shared:
+        if machine.exclusive[moves[asked].output][others[asked].output]:
+            return (asked,)
+    for asked in shared:
+        one, other = moves[asked].next, others[asked].next
+        rest = words.get((min(one, other), max(one, other)))
+        if rest is not None:
+            return (asked, *rest)
+    return None
+
+
+def tells_apart(machine: Machine, pair: Pair, word: Word) -> int:
+    """After how many inputs of ``word`` the states are told apart; 0 if they are not."""
+    one, other = pair
+    for length, asked in enumerate(word, 1):
+        move, counterpart = machine.moves[one].get(asked), machine.moves[other].get(asked)
+        if move is None or counterpart is None:
+            return 0
+        if machine.exclusive[move.output][counterpart.output]:
+            return length
+        one, other = move.next, counterpart.next
+    return 0
+
+
+def harmonised_identifiers(machine: Machine) -> tuple[tuple[Word, ...], ...]:
+    """For each state words such that any two states share one, or the beginning of one, that tells them apart.
+
+    Few different words are used: the one that tells most pairs apart is chosen first, then what tells most of the others.
+    """
+    shortest = separating_words(machine)
+    single = {(asked,) for moves in machine.moves for asked in moves}
+    candidates = sorted(single.union(shortest.values()), key=lambda word: (len(word), word))
+    told = {word: {p: n for p in shortest if (n := tells_apart(machine, p, word))} for word in candidates}
+    identifiers: list[set[Word]] = [set() for _ in machine.moves]
+    open_pairs = set(shortest)
+    while open_pairs:
+        best = max(candidates, key=lambda word: len(open_pairs & told[word].keys()))
+        for pair in open_pairs & told[best].keys():
+            for state in pair:
+                identifiers[state].add(best[: told[best][pair]])
+        open_pairs -= told[best].keys()
+    return tuple(tuple(_without_prefixes(sorted(words))) for words in identifiers)
+
+
+def characterisation_set(machine: Machine) -> tuple[Word, ...]:
+    """W: words such that any two states are told apart by one of them."""
+    return tuple(_without_prefixes(sorted({w for words in harmonised_identifiers(machine) for w in words})))
+
+
+def _without_prefixes(words: Sequence[Word]) -> Iterator[Word]:
+    """Of sorted ``words`` those that are not the beginning of another one."""
+    for word, following in itertools.zip_longest(words, words[1:]):
+        if following is None or following[: len(word)] != word:
+            yield word

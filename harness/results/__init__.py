@@ -1,0 +1,1 @@
+"""What a run says: executions, incidents, verdicts, the vendor's statement, known failures."""

@@ -1,0 +1,108 @@
+"""Failing scenarios as files: their names, their text, and the command that plays them again."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Iterator
+from typing import Any
+
+import msgspec
+import yaml
+
+from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.values import Execution, FailedExecution, Report
+
+FOLDER = "failures"
+
+STATEMENT = f"{FOLDER}/ics.toml"
+"""The vendor's statement, for replays; it is there if a vendor gave one."""
+
+_ODD = re.compile(r"[^A-Za-z0-9._-]+")
+
+
+def file_name(requirement: str, number: int, kind: str = "json") -> str:
+    """Where the ``number``-th failure (from 0, the shortest) of a requirement is saved, relative to the report.
+
+    ``kind`` is ``json`` for a scenario, ``xml`` for a model.
+    """
+    stem = _ODD.sub("-", requirement)[:80].lstrip(".") or "unnamed"
+    return f"{FOLDER}/{stem}{f'-{number + 1}' if number else ''}.{kind}"
+
+
+def shortest_first(findings: tuple[FailedExecution, ...]) -> list[FailedExecution]:
+    """Findings by the length of their scenarios; those without come first."""
+    return sorted(findings, key=reading_length)
+
+
+def reading_length(failed: FailedExecution) -> tuple[int, int]:
+    """How long a reader has to read: a scenario's steps, then events; or a model's lines."""
+    return (failed.processed.model.count("\n"), 0) if failed.processed is not None else length(failed.execution)
+
+
+def length(execution: Execution | None) -> tuple[int, int]:
+    """How long a reader has to read: steps, then events."""
+    return (len(execution.scenario.steps), len(execution.trace)) if execution is not None else (0, 0)
+
+
+def incident_file(number: int) -> str:
+    """Where the scenario of the ``number``-th incident (from 0) is saved, relative to the report."""
+    return f"{FOLDER}/incident-{number + 1}.json"
+
+
+def replay_command(file: str, report: Report) -> str:
+    """The command that plays a saved scenario again, from the report's folder."""
+    statement = f" --ics {STATEMENT}" if report.statement.source else ""
+    return f"ucm-cts replay {file} {shlex.quote(one_line(report.adapter))}{statement}"
+
+
+def repeat_command(report: Report) -> str:
+    """The command that repeats the whole run."""
+    adapter, profile = shlex.quote(one_line(report.adapter)), shlex.quote(one_line(report.profile))
+    source = report.statement.source
+    statement = f" --ics {shlex.quote(one_line(source))}" if source else ""
+    runs = f" --repeat {report.runs}" if report.runs > 1 else ""
+    if report.profile in TOOLCHAIN_PROFILES:
+        return f"ucm-cts run --toolchain {adapter} --profile {profile} --seed {report.seed}{statement}"
+    return f"ucm-cts run {adapter} --profile {profile} --seed {report.seed}{runs}{statement}"
+
+
+def saved(execution: Execution, exercises: tuple[str, ...]) -> dict[str, Any]:
+    """A scenario as it stands in a file: a script of one scenario."""
+    return {"scenario": execution.name, "exercises": list(exercises), **msgspec.to_builtins(execution.scenario)}
+
+
+def all_files(report: Report) -> Iterator[tuple[str, bytes]]:
+    """Every file to write, by its name relative to the report."""
+    for result in report.requirements:
+        for number, failed in enumerate(shortest_first(result.findings)):
+            if failed.execution is not None:
+                yield file_name(result.id, number), _json(saved(failed.execution, (result.id,)))
+            if failed.processed is not None:
+                yield file_name(result.id, number, "xml"), failed.processed.model.encode(errors="replace")
+    for number, incident in enumerate(report.incidents):
+        yield incident_file(number), _json(saved(incident.execution, ()))
+
+
+def _json(content: dict[str, Any]) -> bytes:
+    return msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n"
+
+
+def scenario_text(execution: Execution, longest: int = 60) -> str:
+    """The scenario for a reader: components, then one step a line."""
+    content = msgspec.to_builtins(execution.scenario)
+    rows = [f"scenario: {_flow(execution.name)}", "components:"]
+    rows += [f"  {_flow(name)}: {_flow(declaration)}" for name, declaration in content.get("components", {}).items()]
+    rows.append("steps:")
+    steps = content.get("steps", [])
+    rows += [f"  - {_flow(step)}" for step in steps[:longest]]
+    if len(steps) > longest:
+        rows.append(f"  # {len(steps) - longest} more steps; the saved file has them all")
+    return "\n".join(rows)
+
+
+def _flow(value: Any) -> str:
+    text = yaml.safe_dump(value, default_flow_style=True, sort_keys=False, width=10_000, allow_unicode=True)
+    text = text.removesuffix("\n").removesuffix("\n...")
+    return text if len(text) <= 1_000 else text[:999] + "…"

@@ -1,0 +1,96 @@
+"""Which incidents are one and the same: those that agree in kind, in what is told of them, and in the operation in progress."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.harness.results.failures import length
+from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.incidents import is_waiting, last_open_call
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, IncidentKind, IncidentReport
+
+NOT_AGAIN = "not when run once more"
+"""Instead of an operation: the second look, which would have told, did not show the incident."""
+
+_DIFFERENT = re.compile(r"0[xX][0-9a-fA-F]+|\b(?=[a-fA-F-]*\d)[0-9a-fA-F-]{8,}\b|\d+(?:[.,]\d+)*")
+"""Addresses, hexadecimal ids and numbers."""
+
+_SAME_AGAIN = re.compile(r"([^\s,]+)(?:, \1)+(?![^\s,])")
+"""A list of things that are all alike by now."""
+
+
+class IncidentCause(NamedTuple):
+    """What makes two incidents the same.
+
+    ``detail`` is its first line, in which numbers, ids, addresses and names of components are all alike; ``operation`` was
+    in progress, or is empty if nothing is known of that. Calls that wait for a start are told from others that hang.
+    """
+
+    kind: IncidentKind
+    detail: str
+    operation: str
+    waits: bool = False
+
+    @property
+    def is_open(self) -> bool:
+        """Did nobody look what was going on?"""
+        return not self.operation and self.kind in FRAMEWORK_INCIDENTS
+
+    def may_be(self, other: IncidentCause) -> bool:
+        """Are both the same, as far as is known?"""
+        vague = any(one.is_open or one.operation == NOT_AGAIN for one in (self, other))
+        return self[:2] == other[:2] and (vague or self[2:] == other[2:])
+
+
+def cause_of_incident(execution: Execution) -> IncidentCause:
+    """The cause of the incident that ``execution`` ended in."""
+    incident = execution.incident
+    assert incident is not None
+    first = next(iter(incident.detail.splitlines()), "")
+    for name in execution.scenario.components:
+        first = re.sub(rf"\b{re.escape(name)}\b", "#", first)
+    alike = _SAME_AGAIN.sub(r"\1", _DIFFERENT.sub("#", one_line(first)))
+    call = last_open_call(execution.trace)
+    operation = s.operation(execution.scenario.steps[call.step]) if call is not None else ""
+    if not incident.reproduced:
+        operation = NOT_AGAIN
+    return IncidentCause(incident.kind, alike, operation, is_waiting(execution))
+
+
+def during(cause: IncidentCause) -> str:
+    """When it happened, in words that go on after what happened; empty if nobody knows."""
+    if cause.operation in ("", NOT_AGAIN):
+        return cause.operation and f", {cause.operation}"
+    return f", during {cause.operation}"
+
+
+class DistinctIncidents:
+    """For each cause the shortest scenario that met it, and how many did."""
+
+    def __init__(self) -> None:
+        self._met: dict[IncidentCause, IncidentReport] = {}
+
+    def add(self, execution: Execution) -> None:
+        """One more. If nobody looked what was going on, it counts as one of those that it may be."""
+        assert execution.incident is not None
+        cause, new = cause_of_incident(execution), IncidentReport(execution.incident, execution)
+        alike = [one for one in self._met if one.may_be(cause) and NOT_AGAIN not in (one.operation, cause.operation)]
+        known = self._met.get(cause)
+        if known is None and cause.is_open and alike:
+            cause = max(alike, key=lambda one: self._met[one].occurrences)
+            known = new = self._met[cause]
+        counted = known.occurrences if known is not None else 0
+        for one in alike:
+            if one.is_open and one != cause:  # now it is known what that was
+                counted += self._met.pop(one).occurrences
+        best = known if known is not None and length(known.execution) <= length(execution) else new
+        self._met[cause] = msgspec.structs.replace(best, occurrences=counted + 1)
+
+    @property
+    def reports(self) -> tuple[IncidentReport, ...]:
+        """All of them, in the order in which they were first met."""
+        return tuple(self._met.values())

@@ -1,0 +1,146 @@
+"""Incidents of the framework: what they say about an operation, and how much time a run gives them.
+
+Every scenario is tried and waited for in full, as long as that does not take for ever. Once incidents have taken their
+time, scenarios with an operation that has met one are no longer tried; all others still are.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Call, Create, Enter, Exit, Raise, Reply, Request, Return, Skip, Trace
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.properties.operations import DECLARED
+
+FREE_LOOKS = 0.25
+"""The part of the time for incidents in which each is looked at again, whatever is known by then."""
+
+LOOKS = 2
+"""Afterwards an operation that has met so many incidents of a kind explains the next one of that kind."""
+
+
+class Patience:
+    """How long a run puts up with incidents: ``seconds`` in all."""
+
+    def __init__(self, seconds: float) -> None:
+        self.seconds = seconds
+        self._spent = 0.0
+        self._spent_looking = 0.0
+        self._met: Counter[tuple[str, IncidentKind]] = Counter()
+        self._exhausted = False
+        self._unoffered: set[str] = set()
+
+    def heard(self, scenario: Scenario, trace: Trace) -> None:
+        """A scenario has come back; perhaps the adapter has said that it does not offer a connector."""
+        for event in trace:
+            if isinstance(event, Skip):
+                step = scenario.steps[event.step]
+                if isinstance(step, s.Link) and event.variable == s.operation(step):
+                    self._unoffered.add(step.connector)
+
+    def not_tried(self, scenario: Scenario) -> Incident | None:
+        """Why ``scenario`` is not worth a try; None if it is.
+
+        Where a connector is not offered nothing comes through it, and waiting for that would take minutes.
+        """
+        links = (step.connector for step in scenario.steps if isinstance(step, s.Link))
+        unoffered = next((connector for connector in links if connector in self._unoffered), None)
+        if unoffered is not None:
+            return Incident("untried", f"not tried: the adapter does not offer {unoffered}")
+        if self._spent < self.seconds:
+            return None
+        reason = f"incidents had taken {self.seconds:g} s (--incident-time)"
+        if self._exhausted:
+            return Incident("untried", f"not tried: {reason}")
+        for (operation, kind), _ in self._met.most_common():
+            if operation in _operations(scenario):
+                return Incident("untried", f"not tried: {operation} had met a {kind} before, and {reason}")
+        return None
+
+    def is_worth_a_look(self, scenario: Scenario, kind: IncidentKind) -> bool:
+        """Is there something to learn from running ``scenario`` again after an incident of this kind?"""
+        if self._spent_looking < FREE_LOOKS * self.seconds:
+            return True
+        return not any(self._met[operation, kind] >= LOOKS for operation in _operations(scenario))
+
+    def looked(self, seconds: float) -> None:
+        """A second look has taken so long."""
+        self._spent_looking += seconds
+
+    def spend(self, seconds: float, scenario: Scenario, incident: Incident, trace: Trace) -> None:
+        """An incident has taken ``seconds`` in all; ``trace`` is what is known of how it came about."""
+        self._spent += seconds
+        call = last_open_call(trace)
+        if call is not None:
+            self._met[s.operation(scenario.steps[call.step]), incident.kind] += 1
+        elif self._spent >= self.seconds and not any(self._met[o, incident.kind] for o in _operations(scenario)):
+            self._exhausted = True  # nobody knows which scenarios to leave out
+
+
+def finding_of_incident(execution: Execution) -> Finding | None:
+    """A crash, exit, hang or memory blow-up inside an operation: it did not end as declared (12.10)."""
+    incident = execution.incident
+    call = last_open_call(execution.trace)
+    if call is None or incident is None or incident.kind not in FRAMEWORK_INCIDENTS:
+        return None
+    if is_waiting(execution):
+        return None
+    operation = s.operation(execution.scenario.steps[call.step])
+    if operation not in DECLARED:
+        return None
+    requirement, declared = DECLARED[operation]
+    return Finding(
+        requirement,
+        "declared_errors",
+        f"{operation} {incident.kind}",
+        f"{operation} returns or raises {' or '.join(declared)}",
+        f"{operation} did not end: {incident.kind}, {incident.detail}",
+        (call.n,),
+        call.step,
+    )
+
+
+def may_wait(scenario: Scenario, trace: Trace) -> bool:
+    """Was a call under way when ``trace`` broke off, while a component was not operational, so that it may have to wait for
+    the start (11.2.3)?
+    """
+    pending: Counter[tuple[str, int, int]] = Counter()
+    ready: dict[tuple[str, int], bool] = {}
+    invoked = set()
+    for event in trace:
+        match event:
+            case Call() if isinstance(scenario.steps[event.step], s.Invoke):
+                invoked.add(event.step)
+            case Return() | Raise():
+                invoked.discard(event.step)
+            case Request() | Reply():
+                pending[event.component, event.instance, event.thread] += 1 if isinstance(event, Request) else -1
+            case Create():
+                ready[event.component, event.instance] = False
+            case Exit(hook="on_startup"):
+                ready[event.component, event.instance] = not event.raised
+            case Enter(hook="on_shutdown"):
+                ready[event.component, event.instance] = False
+    return bool(invoked or +pending) and not all(ready.values())
+
+
+def is_waiting(execution: Execution) -> bool:
+    """Did it hang in a call that may wait for a component to be started?"""
+    hangs = execution.incident is not None and execution.incident.kind == "hang"
+    return hangs and may_wait(execution.scenario, execution.trace)
+
+
+def last_open_call(trace: Trace) -> Call | None:
+    """The operation that was in progress when the trace broke off."""
+    calls = {e.step: e for e in trace if isinstance(e, Call)}
+    for event in trace:
+        if isinstance(event, Return | Raise):
+            calls.pop(event.step, None)
+    return calls[max(calls)] if calls else None
+
+
+def _operations(scenario: Scenario) -> set[str]:
+    return {s.operation(step) for step in scenario.steps}

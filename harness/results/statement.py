@@ -1,0 +1,104 @@
+"""The vendor's statement: which parts are claimed and which readings taken (ICS), which times and tolerances hold (IXIT).
+
+What nobody states is as in ``default_statement``: everything is claimed, and of every option the first value holds.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from ucm_cts.adapters.contract.value import Value
+from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.requirements import load_capabilities, load_options
+from ucm_cts.reference_models.model.ics import TOLERANCES, Claims
+
+HOOKS = ("transport-fault", "connector-fault", "trace-sink")
+"""Options by which a vendor claims what the adapter offers for tests only; without it something stays undecided."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A value of the IXIT: what holds when none is declared, its unit, what it means, and the greatest that makes sense."""
+
+    default: float
+    unit: str
+    text: str
+    greatest: float = 3_600_000
+
+
+IXIT: Mapping[str, Quantity] = {
+    "patience": Quantity(
+        2000, "ms", "within this time comes what comes by itself: runs, messages, records, waiting calls"
+    ),
+    "clock-tolerance": Quantity(
+        TOLERANCES["clock-tolerance"], "ms", "by so much a reading of local time may differ from the host's clock"
+    ),
+    "clock-rate": Quantity(
+        TOLERANCES["clock-rate"], "percent", "by so much of the time passed local time may be faster or slower", 100
+    ),
+    "synchronization-tolerance": Quantity(
+        TOLERANCES["synchronization-tolerance"], "ms", "by so much synchronised clocks may differ"
+    ),
+    "epoch-tolerance": Quantity(
+        TOLERANCES["epoch-tolerance"], "ms", "with clock-epoch = unix: local time is so close to the calendar"
+    ),
+    "error-known-within": Quantity(
+        TOLERANCES["error-known-within"], "ms", "with comm-error = eventually: after this time a break is known"
+    ),
+}
+"""Times and tolerances that a vendor may declare."""
+
+
+class Statement(Value, frozen=True):
+    """What one vendor states of one product.
+
+    ``capabilities``, ``readings`` and ``ixit`` have every part, option and quantity. ``models`` are the framework's own core
+    models, as written in the statement; ``folder`` is what they are relative to. ``source`` is the statement's file, empty
+    where nobody gave one; ``product`` is empty where it does not say whose it is.
+    """
+
+    product: str
+    version: str
+    profiles: tuple[str, ...]
+    capabilities: dict[str, bool]
+    readings: dict[str, str]
+    ixit: dict[str, float]
+    models: tuple[str, ...] = ()
+    source: str = ""
+    folder: str = "."
+
+    @property
+    def claims(self) -> Claims:
+        """What rules need of it."""
+        return Claims(self.readings, {name: value for name, value in self.ixit.items() if name in TOLERANCES})
+
+    @property
+    def model_paths(self) -> tuple[Path, ...]:
+        """Where the framework's own core models are."""
+        return tuple(Path(self.folder) / model for model in self.models)
+
+    @property
+    def declared(self) -> tuple[str, ...]:
+        """Every reading, as ``option=value``."""
+        return tuple(f"{option}={value}" for option, value in self.readings.items())
+
+    def meets(self, need: str) -> bool:
+        """Is ``need`` claimed, a part, or declared, a reading (``option=value``, several values with ``|`` between them)?"""
+        option, _, values = need.partition("=")
+        return self.readings[option] in values.split("|") if values else self.capabilities[need]
+
+
+@functools.cache
+def default_statement() -> Statement:
+    """What holds when the vendor states nothing."""
+    return Statement(
+        product="",
+        version="",
+        profiles=tuple(PARTS),
+        capabilities={c.id: True for c in load_capabilities().capabilities},
+        readings={option: values[0] for option, values in load_options().items()},
+        ixit={name: quantity.default for name, quantity in IXIT.items()},
+    )

@@ -1,0 +1,241 @@
+"""What all judged executions of a run add up to: verdicts for requirements, and the run's own."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+
+import msgspec
+
+from ucm_cts.harness.catalogue.requirements import Requirement
+from ucm_cts.harness.models.core_models import Comparison
+from ucm_cts.harness.results.failures import reading_length, shortest_first
+from ucm_cts.harness.results.incident_causes import DistinctIncidents
+from ucm_cts.harness.results.incidents import finding_of_incident
+from ucm_cts.harness.results.known_failures import KnownFailure, waiver_for
+from ucm_cts.harness.results.values import (
+    FRAMEWORK_INCIDENTS,
+    Execution,
+    FailedExecution,
+    Incident,
+    IncidentReport,
+    Overall,
+    Processed,
+    RequirementResult,
+    TransitionResult,
+    Verdict,
+)
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
+from ucm_cts.reference_models.verdicts import Ledger, RowTally
+
+Cause = tuple[str, str, str]
+"""Requirement, rule and cause: findings that agree in these are one failure."""
+
+
+def cause_of(finding: Finding) -> Cause:
+    """What makes two findings the same failure."""
+    return finding.requirement, finding.rule, finding.cause
+
+
+class Tally:
+    """Counts what was exercised and keeps, for each cause of failure, the shortest execution that shows it."""
+
+    def __init__(self, distinct_incidents: bool = False) -> None:
+        """Of ``distinct_incidents`` only one of each cause is kept, however many there are."""
+        self.exercised: Counter[str] = Counter()
+        self.failures: dict[Cause, FailedExecution] = {}
+        self.rows: dict[str, RowTally] = {}
+        self.lost: dict[str, str] = {}
+        self._incidents: list[IncidentReport] = []
+        self._distinct = DistinctIncidents() if distinct_incidents else None
+        self._untried: dict[str, IncidentReport] = {}
+        self._left_out: dict[str, str] = {}
+        self.scenarios = 0
+        self.events = 0
+        self.measures: Counter[str] = Counter()
+        self.readings: dict[str, set[str]] = {}
+        self._settled: dict[str, tuple[Verdict, str]] = {}
+        self._reasons: dict[str, str] = {}
+
+    def add(self, execution: Execution, ledger: Ledger, findings: Sequence[Finding]) -> None:
+        """Take in one execution, what the judge says of it, and the findings as people read them."""
+        self.scenarios += 1
+        self.events += len(execution.trace)
+        self.exercised.update(ledger.exercises)
+        self.measures.update(ledger.measures)
+        self._observe(ledger.readings)
+        for row, tally in ledger.rows.items():
+            total = self.rows.setdefault(row, RowTally())
+            total.exercised += tally.exercised
+            total.violated += tally.violated
+            total.readings |= tally.readings
+        for finding in findings:
+            self.add_failure(finding, execution)
+
+    def _observe(self, readings: Mapping[str, Iterable[str]]) -> None:
+        for option, values in readings.items():
+            self.readings.setdefault(option, set()).update(values)
+
+    def add_models(self, comparison: Comparison) -> None:
+        """What the framework's own models show."""
+        self._observe(comparison.readings)
+        for result in comparison.results:
+            if result.status in ("kept", "broken"):
+                self.exercised[result.requirement] += 1
+            if result.status == "broken":
+                self.add_failure(
+                    Finding(result.requirement, result.check, "models", result.expected, result.observed), None
+                )
+            elif result.status == "left out":
+                self.settle(result.requirement, "not applicable", f"{result.expected}: {result.observed}")
+            elif result.status != "kept":
+                self.explain(result.requirement, f"models: {result.observed}")
+
+    def settle(self, requirement: str, verdict: Verdict, reason: str) -> None:
+        """What becomes of a requirement that no run decides, unless something breaks it all the same."""
+        self._settled.setdefault(requirement, (verdict, reason))
+
+    def explain(self, requirement: str, reason: str) -> None:
+        """Why nothing exercises a requirement."""
+        self._reasons.setdefault(requirement, reason)
+
+    def deny(self, finding: Finding) -> None:
+        """The vendor's statement itself shows ``finding``."""
+        self.exercised[finding.requirement] += 1
+        self.add_failure(finding, None)
+
+    def doubt(self, finding: Finding, execution: Execution | None, reason: str, steady: Execution | None) -> None:
+        """``finding`` does not stand: ``steady`` is another run of the same scenario, which does not show it.
+
+        Other executions that show the same count less than this doubt, until one of them stands.
+        """
+        known = self.failures.get(cause_of(finding))
+        if known is None or known.execution == execution:
+            occurrences = known.occurrences if known is not None else 1
+            doubted = FailedExecution(finding, execution, occurrences, "", reason, steady)
+            self.failures[cause_of(finding)] = doubted
+
+    def doubt_processed(self, finding: Finding, processed: Processed | None, reason: str) -> None:
+        """``finding`` of a tool chain does not stand: a second look at what ``processed`` shows did not show it."""
+        known = self.failures[cause_of(finding)]
+        if known.processed == processed:
+            self.failures[cause_of(finding)] = msgspec.structs.replace(known, unstable=reason)
+
+    def add_failure(self, finding: Finding, execution: Execution | None, processed: Processed | None = None) -> None:
+        """One more execution that shows ``finding``, or something else that does."""
+        known = self.failures.get(cause_of(finding))
+        new = FailedExecution(finding, execution, processed=processed)
+        if known is None or known.unstable:
+            occurrences = known.occurrences + 1 if known is not None else 1
+            self.failures[cause_of(finding)] = msgspec.structs.replace(new, occurrences=occurrences)
+            return
+        best = min(known, new, key=reading_length)
+        self.failures[cause_of(finding)] = msgspec.structs.replace(best, occurrences=known.occurrences + 1)
+
+    def replace(self, cause: Cause, finding: Finding, execution: Execution) -> None:
+        """A shorter execution of the same cause has been found; it does not count as another occurrence."""
+        known = self.failures[cause]
+        self.failures[cause] = msgspec.structs.replace(known, finding=finding, execution=execution)
+
+    def add_incident(self, execution: Execution, requirements: Iterable[str]) -> None:
+        """An execution that ended in an incident; ``requirements`` are those it meant to exercise."""
+        incident = execution.incident
+        assert incident is not None
+        if incident.kind == "untried":
+            known = self._untried.get(incident.detail, IncidentReport(incident, execution, 0))
+            self._untried[incident.detail] = msgspec.structs.replace(known, occurrences=known.occurrences + 1)
+            for requirement in requirements:
+                self._left_out.setdefault(requirement, incident.detail)
+            return
+        self.scenarios += 1
+        self.events += len(execution.trace)
+        not_run = incident.kind == "unreachable"
+        if self._distinct is not None:
+            self._distinct.add(execution)
+        elif not (not_run and any(i.incident == incident for i in self._incidents)):
+            self._incidents.append(IncidentReport(incident, execution))
+        if incident.kind not in FRAMEWORK_INCIDENTS:
+            for requirement in requirements:
+                self.lost.setdefault(requirement, f"{incident.kind}: {incident.detail}")
+            return
+        finding = finding_of_incident(execution)
+        if finding is not None:
+            self.exercised[finding.requirement] += 1
+            self.add_failure(finding, execution)
+
+    @property
+    def incidents(self) -> tuple[IncidentReport, ...]:
+        """All of them; scenarios that were not tried for the same reason are one."""
+        left_out = (
+            msgspec.structs.replace(one, incident=Incident("untried", f"{one.occurrences} scenarios {reason}"))
+            for reason, one in self._untried.items()
+        )
+        return (*(self._distinct.reports if self._distinct is not None else self._incidents), *left_out)
+
+    def results(
+        self, requirements: Sequence[Requirement], known_failures: Sequence[KnownFailure]
+    ) -> tuple[RequirementResult, ...]:
+        """The verdict of each requirement of the profile, testable ones only."""
+        by_requirement: dict[str, list[FailedExecution]] = {}
+        for failure in self.failures.values():
+            by_requirement.setdefault(failure.finding.requirement, []).append(failure)
+        return tuple(
+            self._result(r, by_requirement.get(r.id, []), known_failures) for r in requirements if not r.untestable
+        )
+
+    def _result(
+        self, requirement: Requirement, failures: list[FailedExecution], known_failures: Sequence[KnownFailure]
+    ) -> RequirementResult:
+        exercised = self.exercised[requirement.id]
+        by_length = shortest_first(tuple(failures))
+        waived = tuple(
+            msgspec.structs.replace(f, waived=waiver_for(f.finding, known_failures))
+            for f in by_length
+            if not f.unstable
+        )
+        if waived:
+            return RequirementResult(requirement.id, requirement.clause, requirement.title, "fail", exercised, waived)
+        if by_length:
+            return RequirementResult(
+                requirement.id,
+                requirement.clause,
+                requirement.title,
+                "inconclusive",
+                exercised,
+                tuple(by_length),
+                by_length[0].unstable,
+            )
+        if requirement.id in self._settled:
+            verdict, reason = self._settled[requirement.id]
+            return RequirementResult(
+                requirement.id, requirement.clause, requirement.title, verdict, exercised, (), reason
+            )
+        if requirement.id in self.lost:
+            reason = f"a scenario that was to exercise it was lost ({self.lost[requirement.id]})"
+            return RequirementResult(
+                requirement.id, requirement.clause, requirement.title, "error", exercised, (), reason
+            )
+        if not exercised:
+            reason = self._reasons.get(requirement.id, "its condition never arose in this run")
+            if requirement.id in self._left_out:
+                reason += f"; scenarios that were to exercise it were {self._left_out[requirement.id]}"
+            return RequirementResult(
+                requirement.id, requirement.clause, requirement.title, "inconclusive", 0, (), reason
+            )
+        return RequirementResult(requirement.id, requirement.clause, requirement.title, "pass", exercised)
+
+    def transitions(self, table: LifeCycleTable) -> tuple[TransitionResult, ...]:
+        """How each row of the table fared."""
+        empty = RowTally()
+        rows = [(row.id, self.rows.get(row.id, empty)) for row in table.rows]
+        return tuple(TransitionResult(i, t.exercised, t.violated, tuple(sorted(t.readings))) for i, t in rows)
+
+
+def overall(results: Sequence[RequirementResult], incidents: Sequence[IncidentReport]) -> Overall:
+    """Not conformant if any requirement failed; conformant if all passed and nothing went wrong besides."""
+    if any(r.verdict == "fail" for r in results):
+        return "not conformant"
+    if incidents or any(r.verdict in ("inconclusive", "error") for r in results) or not results:
+        return "inconclusive"
+    return "conformant"

@@ -1,0 +1,206 @@
+"""A quick look at a mutated Python framework, in a forked process of this one: most mutants need no more.
+
+Only what cannot be doubted counts here: a failure that is shown again with more patience, and a framework that cannot be
+loaded. Everything else is for the ordinary pipeline, which is told where to look first.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import re
+import resource
+import select
+import signal
+import sys
+import time
+from collections import Counter
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import msgspec
+
+from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
+from ucm_cts.adapters.contract.scenario import Burst, Scenario, Stress
+from ucm_cts.adapters.contract.value import Value
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.execution.clock_gaps import StallWatch
+from ucm_cts.harness.execution.confirmation import is_timed
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.execution.integrity import contradiction
+from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.selftest.generated.trial import MORE_PATIENCE, Outcome
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.monitor import Judge
+
+SECONDS = 10
+"""What a scenario may take before the glance is given up."""
+
+BYTES = 4 << 30
+"""Address space that a forked process may take beside what it has from its parent."""
+
+FAVOURITES = 40
+"""Scenarios that found out most mutants so far are tried first."""
+
+
+class Glance(Value, frozen=True):
+    """``outcome`` if there is one already; otherwise ``suspect`` is the purpose in which something went wrong, if any did."""
+
+    outcome: Outcome | None = None
+    suspect: str = ""
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A scenario as the framework is given it, and the line that asks for it."""
+
+    purpose: str
+    clause: str
+    name: str
+    scenario: Scenario
+    may_stay: frozenset[str]
+    line: bytes
+
+    def patiently(self) -> Prepared:
+        """The same with more patience: what is found again stands."""
+        scenario = msgspec.structs.replace(self.scenario, patience=MORE_PATIENCE * self.scenario.patience)
+        return replace(self, scenario=scenario, line=encode(Run(0, scenario)))
+
+
+_TIME = re.compile(rb'"(t|calendar)":\d+')
+
+
+@dataclass
+class Glancer:
+    """Glances at one framework's mutants after the other, and learns which scenarios find out most."""
+
+    statement: Statement
+    purposes: Sequence[TestPurpose]
+    seed: int
+    silence: float = SECONDS
+    _prepared: list[Prepared] = field(default_factory=list)
+    _killers: Counter[str] = field(default_factory=Counter)
+    _right: set[bytes] = field(default_factory=set)
+    _watch: StallWatch | None = None
+
+    def __post_init__(self) -> None:
+        disguise, payloads = Disguise(self.seed, "{port}_{element}"), Payloads(self.seed)
+        for purpose in self.purposes:
+            for name, plain in purpose.scenarios:
+                if not _takes_time(plain):
+                    scenario = disguise.scenario(payloads.deal(plain))
+                    line = encode(Run(0, scenario))
+                    self._prepared.append(
+                        Prepared(purpose.id, purpose.clause, name, scenario, frozenset(plain.may_stay), line)
+                    )
+        self._judge = Judge(load_life_cycle(), self.statement.claims)
+
+    def look(self, adapter: str, clauses: Sequence[str]) -> Glance:
+        """Look at ``adapter``, ``package.module:Class``, whose package can be found; ``clauses`` come first."""
+        began = time.monotonic()
+        reading, writing = os.pipe()
+        child = os.fork()
+        if child == 0:
+            self._be_child(adapter, tuple(clauses), writing)
+        os.close(writing)
+        told = _heard(reading, self.silence)
+        os.close(reading)
+        with suppress(ProcessLookupError):
+            os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        *at, last = told.split(b"\n") or [b""]
+        glance = msgspec.json.decode(last, type=Glance) if last.startswith(b"{") else Glance(None, _last(at, last))
+        if glance.outcome is not None:
+            self._killers[glance.outcome.scenario] += 1
+            seconds = round(time.monotonic() - began, 2)
+            return Glance(msgspec.structs.replace(glance.outcome, seconds=seconds))
+        return glance
+
+    def _be_child(self, adapter: str, clauses: tuple[str, ...], writing: int) -> None:
+        most = _address_space() + BYTES
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+        null = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(null, 1)
+        os.dup2(null, 2)
+        try:
+            self._watch = StallWatch()
+            os.write(writing, msgspec.json.encode(self._examine(adapter, clauses, writing)))
+        finally:
+            os._exit(0)
+
+    def _examine(self, adapter: str, clauses: tuple[str, ...], writing: int) -> Glance:
+        module, _, name = adapter.partition(":")
+        sys.dont_write_bytecode = True
+        try:
+            engine = Engine(getattr(importlib.import_module(module), name))
+        except BaseException as error:  # noqa: BLE001 - whatever a mutant does
+            return Glance(Outcome("not loaded", type(error).__name__, told=str(error)))
+        favourites = {name for name, _ in self._killers.most_common(FAVOURITES)}
+
+        def late(one: Prepared) -> tuple[bool, bool]:
+            return one.name not in favourites, not one.clause.startswith(clauses)
+
+        for one in sorted(self._prepared, key=late):
+            os.write(writing, one.purpose.encode() + b"\n")
+            findings = self._findings(engine, one)
+            if findings is None:
+                return Glance(None, one.purpose)
+            if findings and (again := self._findings(engine, one.patiently())):
+                first = again[0]
+                return Glance(Outcome("failed", first.requirement, one.name, f"{first.rule}: {first.observed}"))
+        return Glance()
+
+    def _findings(self, engine: Engine, one: Prepared) -> list[Finding] | None:
+        """What is wrong, less what a stall of the machine may have caused; None if it takes the pipeline to tell."""
+        answer = engine.answer(one.line)
+        if _TIME.sub(b"", answer) in self._right:
+            return []
+        reply = from_host_decoder().decode(answer)
+        if not isinstance(reply, Traced) or not one.may_stay.issuperset(reply.stuck):
+            return None
+        if contradiction(one.scenario, reply.events, bool(reply.stuck)) is not None:
+            return None
+        stalled = self._watch is None or self._watch.longest(reply.events)
+        found = self._judge.judge(one.scenario, reply.events).findings
+        return [finding for finding in found if not (stalled and is_timed(finding))]
+
+    def learn(self, engine: Engine) -> None:
+        """Keep what the framework without mutants answers: who answers alike needs no judge."""
+        for one in self._prepared:
+            reply = engine.answer(one.line)
+            told = from_host_decoder().decode(reply)
+            if isinstance(told, Traced) and not told.stuck and not self._findings(engine, one):
+                self._right.add(_TIME.sub(b"", reply))
+
+
+def _address_space() -> int:
+    """Bytes that this process has already, those of its threads' stacks included."""
+    pages, _, _ = Path("/proc/self/statm").read_text().partition(" ")
+    return int(pages) * resource.getpagesize()
+
+
+def _takes_time(scenario: Scenario) -> bool:
+    if any(isinstance(step, Stress) for step in scenario.steps):
+        return True
+    plans = (actions for declaration in scenario.components.values() for actions in declaration.plan.values())
+    return any(isinstance(action, Burst) for actions in plans for action in actions)
+
+
+def _heard(reading: int, seconds: float) -> bytes:
+    """All that comes before the other end is closed, or is silent for too long."""
+    told = b""
+    while select.select([reading], [], [], seconds)[0]:
+        part = os.read(reading, 1 << 16)
+        if not part:
+            break
+        told += part
+    return told
+
+
+def _last(before: Sequence[bytes], last: bytes) -> str:
+    return next((part.decode() for part in (last, *reversed(before)) if part), "")

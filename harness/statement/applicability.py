@@ -1,0 +1,137 @@
+"""What of the suite applies to a product, by what its vendor states: which scenarios are run, and which requirements count."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+
+import msgspec
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration, Scenario
+from ucm_cts.harness.catalogue.requirements import Need, Requirement, load_capabilities
+from ucm_cts.harness.models.core_models import CHECKS
+from ucm_cts.harness.purposes.scripts import TestPurpose
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.harness.results.statement import HOOKS, Statement, default_statement
+from ucm_cts.harness.results.values import Verdict
+
+_BROKEN = {"transport": "transport-fault=hook", "inside": "connector-fault=hook"}
+
+Cases = tuple[tuple[str, Scenario], ...]
+Draw = Callable[[int, Mapping[str, str]], Cases]
+
+
+def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
+    """The test purposes of ``profile``, with those scenarios that ask for nothing that is not claimed; systematic suites are
+    those for so many ``extra_states``.
+    """
+    reduced = (_reduced(purpose, statement) for purpose in _all_purposes(statement, profile, extra_states))
+    return tuple(purpose for purpose in reduced if purpose.scenarios)
+
+
+def needs_of(scenario: Scenario) -> frozenset[str]:
+    """What a vendor must claim for ``scenario`` to be run: parts of 10.1, and means to break connectors."""
+    applied = {p.definition for declaration in scenario.components.values() for p in declaration.policies}
+    linked = {step.connector for step in scenario.steps if isinstance(step, s.Link)}
+    broken = {_BROKEN[step.where] for step in scenario.steps if isinstance(step, s.Break)}
+    return frozenset((applied | linked) & _parts() | broken)
+
+
+def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, str] | None:
+    """Why ``requirement`` is not decided for this vendor, and what its verdict is then; None if it is to be decided.
+
+    What only tests need, and the adapter does not offer, leaves it undecided; what else is not claimed makes it not apply.
+    """
+    missing = [unmet for need in load_capabilities().of(requirement.id) for unmet in _unmet(need, statement)]
+    if set(requirement.rules) <= CHECKS.keys() and not statement.meets(_WITH_MODELS):
+        missing.append((_WITH_MODELS,))
+    if not missing:
+        return None
+    of_tests = [all(need.partition("=")[0] in HOOKS for need in needs) for needs in missing]
+    verdict: Verdict = "inconclusive" if all(of_tests) else "not applicable"
+    telling = missing[of_tests.index(True)] if all(of_tests) else missing[of_tests.index(False)]
+    said = f"{statement.source} says" if statement.source else "without a statement it holds that"
+    return verdict, f"{said} {' and '.join(dict.fromkeys(_told(need, statement) for need in telling))}"
+
+
+def asked_in_vain(statement: Statement, profile: str) -> Mapping[str, str]:
+    """What is not claimed and yet asked for by every scenario of a requirement, by the requirement's id."""
+    lacking: dict[str, set[str]] = {}
+    found: set[str] = set()
+    for purpose in _all_purposes(statement, profile):
+        for _, scenario in purpose.scenarios:
+            missing = {need for need in needs_of(scenario) if not statement.meets(need)}
+            for requirement in purpose.requirements:
+                lacking.setdefault(requirement, set()).update(missing)
+            found.update(() if missing else purpose.requirements)
+    return {requirement: ", ".join(sorted(parts)) for requirement, parts in lacking.items() if requirement not in found}
+
+
+_ON_COMPONENTS = "protected-active-applicability=onComponent"
+_WITH_MODELS = "core-models=shipped"
+
+
+def _told(need: str, statement: Statement) -> str:
+    option = need.partition("=")[0]
+    return f"{option} = {statement.readings[option]}" if option != need else f"{need} = false"
+
+
+def _unmet(need: Need, statement: Statement) -> Iterator[tuple[str, ...]]:
+    yield from ((one,) for one in need.needs if not statement.meets(one))
+    if need.one_of and not any(map(statement.meets, need.one_of)):
+        yield need.one_of
+
+
+@functools.cache
+def _parts() -> frozenset[str]:
+    return frozenset(capability.id for capability in load_capabilities().capabilities)
+
+
+def _all_purposes(statement: Statement, profile: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
+    default = default_statement().declared
+    declared = (reading for reading in statement.declared if reading not in default)
+    return load_purposes(profile, *declared, extra_states=extra_states)
+
+
+def _reduced(purpose: TestPurpose, statement: Statement) -> TestPurpose:
+    draw = functools.partial(_drawn, purpose.draw, statement) if purpose.draw is not None else None
+    return replace(purpose, scenarios=fitting(purpose.scenarios, statement), draw=draw)
+
+
+def _drawn(draw: Draw, statement: Statement, seed: int, readings: Mapping[str, str]) -> Cases:
+    return fitting(draw(seed, readings), statement)
+
+
+def fitting(cases: Iterable[tuple[str, Scenario]], statement: Statement) -> Cases:
+    """Those of ``cases`` that ask for nothing that is not claimed, with the patience that is declared."""
+    return tuple(
+        (name, _fitted(scenario, statement))
+        for name, scenario in cases
+        if all(map(statement.meets, needs_of(scenario)))
+    )
+
+
+def _fitted(scenario: Scenario, statement: Statement) -> Scenario:
+    """The scenario with the declared patience, policies where they can be attached, and no reading of a log that nobody
+    can read back.
+    """
+    patience = round(scenario.patience * statement.ixit["patience"] / default_statement().ixit["patience"])
+    steps = scenario.steps
+    if not statement.meets("trace-sink=hook"):
+        steps = tuple(step for step in steps if not isinstance(step, s.ReadLog))
+    components = scenario.components
+    if statement.meets(_ON_COMPONENTS):
+        components = {name: _active_as_a_whole(declaration) for name, declaration in components.items()}
+    return msgspec.structs.replace(scenario, components=components, patience=max(1, patience), steps=steps)
+
+
+def _active_as_a_whole(declaration: Declaration) -> Declaration:
+    """The active policy is attached to the component, once, instead of its ports (active-applicability)."""
+    policies = (s.Policy(s.ACTIVE) if p.definition == s.ACTIVE else p for p in declaration.policies)
+    seen: list[s.Policy] = []
+    for policy in policies:
+        if policy != s.Policy(s.ACTIVE) or policy not in seen:
+            seen.append(policy)
+    return msgspec.structs.replace(declaration, policies=tuple(seen))

@@ -1,0 +1,41 @@
+"""What can be told of a vendor's statement without running anything: false claims, what does not apply, the models."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ucm_cts.harness.catalogue.profiles import PARTS
+from ucm_cts.harness.catalogue.requirements import Requirement
+from ucm_cts.harness.models.core_models import compare
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.results.tally import Tally
+from ucm_cts.harness.statement.applicability import asked_in_vain, why_not
+from ucm_cts.reference_models.findings import Finding
+
+
+def check_statement(statement: Statement, profile: str, requirements: Sequence[Requirement], tally: Tally) -> None:
+    """Enter into ``tally`` what ``statement`` means for ``requirements``. Raises ``DocumentError`` for unusable models."""
+    for requirement in requirements:
+        unmet = why_not(requirement, statement)
+        if unmet is not None:
+            tally.settle(requirement.id, *unmet)
+    if "core" not in PARTS[profile]:
+        return
+    for part, claimed in statement.capabilities.items():
+        if not claimed:
+            tally.deny(_left_out(part, statement))
+    for requirement_id, parts in asked_in_vain(statement, profile).items():
+        tally.explain(requirement_id, f"all scenarios that are to exercise it ask for what is not claimed: {parts}")
+    if statement.meets("core-models=shipped"):
+        tally.add_models(compare(statement.model_paths, statement.readings))
+
+
+def _left_out(part: str, statement: Statement) -> Finding:
+    where = f" ({statement.source})" if statement.source else ""
+    return Finding(
+        "R-10.1-01",
+        "core_claimed",
+        f"{part} left out",
+        "a vendor who claims profile core claims every part of 10.1",
+        f"the vendor's statement{where} leaves out {part}",
+    )

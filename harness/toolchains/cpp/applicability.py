@@ -1,0 +1,35 @@
+"""Which requirements the rules of the C++ profiles stand for, and which of them do not apply to a vendor."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from typing import get_args
+
+from ucm_cts.adapters.contract.metamodel.reading import read_model
+from ucm_cts.harness.catalogue.requirements import SUITE, load_requirements
+from ucm_cts.harness.results.statement import Statement
+from ucm_cts.harness.statement.applicability import why_not
+from ucm_cts.harness.toolchains.cpp.probes import GENERATED, HEADERS, rule_of
+from ucm_cts.reference_models.mapping.cpp.expected import Standard
+from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
+
+MODELS = SUITE / "models" / "mapping"
+
+
+@functools.cache
+def stand_for() -> Mapping[str, frozenset[str]]:
+    """The requirements that each rule stands for: those that the models of the mappings make it look at."""
+    found: dict[str, set[str]] = {"cpp_headers": set(HEADERS.values()), GENERATED[1]: {GENERATED[0]}}
+    for path in sorted(MODELS.glob("*.xml")):
+        model = read_model(path.read_bytes(), path.name).model
+        for standard in get_args(Standard):
+            for expected in expected_cpp(model, standard, {}).expected:
+                found.setdefault(rule_of(expected.claim), set()).add(expected.requirement)
+    return {rule: frozenset(requirements) for rule, requirements in found.items()}
+
+
+def not_asked(statement: Statement) -> Mapping[str, str]:
+    """The requirements of clause 13 that do not apply to this vendor, and why."""
+    told = {r.id: why_not(r, statement) for r in load_requirements() if r.rules and r.id.startswith("R-13")}
+    return {requirement: why[1] for requirement, why in told.items() if why is not None}

@@ -1,0 +1,240 @@
+"""Edits of interaction modules, patterns, connectors and port types (9.3)."""
+
+from __future__ import annotations
+
+import copy
+
+from lxml import etree
+
+from ucm_cts.harness.toolchains.corpus.declarations import NOWHERE
+from ucm_cts.harness.toolchains.operators.interfaces import beside, named
+from ucm_cts.harness.toolchains.operators.operator import breaks, keeps
+
+
+@keeps("R-9.3.2.1-01", at="InteractionModule")
+def first_declaration_last(module: etree._Element) -> bool:
+    """What is used may be declared after it."""
+    declarations = list(module.iterchildren(etree.Element))
+    if len(declarations) < 2:
+        return False
+    module.append(declarations[0])
+    return True
+
+
+@keeps("R-9.3.3.2-04", at="InteractionPattern")
+def pattern_with_a_child(pattern: etree._Element) -> None:
+    """A pattern may be extended, with and without further roles."""
+    name = str(pattern.get("name"))
+    child = beside(pattern, "InteractionPattern", name=f"{name}_child", extends=name)
+    etree.SubElement(child, "InteractionRole", name=f"{name}_observer", lowerMultiplicity="0", upperMultiplicity="-1")
+
+
+@breaks("R-9.3.3.2-03", at="InteractionPattern")
+def extends_nothing_known(pattern: etree._Element) -> bool:
+    """What is extended is declared nowhere."""
+    if pattern.get("extends"):
+        return False
+    pattern.set("extends", NOWHERE)
+    return True
+
+
+@breaks("R-9.3.3.2-05", at="InteractionPattern")
+def redefined_role(pattern: etree._Element) -> bool:
+    """The parent has that role already."""
+    return _taken_from_parent(pattern, "InteractionRole")
+
+
+@breaks("R-9.3.3.2-07", at="InteractionPattern", under=("item-redefinition=refused",))
+def redefined_item(pattern: etree._Element) -> bool:
+    """The parent has that item already."""
+    return _taken_from_parent(pattern, "InteractionItem")
+
+
+def _taken_from_parent(pattern: etree._Element, tag: str) -> bool:
+    parent = named(pattern, "InteractionPattern", str(pattern.get("extends", "")))
+    theirs = parent.find(tag) if parent is not None else None
+    if theirs is None or parent is pattern:
+        return False
+    pattern.append(copy.deepcopy(theirs))
+    for involved in pattern[-1].findall("InvolvedItem"):
+        pattern[-1].remove(involved)
+    return True
+
+
+@breaks("R-9.3.3.2-06", at="InteractionPattern")
+def extends_itself(pattern: etree._Element) -> None:
+    """The pattern is its own ancestor."""
+    pattern.set("extends", str(pattern.get("name")))
+
+
+@breaks("R-9.3.3.3-03", at="InteractionItem")
+def no_nature(item: etree._Element) -> None:
+    """An item without nature."""
+    del item.attrib["nature"]
+
+
+@breaks("R-9.3.3.3-04", at="InteractionItem")
+def unknown_nature(item: etree._Element) -> None:
+    """There is no such nature."""
+    item.set("nature", "VALUE")
+
+
+@breaks("R-9.3.3.3-05", at="ItemBinding")
+def other_nature(binding: etree._Element) -> bool:
+    """What is bound is of another nature than the item."""
+    owner, _, name = str(binding.get("interactionItem")).rpartition(".")
+    pattern = named(binding, "InteractionPattern", owner)
+    item = pattern.find(f"InteractionItem[@name='{name}']") if pattern is not None else None
+    if item is None:
+        return False
+    item.set("nature", "INTERFACE" if item.get("nature") == "DATA" else "DATA")
+    return True
+
+
+@breaks("R-9.3.3.4-02", at="InteractionRole")
+def no_lower_multiplicity(role: etree._Element) -> None:
+    """A role without a lower multiplicity."""
+    del role.attrib["lowerMultiplicity"]
+
+
+@breaks("R-9.3.3.4-03", at="InteractionRole")
+def no_upper_multiplicity(role: etree._Element) -> None:
+    """A role without an upper multiplicity."""
+    del role.attrib["upperMultiplicity"]
+
+
+@breaks("R-9.3.3.4-04", at="InteractionRole")
+def more_at_least_than_at_most(role: etree._Element) -> None:
+    """No number is at least that much and at most that little."""
+    role.set("lowerMultiplicity", "4")
+    role.set("upperMultiplicity", "3")
+
+
+@breaks("R-9.3.3.4-06", at="InvolvedItem")
+def involves_nothing_known(involved: etree._Element) -> None:
+    """The pattern has no such item."""
+    involved.set("item", NOWHERE)
+
+
+@breaks("R-9.3.3.4-07", at="ConnectorDefinition")
+def port_without_the_item(connector: etree._Element) -> bool:
+    """The port of one role has nothing in its API that the item stands for, the port of the other role has."""
+    ports = connector.findall("ConnectorPort")
+    roles = [_role(port) for port in ports]
+    involved = [
+        {str(i.get("item")) for i in role.findall("InvolvedItem")} if role is not None else set() for role in roles
+    ]
+    bound = {str(b.get("interactionItem")).rpartition(".")[2] for b in connector.findall("ItemBinding")}
+    if len(ports) != 2 or roles[0] is roles[1] or not involved[0] & involved[1] & bound:
+        return False
+    beside(connector, "PortType", name="port_type_for_nothing")
+    ports[1].set("api", "port_type_for_nothing")
+    return True
+
+
+def _role(port: etree._Element) -> etree._Element | None:
+    owner, _, name = str(port.get("portRole")).rpartition(".")
+    pattern = named(port, "InteractionPattern", owner)
+    return pattern.find(f"InteractionRole[@name='{name}']") if pattern is not None else None
+
+
+@breaks("R-9.3.3.4-08", at="ItemBinding", under=("repeated-item-bindings=refused",))
+def bound_to_another_type_too(binding: etree._Element) -> bool:
+    """One item stands for two types."""
+    module, _, name = str(binding.get("connectorItem")).rpartition("::")
+    contracts = named(binding, "ContractModule", module)
+    bound = contracts.find(f"*[@name='{name}']") if contracts is not None else None
+    if contracts is None or bound is None:
+        return False
+    interface = bound.tag in ("Interface", "AbstractInterface")
+    etree.SubElement(contracts, "AbstractInterface" if interface else "AbstractDataType", name="quite_another")
+    again = copy.deepcopy(binding)
+    again.set("connectorItem", f"{module}::quite_another")
+    binding.addnext(again)
+    return True
+
+
+@keeps("R-9.3.1-10", at="ConnectorDefinition")
+def connector_with_a_sister(connector: etree._Element) -> None:
+    """A pattern may have several connectors."""
+    sister = copy.deepcopy(connector)
+    sister.set("name", f"{connector.get('name')}_sister")
+    connector.addnext(sister)
+
+
+@breaks("R-9.3.4-01", at="ConnectorDefinition")
+def refines_nothing_known(connector: etree._Element) -> None:
+    """The pattern is declared nowhere."""
+    connector.set("pattern", NOWHERE)
+
+
+@breaks("R-9.3.4-03", at="ConnectorPort")
+def plays_nothing_known(port: etree._Element) -> None:
+    """The pattern has no such role."""
+    pattern = str(port.get("portRole")).rpartition(".")[0]
+    port.set("portRole", f"{pattern}.{NOWHERE}")
+
+
+@breaks("R-9.3.4.4-01", at="ConnectorPort")
+def api_of_nothing_known(port: etree._Element) -> None:
+    """The port type is declared nowhere."""
+    port.set("api", NOWHERE)
+
+
+@breaks("R-9.3.4.4-02", at="ConnectorPort", under=("connector-port-api=required",))
+def no_api(port: etree._Element) -> bool:
+    """A connector port without a port type."""
+    return port.attrib.pop("api", "") != ""
+
+
+@breaks("R-9.3.4.6-02", at="ItemBinding")
+def binds_nothing_known(binding: etree._Element) -> None:
+    """The pattern has no such item."""
+    pattern = str(binding.get("interactionItem")).rpartition(".")[0]
+    connector_item = str(binding.get("connectorItem"))
+    beside(binding, "ItemBinding", interactionItem=f"{pattern}.{NOWHERE}", connectorItem=connector_item)
+
+
+@breaks("R-9.3.4.6-03", at="ItemBinding")
+def bound_to_nothing_known(binding: etree._Element) -> None:
+    """The type is declared nowhere."""
+    binding.set("connectorItem", NOWHERE)
+
+
+@breaks("R-9.3.4.6-04", at="ItemBinding", under=("unbound-items=required",))
+def unbound(binding: etree._Element) -> bool:
+    """A connector that does not bind an item of its roles."""
+    owner, _, name = str(binding.get("interactionItem")).rpartition(".")
+    pattern, connector = named(binding, "InteractionPattern", owner), binding.getparent()
+    if pattern is None or connector is None or pattern.find(f"InteractionRole/InvolvedItem[@item='{name}']") is None:
+        return False
+    connector.remove(binding)
+    return True
+
+
+@keeps("R-9.3.5.1-01", at="PortType")
+def port_type_with_a_bare_sister(port_type: etree._Element) -> None:
+    """A port type may do without elements."""
+    beside(port_type, "PortType", name=f"{port_type.get('name')}_bare")
+
+
+@breaks("R-9.3.5.2-02", at="PortElement")
+def interface_of_nothing_known(element: etree._Element) -> bool:
+    """The interface is declared nowhere."""
+    around = element.getparent()
+    if around is None or around.tag != "PortType":
+        return False
+    element.set("interface", NOWHERE)
+    return True
+
+
+@breaks("R-9.3.5.2-03", at="PortElement")
+def no_kind(element: etree._Element) -> None:
+    """A port element without a kind."""
+    del element.attrib["kind"]
+
+
+@breaks("R-9.3.5.2-04", at="PortElement")
+def unknown_kind(element: etree._Element) -> None:
+    """There is no such kind."""
+    element.set("kind", "OFFERED")

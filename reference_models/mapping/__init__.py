@@ -1,0 +1,1 @@
+"""What the language mappings demand of generated files."""

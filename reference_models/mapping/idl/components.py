@@ -1,0 +1,290 @@
+"""What 12.8 makes of component types, implementations, ports and technical policies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
+from ucm_cts.adapters.contract.metamodel.components import (
+    AbstractTypeBinding,
+    AtomicComponentImplementation,
+    ComponentPortTechnicalPolicy,
+    ComponentTechnicalPolicy,
+    ComponentType,
+    Port,
+    PortTypeSpec,
+)
+from ucm_cts.adapters.contract.metamodel.contracts import Interface
+from ucm_cts.adapters.contract.metamodel.interactions import PortElement, PortType
+from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, lineage
+from ucm_cts.reference_models.mapping.idl.declarations import Type
+from ucm_cts.reference_models.mapping.idl.expectations import (
+    Declares,
+    Expected,
+    Getter,
+    Inherits,
+    NoGetter,
+    Only,
+    Path,
+    Signature,
+)
+from ucm_cts.reference_models.mapping.idl.interfaces import attribute_facts, signatures
+from ucm_cts.reference_models.mapping.idl.subjects import INTERFACES, TYPES, Bound, Subject, named, path_in, path_of
+from ucm_cts.reference_models.mapping.idl.templates import ABSTRACT, Templates
+
+BODY = "_Body"
+COMPONENT_OBJECT = ("ComponentObject",)
+PORT_ELEMENT_OBJECT = ("PortElementObject",)
+
+ASPECTS_OF_PORTS = {"presence": "R-12.8.4-04", "arguments": "R-12.8.4-05", "result": "R-12.8.4-06"}
+ASPECTS_OF_POLICIES = {"presence": "R-12.8.5-02", "arguments": "R-12.8.5-04", "result": "R-12.8.5-05"}
+
+
+class Used(NamedTuple):
+    """The interface of a port element as a component sees it: its declaration, and what stands for abstract types."""
+
+    interface: Declared
+    bound: Bound
+
+
+def component_facts(subject: Subject, bodies: Sequence[Subject], templates: Templates) -> Iterator[Expected]:
+    """All that is expected of a component type; ``bodies`` are its implementations, where getters may be found, too."""
+    component = subject.element
+    assert isinstance(component, ComponentType)
+    yield Declares(**subject.about("R-12.8.1-01"), kind="interface")
+    for attribute in component.attributes:
+        yield from attribute_facts(subject, attribute, "R-12.8.1-02")
+    names = tuple(attribute.name for attribute in component.attributes)
+    ancestors = tuple(path_of(one) for one in lineage(Declared(component, subject.scope)))[1:]
+    yield Only(**subject.about("R-12.8.1-02"), kind="attribute", names=names, ancestors=ancestors)
+    getters = tuple(
+        f"get_{port.name}{rest}" for port, _ in ports_of(Declared(component, subject.scope)) for rest in ("", "_*")
+    )
+    yield Only(
+        **subject.about("R-12.8.1-06"),
+        kind="operation",
+        names=(),
+        patterns=(*getters, "get_tp_*"),  # of which there must be, and may not be, is told elsewhere
+        ancestors=ancestors,
+    )
+    base = subject.scope.find(component.refines, ComponentType) if component.refines else None
+    if base is not None:
+        yield Inherits(**subject.about("R-12.8.1-05"), base=path_of(base))
+    for port, scope in ports_of(Declared(component, subject.scope)):
+        yield from _port(subject, port, scope, bodies, templates)
+
+
+def ports_of(component: Declared) -> list[tuple[Port, Scope]]:
+    """The ports of a component type, inherited ones too, without those that another one of the same name refines."""
+    found: dict[str, tuple[Port, Scope]] = {}
+    for element, scope in lineage(component):
+        assert isinstance(element, ComponentType)
+        for port in element.ports:
+            found.setdefault(port.name, (port, scope))
+    return list(found.values())
+
+
+def body_path(implementation: Subject) -> Path:
+    """Where the body interface of an implementation stands."""
+    return path_in(implementation.scope, implementation.element.name + BODY)
+
+
+def _port(
+    subject: Subject, port: Port, scope: Scope, bodies: Sequence[Subject], templates: Templates
+) -> Iterator[Expected]:
+    holders = [(body_path(body), subject.path, True) for body in bodies] or [(subject.path, Path(), False)]
+    specs = [spec for spec in port.specs if isinstance(spec, PortTypeSpec)]
+    if not specs:
+        for path, _, _ in holders:
+            yield NoGetter(
+                **subject.about("R-12.8.4-02", port, path=path), names=(f"get_{port.name}", f"get_{port.name}_*")
+            )
+        return
+    for spec in specs:
+        found = scope.find(spec.type, PortType)
+        if found is None:
+            continue
+        assert isinstance(found.element, PortType)
+        bound = bindings(spec.bindings, scope)
+        for element in found.element.port_elements:
+            name = f"get_{port.name}_{element.name}"
+            for path, otherwise, needed in holders:
+                if element.kind == "REQUIRED":
+                    yield NoGetter(**subject.about("R-12.8.4-07", port, path=path), names=(name,))
+                elif element.kind == "PROVIDED":
+                    yield from _getters(
+                        subject,
+                        (port, path, otherwise, needed),
+                        (name,),
+                        used_interface(element, found.scope, bound),
+                        templates,
+                        ASPECTS_OF_PORTS,
+                    )
+
+
+def bindings(declared: Sequence[AbstractTypeBinding], scope: Scope) -> Bound:
+    """What stands for abstract types, of those bindings that the model gives sense to."""
+    pairs = ((scope.find(one.abstract_type, *ABSTRACT), scope.find(one.actual_type, *TYPES)) for one in declared)
+    return {path_of(a): named(path_of(b)) for a, b in pairs if a is not None and b is not None}
+
+
+def used_interface(element: PortElement, scope: Scope, bound: Bound) -> Used | None:
+    """The interface that ``element`` provides or requires once ``bound``; None if the model does not say."""
+    found = scope.find(element.interface, *INTERFACES)
+    if found is None:
+        return None
+    if isinstance(found.element, Interface):
+        return Used(found, bound)
+    actual = bound.get(path_of(found))
+    name = getattr(actual, "name", "")
+    concrete = scope.root.find(name, Interface) if name else None
+    return Used(concrete, bound) if concrete is not None else None
+
+
+def _getters(
+    subject: Subject,
+    place: tuple[Port | ComponentTechnicalPolicy, Path, Path, bool],
+    names: tuple[str, ...],
+    used: Used | None,
+    templates: Templates,
+    aspects: dict[str, str],
+) -> Iterator[Expected]:
+    inner, path, otherwise, needed = place
+    for aspect, requirement in aspects.items():
+        if aspect == "result" and used is None:
+            continue
+        yield Getter(
+            **subject.about(requirement, inner, path=path),
+            aspect=aspect,
+            names=names,
+            returns=_returned(used),
+            signatures=_bound_signatures(used, templates),
+            otherwise=otherwise,
+            needed=needed,
+        )
+
+
+def _returned(used: Used | None) -> Type:
+    return named(path_of(used.interface)) if used is not None else named(())
+
+
+def _bound_signatures(used: Used | None, templates: Templates) -> tuple[Signature, ...]:
+    if used is None or not templates.used_by(used.interface):
+        return ()
+    return signatures(used.interface, used.bound, lambda one: bool(templates.used_by(one)))
+
+
+def implementation_facts(subject: Subject, names: Names, templates: Templates) -> Iterator[Expected]:
+    """All that is expected of an atomic implementation, except the getters of its ports."""
+    implementation = subject.element
+    assert isinstance(implementation, AtomicComponentImplementation)
+    path = body_path(subject)
+    yield Declares(**subject.about("R-12.8.2-01", path=path), kind="interface")
+    type_ = subject.scope.find(implementation.type, ComponentType)
+    if type_ is not None:
+        yield Inherits(**subject.about("R-12.8.2-02", path=path), base=path_of(type_))
+    yield Inherits(**subject.about("R-12.8.2-03", path=path), base=COMPONENT_OBJECT)
+    for policy, both in policies_of(subject, names):
+        yield from _policy(subject, policy, path, both, templates)
+
+
+def policies_of(subject: Subject, names: Names) -> Iterator[tuple[Declared, bool]]:
+    """The component policies that an implementation names or is managed by, and whether it is both."""
+    implementation = subject.element
+    assert isinstance(implementation, AtomicComponentImplementation)
+    found = (subject.scope.find(one.name, ComponentTechnicalPolicy) for one in implementation.policies)
+    mine = {path_of(one): one for one in found if one is not None}
+    managing = {}
+    for declared in every(names.root, ComponentTechnicalPolicy):
+        policy = declared.element
+        assert isinstance(policy, ComponentTechnicalPolicy)
+        managed = (declared.scope.find(one.name, AtomicComponentImplementation) for one in policy.managed_components)
+        if any(one is not None and path_of(one) == subject.path for one in managed):
+            managing[path_of(declared)] = declared
+    for path, declared in (mine | managing).items():
+        if not isinstance(declared.element, ComponentPortTechnicalPolicy):
+            yield declared, path in mine and path in managing
+
+
+def every(scope: Scope, kind: type[ComponentTechnicalPolicy]) -> Iterator[Declared]:
+    """All elements of ``kind`` in ``scope`` and in the modules inside it."""
+    for declared in (one for members in scope.members.values() for one in members):
+        if isinstance(declared.element, kind):
+            yield declared
+    for inner in (one for modules in scope.modules.values() for one in modules):
+        yield from every(inner, kind)
+
+
+def _policy(subject: Subject, declared: Declared, path: Path, both: bool, templates: Templates) -> Iterator[Expected]:
+    policy, scope = declared
+    assert isinstance(policy, ComponentTechnicalPolicy)
+    definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
+    if definition is None:
+        return
+    bound = bindings(policy.bindings, scope)
+    for ancestor in lineage(definition):
+        assert isinstance(ancestor.element, TechnicalPolicyDefinition)
+        for element in ancestor.element.port_elements:
+            names = policy_getter_names(policy.name, definition.element.name, element.name)
+            if element.kind == "REQUIRED":
+                yield NoGetter(**subject.about("R-12.8.5-03", policy, path=path), names=names)
+            elif element.kind == "PROVIDED":
+                used = used_interface(element, ancestor.scope, bound)
+                place = (policy, path, Path(), both)
+                yield from _getters(subject, place, names, used, templates, ASPECTS_OF_POLICIES)
+
+
+def policy_getter_names(policy: str, definition: str, element: str) -> tuple[str, ...]:
+    """What the getter may be called, by the readings of idl-policy-getters: instance, definition, component-and-instance."""
+    return f"get_tp_{policy}_{element}", f"get_tp_{definition}_{element}", f"get_tp_*{policy}_{element}"
+
+
+def port_element_interfaces(names: Names) -> Iterator[tuple[Subject, bool]]:
+    """The interfaces of port elements, each with whether it must be a PortElementObject: those that a policy definition only
+    provides need not (interpretation policy-interfaces).
+    """
+    found: dict[Path, tuple[Subject, bool]] = {}
+    for declared in _everything(names.root):
+        element, scope = declared
+        elements = element.port_elements if isinstance(element, (PortType, TechnicalPolicyDefinition)) else ()
+        for one in elements:
+            interface = scope.find(one.interface, Interface)
+            if interface is not None:
+                strict = isinstance(element, PortType) or one.kind == "REQUIRED"
+                _note(found, interface, strict)
+        if isinstance(element, (ComponentType, ComponentTechnicalPolicy)):
+            for used in _bound_interfaces(declared):
+                _note(found, used, isinstance(element, ComponentType))
+    yield from found.values()
+
+
+def _note(found: dict[Path, tuple[Subject, bool]], interface: Declared, strict: bool) -> None:
+    path = path_of(interface)
+    found[path] = (Subject(*interface), strict or (path in found and found[path][1]))
+
+
+def _bound_interfaces(declared: Declared) -> Iterator[Declared]:
+    """The interfaces that stand for abstract ones in port elements of a component type's ports or of a policy."""
+    element, scope = declared
+    if isinstance(element, ComponentTechnicalPolicy):
+        definition = scope.find(element.technical_policy_definition, TechnicalPolicyDefinition)
+        sources = [(one, element.bindings) for one in lineage(definition)] if definition is not None else []
+    else:
+        assert isinstance(element, ComponentType)
+        specs = [spec for port in element.ports for spec in port.specs if isinstance(spec, PortTypeSpec)]
+        typed = ((scope.find(spec.type, PortType), spec.bindings) for spec in specs)
+        sources = [(found, given) for found, given in typed if found is not None]
+    for source, given in sources:
+        assert isinstance(source.element, (PortType, TechnicalPolicyDefinition))
+        for one in source.element.port_elements:
+            used = used_interface(one, source.scope, bindings(given, scope))
+            if used is not None:
+                yield used.interface
+
+
+def _everything(scope: Scope) -> Iterator[Declared]:
+    for members in scope.members.values():
+        yield from members
+    for inner in (one for modules in scope.modules.values() for one in modules):
+        yield from _everything(inner)

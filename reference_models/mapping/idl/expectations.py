@@ -1,0 +1,238 @@
+"""What a vendor's IDL must show: one value for each thing that a requirement asks of one element of a model.
+
+A ``path`` is where a declaration stands, from the root, in the names of the model: hyphens are still there. Types name what they
+mean by such paths (``::m::t``); a path of an abstract type stands for the parameter of a template.
+"""
+
+from __future__ import annotations
+
+import msgspec
+
+from ucm_cts.reference_models.mapping.idl.declarations import Type
+
+Path = tuple[str, ...]
+
+STANDS_FOR: dict[str, tuple[str, ...]] = {
+    "idl_generated": ("R-12-01",),
+    "idl_syntax": ("R-12.1-03",),
+    "idl_building_blocks": ("R-12.1-02",),
+    "idl_types": (
+        "R-12.2-03",
+        *(f"R-12.3.1-{n:02}" for n in range(1, 14)),
+        *(f"R-12.4.1-{n:02}" for n in range(1, 12)),
+    ),
+    "idl_annotations": (
+        *("R-12.3.2-02", "R-12.3.2-03", "R-12.4.1.1-02", "R-12.4.1.1-03", "R-12.4.1.3-02", "R-12.4.1.3-03"),
+        *(f"R-12.4.1.2-{n:02}" for n in (2, 4, 5, 6)),
+        *(f"R-14-{n:02}" for n in range(2, 7)),
+    ),
+    "idl_constants": ("R-12.5-01", "R-12.5-02", "R-12.5-03"),
+    "idl_interfaces": tuple(f"R-12.6-{n:02}" for n in range(1, 11)),
+    "idl_modules": tuple(f"R-12.7-{n:02}" for n in range(2, 13)),
+    "idl_components": (
+        *(f"R-12.8.1-{n:02}" for n in range(1, 7)),
+        *("R-12.8.2-01", "R-12.8.2-02", "R-12.8.2-03", "R-12.8.3-01", "R-12.8.3-02"),
+        *(f"R-12.8.4-{n:02}" for n in (2, 4, 5, 6, 7)),
+        *(f"R-12.8.5-{n:02}" for n in (2, 3, 4, 5)),
+    ),
+    "idl_interactions": ("R-12.9-02", "R-12.9-03", "R-12.9-05"),
+    "idl_standard": (
+        *(f"R-12.10-{n:02}" for n in range(29, 39)),
+        "R-12.11.1-01",
+        *(f"R-12.11.2-{n:02}" for n in range(1, 8)),
+        *(f"R-12.11.3-{n:02}" for n in range(1, 6)),
+    ),
+}
+"""The checks of profile idl, and the requirements that each stands for."""
+
+RULE_OF = {requirement: rule for rule, requirements in STANDS_FOR.items() for requirement in requirements}
+
+
+class Expected(msgspec.Struct, frozen=True, kw_only=True):
+    """``element`` is the model's element by its qualified name, ``line`` where it stands in the model."""
+
+    requirement: str
+    element: str
+    line: int
+    path: Path
+
+    @property
+    def rule(self) -> str:
+        """The check that the requirement belongs to."""
+        return RULE_OF[self.requirement]
+
+
+class Declares(Expected, frozen=True, kw_only=True):
+    """There is a declaration of ``kind``; unless ``needed`` nothing is wrong without it."""
+
+    kind: str
+    needed: bool = True
+
+
+class Means(Expected, frozen=True, kw_only=True):
+    """What stands at the path has a type that means ``type``: a typedef, member, case, attribute, constant, operation."""
+
+    type: Type
+
+
+class Selects(Expected, frozen=True, kw_only=True):
+    """The union is told apart by ``type``."""
+
+    type: Type
+
+
+class Lists(Expected, frozen=True, kw_only=True):
+    """Its members, cases or enumerators are these, in this order if it is ``ordered``."""
+
+    names: tuple[str, ...]
+    ordered: bool = True
+
+
+class Takes(Expected, frozen=True, kw_only=True):
+    """The operation's parameters: direction and name of each; what the names count for is option idl-parameter-names."""
+
+    parameters: tuple[tuple[str, str], ...]
+
+
+class TakesType(Expected, frozen=True, kw_only=True):
+    """The parameter at the path, the one at ``position`` (from 0) of ``parameters`` (see ``Takes``), has a type that means ``type``."""
+
+    position: int
+    parameters: tuple[tuple[str, str], ...]
+    type: Type
+
+
+class Labelled(Expected, frozen=True, kw_only=True):
+    """The case of a union holds for these enumerators of the enumeration around them, and, if ``default``, for all others."""
+
+    labels: tuple[Path, ...]
+    default: bool
+
+
+class Raises(Expected, frozen=True, kw_only=True):
+    """The operation raises just these exceptions."""
+
+    exceptions: tuple[Path, ...]
+
+
+class Only(Expected, frozen=True, kw_only=True):
+    """The interface has no ``kind`` (operation, attribute), not even inherited, beyond these names, those that end with
+    ``tolerated``, those that one of the ``patterns`` fits, in which ``*`` stands for any part of a name, and all that is in
+    ``ancestors``, which are all that the model has.
+    """
+
+    kind: str
+    names: tuple[str, ...]
+    tolerated: tuple[str, ...] = ()
+    patterns: tuple[str, ...] = ()
+    ancestors: tuple[Path, ...] = ()
+
+
+class Inherits(Expected, frozen=True, kw_only=True):
+    """The interface inherits, directly or not, from ``base``; a base of one name is looked for in any module."""
+
+    base: Path
+
+
+class Access(Expected, frozen=True, kw_only=True):
+    """The attribute can be written, or only read."""
+
+    readonly: bool
+
+
+class Valued(Expected, frozen=True, kw_only=True):
+    """The constant's value is what ``value``, in IDL's syntax, means for ``type``."""
+
+    type: Type
+    value: str
+
+
+class Numbered(Expected, frozen=True, kw_only=True):
+    """The value of each enumerator can be told: from an annotation, or from its position if there is none."""
+
+    values: tuple[tuple[str, int], ...]
+
+
+class Tagged(Expected, frozen=True, kw_only=True):
+    """The declaration carries the annotation ``name``; ``maximum`` is its value if it has one."""
+
+    name: str
+    maximum: int | None = None
+
+
+class Indexed(Expected, frozen=True, kw_only=True):
+    """An IndexType annotation names an integer type of one of the ``kinds`` of the model."""
+
+    kinds: tuple[str, ...]
+
+
+class Defaulted(Expected, frozen=True, kw_only=True):
+    """A default value, if the IDL gives one, is the model's ``value`` of ``type``."""
+
+    type: Type
+    value: str
+
+
+class Templated(Expected, frozen=True, kw_only=True):
+    """The module's parameters: each of ``required`` (paths of abstract types), none beyond ``allowed``."""
+
+    required: tuple[Path, ...]
+    allowed: tuple[Path, ...]
+
+
+class Parametrized(Expected, frozen=True, kw_only=True):
+    """The module's parameter for the abstract type ``parameter``: its ``keyword`` if that is asked, else its name."""
+
+    parameter: Path
+    keyword: str = ""
+
+
+class Signature(msgspec.Struct, frozen=True):
+    """An operation of an interface with all abstract types bound: direction, name and type of its parameters."""
+
+    name: str
+    returns: Type
+    parameters: tuple[tuple[str, str, Type], ...]
+
+
+class Getter(Expected, frozen=True, kw_only=True):
+    """The interface at ``path``, or the one at ``otherwise`` if it is not there, has this operation, maybe inherited.
+
+    ``aspect`` says what of it is asked: presence, arguments or result. ``names`` are alternatives; in them ``*`` stands for any part
+    of a name. The result is ``returns``, or if there are ``signatures`` any interface that has these operations. Unless ``needed``
+    nothing is wrong without it.
+    """
+
+    aspect: str
+    names: tuple[str, ...]
+    returns: Type
+    otherwise: Path = ()
+    signatures: tuple[Signature, ...] = ()
+    needed: bool = True
+
+
+class NoGetter(Expected, frozen=True, kw_only=True):
+    """The interface has none of the operations ``names``, not even inherited."""
+
+    names: tuple[str, ...]
+
+
+class Undeclared(Expected, frozen=True, kw_only=True):
+    """Nothing has been made of this element: there is no declaration of its name where it would stand."""
+
+
+class Abstract(msgspec.Struct, frozen=True):
+    """An abstract type of the model: ``keyword`` of a template's parameter, and the ``name`` in the model."""
+
+    keyword: str
+    name: str
+
+
+class ExpectedIdl(msgspec.Struct, frozen=True):
+    """All that is expected of a model: ``types`` says what data types with a typedef are other names of, by path."""
+
+    facts: tuple[Expected, ...]
+    types: dict[Path, Type]
+    abstract: dict[Path, Abstract]
+    unmapped: frozenset[Path] = frozenset()
+    """Data types that clause 12 says nothing of; what refers to them is not judged."""

@@ -1,0 +1,109 @@
+"""What bodies read off their clocks, and what the host's own clocks showed meanwhile (10.1.4.1).
+
+Nobody knows at what instant a clock was read, only between which two: when the body asked and when it was told. Whatever
+is concluded holds for each instant between them, so that a slow machine makes conclusions weaker and never wrong.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration
+from ucm_cts.adapters.contract.trace import Paused
+from ucm_cts.reference_models.model.interactions import Interactions, MethodCall
+from ucm_cts.reference_models.model.runtime import Container
+from ucm_cts.reference_models.model.service_policies import policy_elements
+
+LOCAL, SYNCHRONIZED = "get_local_time", "get_synchronized_time"
+CLOCK_METHODS = (LOCAL, SYNCHRONIZED)
+
+SECOND, MILLISECOND, MICROSECOND = 1_000_000_000, 1_000_000, 1_000
+"""In nanoseconds."""
+
+_MOST = 200
+_WRAP = 2**32 * SECOND
+"""Seconds are 32 bits without sign."""
+
+
+@dataclass(frozen=True, slots=True)
+class ClockReading:
+    """A body asked for the time at ``asked`` and was told ``time`` at ``told``; all in nanoseconds, the latter two by the
+    host's monotonic clock.
+    """
+
+    call: MethodCall
+    begin: int
+    end: int
+    asked: int
+    told: int
+    time: int
+
+    @property
+    def body(self) -> tuple[str, int]:
+        """Who read the clock."""
+        return self.call.request.component, self.call.request.instance
+
+    @property
+    def container(self) -> Container | None:
+        """Where the body is; None if nobody knows."""
+        return self.call.caller.container if self.call.caller is not None else None
+
+    def is_before(self, other: ClockReading) -> bool:
+        """Was it over before the other one began?"""
+        return self.end < other.begin
+
+
+def clock_call(call: MethodCall, components: dict[str, Declaration]) -> str:
+    """The method of its clock that a body calls; empty if it calls something else."""
+    request = call.request
+    if request.method not in CLOCK_METHODS:
+        return ""
+    is_clock = request.port in policy_elements(components.get(request.component), s.CLOCK)
+    return request.method if is_clock else ""
+
+
+def time_told(call: MethodCall) -> tuple[int, int] | None:
+    """The seconds and microseconds that a call of the clock gave; None if it gave no time."""
+    reply = call.reply
+    if reply is None or reply.raised or reply.exception is not None or not reply.results:
+        return None
+    value = reply.results[0]
+    if len(reply.results) != 1 or not isinstance(value, list | tuple) or len(value) != 2:
+        return None
+    seconds, microseconds = value
+    if any(isinstance(part, bool) or not isinstance(part, int) for part in value):
+        return None
+    return seconds, microseconds
+
+
+def readings_of(interactions: Interactions, components: dict[str, Declaration], method: str) -> list[ClockReading]:
+    """The times that bodies were told by ``method``, in the order in which they asked; of very many some are left out."""
+    readings = []
+    for call in interactions.calls:
+        told = time_told(call) if clock_call(call, components) == method else None
+        if told is not None and call.reply is not None:
+            request, reply = call.request, call.reply
+            time = told[0] * SECOND + told[1] * MICROSECOND
+            readings.append(ClockReading(call, request.n, reply.n, request.t, reply.t, time))
+    return readings[:: len(readings) // _MOST + 1]
+
+
+def passed(earlier: int, later: int) -> int:
+    """Nanoseconds from one time to another, negative if the clock went back. Seconds may wrap in between."""
+    return (later - earlier + _WRAP // 2) % _WRAP - _WRAP // 2
+
+
+def calendar_at(pauses: Sequence[Paused], begin: int, end: int) -> tuple[int, int] | None:
+    """What the calendar clock showed at ``begin`` (both by the monotonic clock), and by how much it left the pace of the
+    monotonic clock until ``end``. None if nobody looked before and after.
+    """
+    before = max((index for index, pause in enumerate(pauses) if pause.t <= begin), default=None)
+    after = min((index for index, pause in enumerate(pauses) if pause.t >= end), default=None)
+    if before is None or after is None:
+        return None
+    seen = pauses[before : after + 1]
+    drift = sum(abs((b.calendar - a.calendar) - (b.t - a.t)) for a, b in itertools.pairwise(seen))
+    return seen[0].calendar + begin - seen[0].t, drift

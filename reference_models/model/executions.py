@@ -1,0 +1,350 @@
+"""Business calls and executions of bodies: who is inside whom, and who was seen waiting to get in (11.1.3, 10.1.3).
+
+Overlap is proved, not guessed: a call *waited* for an execution if it had been made, and the worker that made it was looked
+for and found waiting, while the execution was held at a gate that had not been opened.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Literal
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration
+from ucm_cts.adapters.contract.trace import Enter, Exit, Held, Opened, Request, Settled
+from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.model.runtime import Behind, Connection, Member, Runtime
+
+Protection = Literal["", "self-executing", "active", "passive", "unprotected"]
+
+_PROTECTIONS: dict[str, Protection] = {
+    s.SELF_EXECUTING: "self-executing",
+    s.ACTIVE: "active",
+    s.PROTECTED_PASSIVE: "passive",
+    s.UNPROTECTED_PASSIVE: "unprotected",
+}
+
+
+EXCLUSIONS = (
+    "R-10.1.3.2-05",
+    "R-10.1.3.2-06",
+    "R-10.1.3.2-09",
+    "R-10.1.3.2-10",
+    "R-10.1.3.2-13",
+    "R-10.1.3.2-16",
+)
+"""The requirements that keep executions of a component apart."""
+
+CALL_EXCLUSIONS = tuple(requirement for requirement in EXCLUSIONS if requirement != "R-10.1.3.2-05")
+"""Those that have to do with calls; the other one keeps runs apart."""
+
+_PROMISES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
+
+
+Caller = Literal["test", "body", "nobody"]
+"""Who made a call that led to an entry, if anybody did."""
+
+
+class BusinessCall:
+    """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
+
+    ``caller`` is the execution that makes it, if a body does; ``waited`` says that it was seen waiting to get in.
+    ``entries`` are the bodies it entered, with how they were left. ``callee`` is whose port element ``port`` the test
+    called; ``possible`` says that all who could be called were operational when the call was made, and ``behind`` is what was
+    behind the port element since so many changes of the runtime.
+    """
+
+    callee: Member | None = None
+    port: str | None = None
+    possible = False
+    behind: Behind | None = None
+    behind_since = 0
+    caller: Execution | None = None
+    waited = False
+
+    def __init__(
+        self, value: int, n: int, request: Request | None = None, step: s.Invoke | None = None, caller_hook: str = ""
+    ) -> None:
+        self.value = value
+        self.n = n
+        self.request = request
+        self.step = step
+        self.caller_hook = caller_hook
+        self.by: Caller = "body" if step is None else "test"
+        self.entries: list[tuple[Enter, Exit | None]] = []
+
+    @property
+    def worker(self) -> str | None:
+        """The worker whose step it is that led to this call."""
+        call = self
+        while call.caller is not None and call.caller.call is not None:
+            call = call.caller.call
+        return call.step.thread if call.step is not None else None
+
+    def look(self, runtime: Runtime) -> None:
+        """Note who is called, and whether a call is possible."""
+        request = self.request
+        if self.step is not None:
+            _, self.callee = runtime.reference(self.step.ref)
+            self.port = runtime.ports.get(self.step.ref)
+            self.possible = self.callee is not None and self.callee.serving
+        elif request is not None:
+            self.possible = True
+            self.behind = behind(runtime, request.component, request.instance, request.port)
+            self.behind_since = runtime.changes
+            for provider in self.behind.providers:
+                if provider.closing or provider.suspended or not provider.operational:
+                    self.possible = False
+                    break
+
+    def callers(self) -> Iterator[Execution]:
+        """The executions that wait for this call, the innermost first."""
+        caller = self.caller
+        while caller is not None:
+            yield caller
+            caller = caller.call.caller if caller.call is not None else None
+
+    def close(self, end: Exit) -> None:
+        """The innermost entry of that body came to its end."""
+        if not self.entries:
+            return
+        enter, exit_ = self.entries[-1]
+        if exit_ is None and enter.component == end.component and enter.instance == end.instance:
+            self.entries[-1] = (enter, end)
+            return
+        for index in range(len(self.entries) - 1, -1, -1):
+            enter, exit_ = self.entries[index]
+            if exit_ is None and (enter.component, enter.instance) == (end.component, end.instance):
+                self.entries[index] = (enter, end)
+                return
+
+
+@dataclass(slots=True, eq=False)
+class Execution:
+    """A body inside ``exchange`` or ``run``: how it was entered, by which call, and at which gate it is held.
+
+    ``waited`` are calls that were seen waiting meanwhile; ``left`` is when it was over, ``end`` the event; ``earlier`` are the body's runs
+    before this one.
+    """
+
+    enter: Enter
+    call: BusinessCall | None
+    gate: str | None = None
+    waited: list[BusinessCall] = field(default_factory=list)
+    over: bool = False
+    left: int = 0
+    end: int = 0
+    earlier: list[Execution] = field(default_factory=list)
+
+    @property
+    def way(self) -> str:
+        """The port element it came through, or ``run``."""
+        return self.enter.port or "run"
+
+
+class Executions:
+    """All executions in progress in one trace, by body, and the calls that have been made and not entered a body yet."""
+
+    def __init__(self, runtime: Runtime) -> None:
+        self._runtime = runtime
+        self._inside: dict[tuple[str, int], list[Execution]] = {}
+        self._runs: dict[tuple[str, int], list[Execution]] = {}
+        self._past: dict[tuple[str, int], list[Execution]] = {}
+        self._opened: set[str] = set()
+        self._pending: list[BusinessCall] = []
+        self.waiting: dict[int, tuple[BusinessCall, Execution]] = {}
+
+    def made(self, call: BusinessCall) -> None:
+        """A call has been made."""
+        self._pending.append(call)
+
+    def answered(self, call: BusinessCall) -> Execution | None:
+        """A call is over; returns the execution it had waited for."""
+        if call in self._pending:
+            self._pending.remove(call)
+        waited = self.waiting.pop(call.n, None)
+        return waited[1] if waited is not None else None
+
+    def lost(self) -> list[tuple[BusinessCall, Execution]]:
+        """Calls that nobody has answered although what they waited for is over, each told once."""
+        lost = {n: waiting for n, waiting in self.waiting.items() if waiting[1].over}
+        for n in lost:
+            del self.waiting[n]
+        return list(lost.values())
+
+    @property
+    def on_their_way(self) -> tuple[BusinessCall, ...]:
+        """The calls that have not entered a body yet and not come back."""
+        return tuple(self._pending)
+
+    def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
+        """A body is entered: the execution, and those it meets there that are not its own callers."""
+        inside = self._inside.setdefault((enter.component, enter.instance), [])
+        execution = Execution(enter, call)
+        if enter.hook == "run":
+            runs = self._runs.setdefault((enter.component, enter.instance), [])
+            execution.earlier = runs.copy()
+            runs.append(execution)
+        callers = {id(caller) for caller in call.callers()} if call is not None else set()
+        met = [other for other in inside if id(other) not in callers and other.enter.thread != enter.thread]
+        inside.append(execution)
+        if call in self._pending:
+            self._pending.remove(call)
+        return execution, met
+
+    def innermost(self, thread: int) -> Execution | None:
+        """The execution in progress on ``thread``."""
+        own = [e for inside in self._inside.values() for e in inside if e.enter.thread == thread]
+        return max(own, key=lambda e: e.enter.n, default=None)
+
+    def end(self, exit_: Exit) -> Execution | None:
+        """A body is left."""
+        inside = self._inside.get((exit_.component, exit_.instance), [])
+        for execution in reversed(inside):
+            if execution.enter.thread == exit_.thread and execution.enter.hook == exit_.hook:
+                inside.remove(execution)
+                execution.over = True
+                execution.left, execution.end = exit_.t, exit_.n
+                self._past.setdefault((exit_.component, exit_.instance), []).append(execution)
+                return execution
+        return None
+
+    def runs(self, component: str, instance: int) -> tuple[Execution, ...]:
+        """The body's executions by ``run``, over or not, in the order in which they began."""
+        return tuple(self._runs.get((component, instance), ()))
+
+    def past(self, component: str, instance: int) -> tuple[Execution, ...]:
+        """What a body has executed, in the order in which it ended."""
+        return tuple(self._past.get((component, instance), ()))
+
+    def hold(self, event: Held) -> None:
+        """An execution is held at a gate."""
+        for execution in self._inside.get((event.component, event.instance), ()):
+            if execution.enter.thread == event.thread and event.gate not in self._opened:
+                execution.gate = event.gate
+
+    def open(self, event: Opened) -> None:
+        """A gate was opened: nobody is held there any more."""
+        self._opened.add(event.gate)
+        for inside in self._inside.values():
+            for execution in inside:
+                if execution.gate == event.gate:
+                    execution.gate = None
+
+    def settle(self, event: Settled) -> None:
+        """A worker was looked for: if it waits, its call that is still on its way waits for who is held where it goes."""
+        if event.where not in ("blocked", "running"):
+            return
+        for call in (c for c in self._pending if c.worker == event.worker):
+            for member, _ in goals_of(self._runtime, call):
+                for execution in self._inside.get((member.component, member.instance or 0), ()):
+                    if execution.gate is not None and call not in execution.waited:
+                        execution.waited.append(call)
+                        call.waited = True
+                        self.waiting[call.n] = call, execution
+
+
+def protection_of(declaration: Declaration | None) -> Protection:
+    """How its execution policy protects a component; empty without a policy of 10.1.3."""
+    if declaration is None or not declaration.policies:
+        return ""
+    known = (_PROTECTIONS.get(p.definition) for p in declaration.policies)
+    return next((protection for protection in known if protection is not None), "")
+
+
+def managed_ports(declaration: Declaration) -> set[str]:
+    """The port elements that an active policy applies to: all of a component that has it as a whole."""
+    ports = {p.port for p in declaration.policies if p.definition == s.ACTIVE}
+    return set(declaration.provides) if None in ports else {port for port in ports if port is not None}
+
+
+def exclusion(declaration: Declaration, claims: Claims, one: str, other: str) -> str:
+    """The requirement that keeps two ways into a component apart; empty if none does, or if the vendor reads it so."""
+    protection = protection_of(declaration)
+    if protection == "self-executing":
+        if one == other == "run":
+            return "R-10.1.3.2-05"
+        return "" if claims.reading("self-exec-mutex") == "run-only" else "R-10.1.3.2-06"
+    if protection == "active":
+        if {one, other} <= managed_ports(declaration):
+            return "R-10.1.3.2-09"
+        return "" if claims.reading("active-unmanaged") == "unprotected" else "R-10.1.3.2-10"
+    if protection == "passive":
+        return "R-10.1.3.2-13" if one == other else "R-10.1.3.2-16"
+    return ""
+
+
+def is_contradictory(declaration: Declaration) -> bool:
+    """Has the component more than the one execution policy that it may have (10.1.3)?"""
+    if not declaration.policies:
+        return False
+    applied = [p for p in declaration.policies if p.definition in _PROTECTIONS]
+    return len({p.definition for p in applied}) > 1 or sum(p.port is None for p in applied) > 1
+
+
+def calls_promised(declaration: Declaration, port: str) -> tuple[str, ...]:
+    """The requirements by which an execution policy promises that calls of ``port`` are carried out."""
+    if not declaration.policies:
+        return ()
+    protection = protection_of(declaration)
+    managed = managed_ports(declaration)
+    if protection == "active" and port in managed:
+        return ("R-10.1.3.2-08", "R-10.1.3.2-07") if len(managed) == 1 else ("R-10.1.3.2-07", "R-10.1.3.2-08")
+    return _PROMISES.get(protection, ())
+
+
+def goals_of(runtime: Runtime, call: BusinessCall) -> list[tuple[Member, str]]:
+    """Whose provided port elements a call is meant for; empty if that is not known."""
+    if call.request is None:
+        return [(call.callee, call.port)] if call.callee is not None and call.port is not None else []
+    caller = runtime.member_of(call.request.component, call.request.instance)
+    if caller is None or not providers_of(runtime, call):
+        return []
+    behind = connections_behind(caller, call.request.port)
+    return [(c.provider, c.provided) for c in behind if c.provider is not None]
+
+
+def providers_of(runtime: Runtime, call: BusinessCall) -> tuple[Member, ...]:
+    """The instances that the port element a body called through is connected to; empty if that is not known."""
+    request = call.request
+    return behind(runtime, request.component, request.instance, request.port).providers if request is not None else ()
+
+
+_NOTHING_KNOWN = Behind((), True, frozenset())
+
+
+def behind_call(runtime: Runtime, call: BusinessCall, request: Request) -> Behind:
+    """What is now behind the port element that a body called through."""
+    if call.behind is not None and call.behind_since == runtime.changes:
+        return call.behind
+    return behind(runtime, request.component, request.instance, request.port)
+
+
+def behind(runtime: Runtime, component: str, instance: int, port: str) -> Behind:
+    """What is behind required port element ``port`` of a body."""
+    place = component, instance, port
+    known = runtime.behind.get(place)
+    if known is None:
+        known = runtime.behind[place] = _look_behind(runtime, component, instance, port)
+    return known
+
+
+def _look_behind(runtime: Runtime, component: str, instance: int, port: str) -> Behind:
+    caller = runtime.member_of(component, instance)
+    if caller is None or caller.suspended or caller.handed_over is None:
+        return _NOTHING_KNOWN
+    connections = connections_behind(caller, port)
+    providers = [(c.provider, c.provided) for c in connections if c.provider is not None]
+    if len(providers) < len(connections):
+        return _NOTHING_KNOWN
+    targets = frozenset([(p.component, p.instance, provided) for p, provided in providers])
+    fragments = all(provider.declaration.fragment for provider, _ in providers)
+    return Behind(tuple([provider for provider, _ in providers]), fragments, targets)
+
+
+def connections_behind(caller: Member, port: str) -> list[Connection]:
+    """What may be behind ``port``: connections that stand, or stood when the caller was started."""
+    return [
+        c for c in caller.connections if c.port == port and (c.live is not False or c in (caller.handed_over or ()))
+    ]

@@ -1,0 +1,162 @@
+"""What an instance must hear: the callback patterns of the life-cycle table, and which requirement a deviation breaks."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from ucm_cts.reference_models.model.life_cycle import CallbackDuty, LifeCycleTable, Outcome, Row
+
+CONNECTABLE_HOOKS = ("on_connect", "on_disconnect")
+LIFE_CYCLE_HOOKS = ("on_init", "on_startup", "on_shutdown", "on_remove", *CONNECTABLE_HOOKS)
+
+_UNSOLICITED = ("on_init", "on_startup", "on_shutdown")
+_MOST_REMEMBERED = 20_000
+
+Token = tuple[str, bool]
+"""A callback of an outcome's pattern, and whether it may be left out."""
+
+
+class Listener(NamedTuple):
+    """What of an instance decides which callbacks it gets: its interfaces and how many connections are undone."""
+
+    connectable: bool
+    fragment: bool
+    undone: int
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A way for an operation to go that ``row`` permits: the requirements it exercises, and the readings that permit it, one
+    of which has been taken. There are none where it is permitted under every reading.
+    """
+
+    row: Row
+    readings: tuple[str, ...]
+    exercised: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """What was heard instead: the callback at fault (none if only the order is), and the pattern that comes nearest."""
+
+    requirement: str
+    hook: str
+    missing: bool
+    wanted: tuple[str, ...]
+
+
+class Duties:
+    """The life-cycle table as far as callbacks go. What it has worked out once it remembers."""
+
+    def __init__(self, table: LifeCycleTable) -> None:
+        self._table = table
+        self._duties: dict[tuple[str, str], CallbackDuty] = {}
+        self._answers: dict[int, frozenset[str]] = {}
+        self._calls: dict[tuple[int, str], bool] = {}
+        self._fits: dict[tuple[int, str, Listener, tuple[str, ...]], Fit | None] = {}
+
+    def of(self, callback: str, operation: str) -> CallbackDuty:
+        """The first duty of ``callback`` that names ``operation``, or the one for all others."""
+        duty = self._duties.get((callback, operation))
+        if duty is None:
+            candidates = (d for d in self._table.duties if d.callback == callback)
+            duty = next(d for d in candidates if not d.operations or operation in d.operations)
+            self._duties[callback, operation] = duty
+        return duty
+
+    def answers_to(self, row: Row) -> frozenset[str]:
+        """The answers that ``row`` permits."""
+        known = self._answers.get(id(row))
+        if known is None:
+            known = self._answers[id(row)] = frozenset(a for outcome in row.outcomes for a in outcome.answer)
+        return known
+
+    def always_calls(self, row: Row, hook: str) -> bool:
+        """Does the instance receive ``hook`` in whichever way ``row`` lets the operation return?"""
+        known = self._calls.get((id(row), hook))
+        if known is None:
+            known = all(hook in outcome.callbacks for outcome in row.outcomes if "return" in outcome.answer)
+            self._calls[id(row), hook] = known
+        return known
+
+    def fit(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> Fit | None:
+        """How ``heard`` fits an outcome of ``row`` with this ``answer``; None if it does not."""
+        key = (id(row), answer, listener, heard)
+        if key in self._fits:
+            return self._fits[key]
+        fit = self._fit(row, answer, listener, heard)
+        if len(self._fits) < _MOST_REMEMBERED:
+            self._fits[key] = fit
+        return fit
+
+    def _fit(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> Fit | None:
+        fitting = [o for o in row.outcomes if answer in o.answer and fits(pattern(o, listener), heard)]
+        if not fitting:
+            return None
+        readings = tuple(dict.fromkeys(o.reading for o in fitting))
+        return Fit(row, () if "" in readings else readings, tuple(self._exercised(row, answer, listener, heard)))
+
+    def _exercised(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> list[str]:
+        exercised = []
+        for hook in dict.fromkeys(heard):
+            exercised.append(self.of(hook, row.operation).missing)
+            if listener.fragment and hook in ("on_init", "on_startup"):
+                exercised.append(self._table.fragments)
+        if len(heard) > 1 and "on_remove" in heard and answer == "return":
+            exercised.append(self._table.order)
+        if row.operation == "connect" and listener.connectable and not heard:
+            exercised.append(self.of("on_connect", "connect").unexpected)
+        if row.state != "absent":
+            for hook in _UNSOLICITED:
+                duty = self.of(hook, row.operation)
+                if hook not in heard and duty.missing != duty.unexpected:
+                    exercised.append(duty.unexpected)
+        return exercised
+
+    def deviation(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> Deviation:
+        """What is wrong with ``heard``, which fits no outcome of ``row`` with this ``answer``."""
+        patterns = [pattern(o, listener) for o in row.outcomes if answer in o.answer]
+        nearest = min(patterns, key=lambda tokens: sum(map(Counter.total, _difference(tokens, heard))))
+        missing, surplus = _difference(nearest, heard)
+        wanted = tuple(hook for hook, optional in nearest if not optional)
+        if missing:
+            hook = next(h for h in wanted if h in missing)
+            requirement = row.missing or self.of(hook, row.operation).missing
+            if listener.fragment and hook in ("on_init", "on_startup") and not row.missing:
+                requirement = self._table.fragments
+            return Deviation(requirement, hook, True, wanted)
+        if surplus:
+            hook = next(h for h in heard if h in surplus)
+            return Deviation(self.of(hook, row.operation).unexpected, hook, False, wanted)
+        return Deviation(self._table.order, "", False, wanted)
+
+
+def pattern(outcome: Outcome, listener: Listener) -> list[Token]:
+    """The callbacks that ``outcome`` asks for from such an instance."""
+    tokens: list[Token] = []
+    for text in outcome.callbacks:
+        hook = text.rstrip("?*")
+        if hook not in CONNECTABLE_HOOKS or listener.connectable:
+            tokens.extend([(hook, text.endswith("?"))] * (listener.undone if text.endswith("*") else 1))
+    return tokens
+
+
+def fits(tokens: Sequence[Token], heard: Sequence[str]) -> bool:
+    """Is ``heard`` a sequence that ``tokens`` permits?"""
+    if not tokens:
+        return not heard
+    hook, optional = tokens[0]
+    if heard and heard[0] == hook and fits(tokens[1:], heard[1:]):
+        return True
+    return optional and fits(tokens[1:], heard)
+
+
+def _difference(tokens: Sequence[Token], heard: Sequence[str]) -> tuple[Counter[str], Counter[str]]:
+    """Callbacks that should be there and are not, and those that are there and should not."""
+    required = Counter(hook for hook, optional in tokens if not optional)
+    permitted = Counter(hook for hook, _ in tokens)
+    seen = Counter(heard)
+    return required - seen, seen - permitted

@@ -1,0 +1,474 @@
+"""Interactions of bodies through port elements that have interfaces: connections with connectors, calls of methods, and
+which entry into a body belongs to which call (10.1.5, 10.1.6). Calls of policies' port elements (10.1.4) are calls, too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Boolean, Enumeration
+from ucm_cts.adapters.contract.trace import (
+    Call,
+    Enter,
+    Exit,
+    Held,
+    Opened,
+    Paused,
+    Pushed,
+    Raise,
+    Reply,
+    Request,
+    Return,
+    Settled,
+    Timeout,
+)
+from ucm_cts.reference_models.model.executions import BusinessCall, connections_behind
+from ucm_cts.reference_models.model.links import SENDERS, TAKERS, End, LinkState
+from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime
+from ucm_cts.reference_models.model.value_transport import distance
+
+if TYPE_CHECKING:
+    from ucm_cts.reference_models.model.services import ServiceCall
+
+Fit = Literal["same", "altered", "repeated", "stray"]
+"""How an entry fits the calls made so far: as one was made; as one was made, but for its values; like one that had been
+delivered here before; like none.
+"""
+
+_WITHOUT_EFFECT = frozenset((s.Invoke, s.GetPortElement, s.GetComponents, s.ReadLog))
+"""Operations that change nothing about who is operational."""
+
+
+@dataclass(slots=True, eq=False)
+class Delivery:
+    """A body was entered at a method. ``call`` is the call that it belongs to, None for a stray one. ``was_held`` says that
+    it had to wait there at a gate.
+    """
+
+    enter: Enter
+    receiver: Member | None
+    link: LinkState | None
+    call: MethodCall | None
+    fit: Fit
+    exit: Exit | None = None
+    was_held: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class Operation:
+    """A step that was handed to the framework; ``end`` is None while it has not ended."""
+
+    step: s.Step
+    begin: Call
+    end: Return | Raise | None = None
+
+    def overlaps(self, begin: int, end: int) -> bool:
+        """Was it in progress somewhere between the events ``begin`` and ``end``?"""
+        return self.begin.n < end and (self.end is None or self.end.n > begin)
+
+
+@dataclass(slots=True, eq=False)
+class Wait:
+    """A wait ran out of patience: nothing had happened since ``quiet_since`` (``t``), and somebody was ``held`` or not."""
+
+    step: s.Step
+    timeout: Timeout
+    quiet_since: int
+    held: bool
+
+
+@dataclass(slots=True, eq=False)
+class MethodCall:
+    """A body's call of a method. ``broken`` says where its link was broken when it was made, ``targets`` are the other ends
+    that were attached then, with whether each was operational. ``idle`` are those that certainly were not. ``ready`` says
+    that the caller was operational, ``prepared`` that all ends were attached before the components there were started.
+    ``is_message`` says that it was pushed through a message connector. A message is ``crowded`` if another one was on its way when it was pushed, or pushed before it was answered.
+    """
+
+    request: Request
+    business: BusinessCall
+    caller: Member | None
+    link: LinkState | None
+    ready: bool
+    prepared: bool = False
+    broken: str = ""
+    targets: list[tuple[End, bool]] = field(default_factory=list)
+    idle: list[End] = field(default_factory=list)
+    crowded: bool = False
+    deliveries: list[Delivery] = field(default_factory=list)
+    reply: Reply | None = None
+    is_message: bool = False
+
+    def __post_init__(self) -> None:
+        connector = self.link.connector if self.link is not None else ""
+        self.is_message = connector == s.MESSAGE_CONNECTOR and self.request.method == s.PUSH
+
+    @property
+    def code(self) -> object:
+        """The return code that a push gave; None if it gave none."""
+        results = self.reply.results if self.reply is not None and self.reply.exception is None else None
+        return results[0] if results else None
+
+    @property
+    def goals(self) -> set[tuple[Member, str]]:
+        """The port elements that it may come to, as far as they are known."""
+        if self.link is not None:
+            return {(end.member, end.port) for end in self.link.ends if end.role in TAKERS}
+        behind = connections_behind(self.caller, self.request.port) if self.caller is not None else ()
+        return {(c.provider, c.provided) for c in behind if c.provider is not None}
+
+    def delivered_to(self, receiver: Member | None, port: str | None = None) -> list[Delivery]:
+        """The entries into that receiver, at ``port`` or anywhere, that belong to this call."""
+        return [d for d in self.deliveries if d.receiver is receiver and port in (None, d.enter.port)]
+
+
+@dataclass(slots=True, eq=False)
+class PushedBurst:
+    """A burst that has been pushed. ``receivers`` are those that were operational then."""
+
+    pushed: Pushed
+    link: LinkState | None
+    receivers: list[Member]
+
+
+class Interactions:
+    """All links, calls, deliveries and bursts of one trace. ``held`` are bodies at gates that are closed, ``released_at`` is when the
+    last of them was let go. ``operations`` are the steps handed to the framework, ``changes`` those that may change who is
+    operational, ``in_progress`` those that have not ended, by step; ``settled`` where workers were found,
+    ``is_over`` says that nothing follows, ``services`` is what services.service_calls has found then;
+    ``waits`` those that ran out of patience, and ``latest`` is when something happened last. ``pauses`` show the calendar
+    clock.
+    """
+
+    def __init__(self, runtime: Runtime) -> None:
+        self._runtime = runtime
+        self.links: dict[str, LinkState] = {}
+        self.calls: list[MethodCall] = []
+        self.deliveries: list[Delivery] = []
+        self.bursts: list[PushedBurst] = []
+        self.held: list[Held] = []
+        self.released_at = 0
+        self.operations: list[Operation] = []
+        self.changes: list[Operation] = []
+        self.in_progress: dict[int, Operation] = {}
+        self.settled: list[Settled] = []
+        self.waits: list[Wait] = []
+        self.latest = 0
+        self.pauses: list[Paused] = []
+        self.is_over = False
+        self.services: list[ServiceCall] | None = None
+        self._opened: set[str] = set()
+        self._under_way: list[MethodCall] = []
+        self._open: dict[int, list[MethodCall]] = {}
+        self._inside: dict[int, list[Delivery]] = {}
+
+    def linked(self, step: s.ConnectorCall, begin: Call, end: Return | Raise) -> LinkState | None:
+        """A step for connectors has ended: the link it was about, as it is now."""
+        if isinstance(step, s.Link):
+            if isinstance(end, Return):
+                self.links[step.bind] = LinkState(step.bind, step.connector, step.interface)
+            return self.links.get(step.bind)
+        link = self.links.get(step.link)
+        if link is None or isinstance(end, Raise):
+            return link
+        if isinstance(step, s.Break):
+            link.broken, link.broken_at, link.was_broken = step.where, end.t, step.where
+        elif isinstance(step, s.Mend):
+            link.broken, link.mended_at = "", end.t
+        elif isinstance(step, s.Attach):
+            self._attach(link, step, begin)
+        else:
+            self._detach(link, step, begin)
+        return link
+
+    def operate(self, step: s.Step, begin: Call) -> None:
+        """A step is handed to the framework."""
+        operation = self.in_progress[begin.step] = Operation(step, begin)
+        self.operations.append(operation)
+        if type(step) not in _WITHOUT_EFFECT:
+            self.changes.append(operation)
+
+    def operated(self, end: Return | Raise) -> None:
+        """A step has ended."""
+        operation = self.in_progress.pop(end.step, None)
+        if operation is not None:
+            operation.end = end
+
+    @property
+    def is_joining(self) -> bool:
+        """Is somebody just being made an end of a connector, or does somebody stop being one?"""
+        return any(isinstance(o.step, s.Attach | s.Detach) for o in self.in_progress.values())
+
+    def has_left(self, delivery: Delivery) -> bool:
+        """Had who was entered been detached from the link, or removed, before this was called, or anything like it?"""
+        member, link, arguments = delivery.receiver, delivery.link, delivery.enter.arguments
+        moment = min(
+            (c.request.n for c in self.calls if c.link is link and c.request.arguments == arguments), default=0
+        )
+        ends = (
+            [e for e in link.ends if e.member is member and e.port == delivery.enter.port] if link is not None else []
+        )
+        if member is None or link is None or not ends or any(e.until is None and not member.gone for e in ends):
+            return False
+        attached = max(end.since for end in ends)
+        return any(
+            isinstance(o.end, Return) and o.begin.n > attached and o.end.n < moment
+            for o in self.operations
+            if isinstance(o.step, s.RemoveComponent)
+            or (isinstance(o.step, s.Detach) and (o.step.link, o.step.port) == (link.name, delivery.enter.port))
+            if self._runtime.members.get(o.step.id) is member
+        )
+
+    def ends_phases(self, begin: int, end: int) -> bool:
+        """Was something in progress between these events that stops or removes components, or undoes connections?"""
+        ending = s.Stop | s.RemoveComponent | s.RemoveContainer | s.Destroy | s.Disconnect | s.Detach
+        return any(isinstance(o.step, ending) and o.overlaps(begin, end) for o in self.operations)
+
+    def wait(self, event: Timeout) -> None:
+        """A wait ran out of patience."""
+        step = self._runtime.scenario.steps[event.step]
+        self.waits.append(Wait(step, event, self.latest, bool(self.held)))
+
+    def _attach(self, link: LinkState, step: s.Attach, begin: Call) -> None:
+        member = self._runtime.members.get(step.id)
+        if member is None:
+            return
+        end = End(step.role, member, step.port, begin.n)
+        if step.role in SENDERS:
+            end.connection = Connection(link.name, NO_ID, member, step.port, "opaque", None)
+            member.connections.append(end.connection)
+        link.ends.append(end)
+        self._connect_ends(link)
+
+    def _connect_ends(self, link: LinkState) -> None:
+        """Whether clients are connected depends on the other side; of two servers nobody knows which serves."""
+        servers, takers = link.live("server"), link.live(*TAKERS)
+        for sender in link.live(*SENDERS):
+            if sender.connection is not None:
+                known = bool(takers) or link.connector == s.MESSAGE_CONNECTOR
+                sender.connection.live = True if known else None
+                only = servers[0] if len(servers) == 1 else None
+                sender.connection.provider = only.member if only is not None else None
+                sender.connection.provided = only.port if only is not None else ""
+
+    def _detach(self, link: LinkState, step: s.Detach, begin: Call) -> None:
+        member = self._runtime.members.get(step.id)
+        for end in link.live("client", "emitter", "server", "receiver"):
+            if end.member is member and end.port == step.port:
+                end.until = begin.n
+                if end.connection is not None:
+                    end.connection.live = False
+        self._connect_ends(link)
+
+    def request(self, event: Request, business: BusinessCall) -> None:
+        """A body calls a method."""
+        caller = self._runtime.member_of(event.component, event.instance)
+        ready = caller is not None and caller.serving
+        call = MethodCall(event, business, caller, self._link_of(caller, event.port, SENDERS), ready)
+        if call.link is not None:
+            call.broken = call.link.broken
+            call.targets = [(end, end.member.serving) for end in call.link.live(*TAKERS)]
+            call.prepared = self._is_prepared(call)
+            call.idle = [end for end, _ in call.targets if _is_idle(self._runtime, end.member)]
+        if call.is_message:
+            self._look_around(call)
+        self.calls.append(call)
+        self._open.setdefault(event.thread, []).append(call)
+
+    def reply(self, event: Reply) -> MethodCall | None:
+        """A call of a method came back."""
+        calls = self._open.get(event.thread)
+        if not calls:
+            return None
+        call = calls.pop()
+        call.reply = event
+        return call
+
+    def enter(self, event: Enter) -> Delivery:
+        """A body is entered at a method."""
+        receiver = self._runtime.member_of(event.component, event.instance)
+        link = self._link_of(receiver, event.port or "", TAKERS)
+        call, fit = self._call_behind(event, receiver, link)
+        delivery = Delivery(event, receiver, link, call, fit)
+        if call is not None:
+            call.deliveries.append(delivery)
+        self.deliveries.append(delivery)
+        self._inside.setdefault(event.thread, []).append(delivery)
+        return delivery
+
+    def exit(self, event: Exit) -> None:
+        """A body is left that was entered at a method."""
+        inside = self._inside.get(event.thread)
+        if inside:
+            inside.pop().exit = event
+
+    def push(self, event: Pushed) -> None:
+        """A body has pushed a burst."""
+        caller = self._runtime.member_of(event.component, event.instance)
+        link = self._link_of(caller, event.port, SENDERS)
+        ends = link.live("receiver") if link is not None else []
+        self.bursts.append(PushedBurst(event, link, [end.member for end in ends if end.member.serving]))
+
+    def link_to(self, receiver: Member) -> LinkState | None:
+        """The link that ``receiver`` is a receiver of."""
+        links = self.links.values()
+        return next((link for link in links if any(e.member is receiver for e in link.live("receiver"))), None)
+
+    def hold(self, event: Held) -> None:
+        """A body is held at a gate, if the gate is closed."""
+        if event.gate in self._opened:
+            return
+        self.held.append(event)
+        for delivery in self._inside.get(event.thread, ()):
+            delivery.was_held = True
+
+    def open(self, event: Opened) -> None:
+        """A gate is opened for good."""
+        self._opened.add(event.gate)
+        if any(held.gate == event.gate for held in self.held):
+            self.released_at = event.t
+        self.held = [held for held in self.held if held.gate != event.gate]
+
+    def improper(self, container: Container | None = None) -> list[LinkState]:
+        """Links that members of ``container``, or of any, are ends of and that are not as they should be."""
+        return [
+            link
+            for link in self.links.values()
+            if not link.is_proper
+            and any(container in (None, end.member.container) for end in link.live(*SENDERS, *TAKERS))
+        ]
+
+    def _is_prepared(self, call: MethodCall) -> bool:
+        senders = call.link.live(*SENDERS) if call.link is not None else []
+        own = [end for end in senders if end.member is call.caller and end.port == call.request.port]
+        ends = [*own, *(end for end, _ in call.targets)]
+        begun = [self._runtime.startups.get((end.member.component, end.member.instance or 0)) for end in ends]
+        return bool(own) and all(b is not None and b[0] > end.since for b in begun for end in ends)
+
+    def _look_around(self, call: MethodCall) -> None:
+        """Is another message on its way?"""
+        self._under_way = [other for other in self._under_way if not _has_come(other)]
+        for other in self._under_way:
+            if other.reply is None:
+                call.crowded = other.crowded = True
+            else:
+                call.crowded = call.crowded or any(ready and not _is_done(other, end) for end, ready in other.targets)
+        self._under_way.append(call)
+
+    def _link_of(self, member: Member | None, port: str, roles: tuple[str, ...]) -> LinkState | None:
+        """The link that ``port`` of ``member`` is, or was last, an end of."""
+        ends = [
+            (end.until is None, end.since, link)
+            for link in self.links.values()
+            for end in link.ends
+            if end.member is member and end.port == port and end.role in roles
+        ]
+        return max(ends, key=lambda e: e[:2])[2] if ends else None
+
+    def _call_behind(
+        self, event: Enter, receiver: Member | None, link: LinkState | None
+    ) -> tuple[MethodCall | None, Fit]:
+        """The call that led to this entry. Services answer before the next call of the client; messages may come late."""
+        is_message = link is not None and link.connector == s.MESSAGE_CONNECTOR
+        candidates = [c for c in self.calls if c.request.method == event.method and self._leads_to(c, receiver, link)]
+        if not is_message:
+            candidates = _waiting(candidates, event)
+        same = [c for c in candidates if c.request.arguments == event.arguments]
+        undelivered = [c for c in same if not c.delivered_to(receiver, event.port)]
+        if undelivered:
+            return min(undelivered, key=lambda call: self._doubt(call, receiver)), "same"
+        mistaken = [d for c in same for d in c.delivered_to(receiver, event.port) if d.fit == "altered"]
+        if mistaken and is_message:
+            return self._give_back(mistaken[0], candidates), "same"
+        if same:
+            return same[-1], "repeated"
+        altered = [c for c in candidates if not c.delivered_to(receiver, event.port)]
+        mixed_up = any(
+            c.request.arguments == event.arguments for c in self.calls if _may_be_mixed_up(c, event, is_message)
+        )
+        if mixed_up and not (altered and self._has_few_values(event, link)):
+            return None, "stray"
+        return _nearest(altered, event), "altered" if altered else "stray"
+
+    def _has_few_values(self, event: Enter, link: LinkState | None) -> bool:
+        """Is what was given of types with so few values that one says nothing of where it came from?"""
+        interface = self._runtime.scenario.interfaces.get(link.interface) if link is not None else None
+        method = interface.methods.get(event.method or "") if interface is not None else None
+        return method is not None and all(isinstance(p.of, Boolean | Enumeration) for p in method.arguments)
+
+    def _doubt(self, call: MethodCall, receiver: Member | None) -> tuple[bool, bool, bool]:
+        """What speaks against a message's delivery: a phase that is over, a broken link, another code than ok."""
+        body = (receiver.component, receiver.instance or 0) if receiver is not None else ("", 0)
+        since = self._runtime.startups.get(body, (0, 0))[0]
+        refused = call.reply is not None and call.code != "ok"
+        return call.request.n < since, bool(call.broken), refused
+
+    def _give_back(self, mistaken: Delivery, candidates: list[MethodCall]) -> MethodCall | None:
+        """What seemed to be this call's message was another one: find another call for it, and give the call back."""
+        call = mistaken.call
+        if call is not None:
+            call.deliveries.remove(mistaken)
+            if call.is_message and call not in self._under_way:
+                self._under_way.append(call)
+        others = [c for c in candidates if c is not call and not c.delivered_to(mistaken.receiver, mistaken.enter.port)]
+        mistaken.call = _nearest(others, mistaken.enter)
+        if mistaken.call is not None:
+            mistaken.call.deliveries.append(mistaken)
+        else:
+            mistaken.fit = "stray"
+        return call
+
+    def _leads_to(self, call: MethodCall, receiver: Member | None, link: LinkState | None) -> bool:
+        if link is not None or call.link is not None:
+            return call.link is link
+        if call.caller is None or receiver is None:
+            return False
+        return any(c.provider is receiver for c in connections_behind(call.caller, call.request.port))
+
+
+def _waiting(calls: list[MethodCall], enter: Enter) -> list[MethodCall]:
+    """Those that wait for a server, and, unless one of them fits, those that gave up before they had one."""
+    waiting = [call for call in calls if call.reply is None]
+    if any(call.request.arguments == enter.arguments for call in waiting):
+        return waiting
+    late = [call for call in calls if not call.deliveries and call.request.arguments == enter.arguments]
+    return late or waiting or calls
+
+
+def _nearest(calls: list[MethodCall], enter: Enter) -> MethodCall | None:
+    """The call whose values differ least from those that a body was entered with."""
+    return min(calls, key=lambda call: distance(call.request.arguments, enter.arguments), default=None)
+
+
+def _may_be_mixed_up(call: MethodCall, event: Enter, is_message: bool) -> bool:
+    """May this entry be that call's, through another link?"""
+    if is_message or call.link is None:
+        return call.is_message
+    return not call.is_message and call.reply is None and call.request.method == event.method
+
+
+def _is_idle(runtime: Runtime, member: Member) -> bool:
+    """Is it certain that it is not operational, and not being started?"""
+    being_started = (member.component, member.instance or 0) in runtime.startups and not member.closing
+    return member.container.started is False and not (member.operational or member.suspended or being_started)
+
+
+def _has_come(call: MethodCall) -> bool:
+    """Is a message answered, and not on its way any more, whatever happens?"""
+    if call.reply is None:
+        return False
+    if call.broken or call.code != "ok":
+        return True
+    return all(
+        not ready or any(delivery.exit is not None for delivery in call.delivered_to(end.member, end.port))
+        for end, ready in call.targets
+    )
+
+
+def _is_done(call: MethodCall, end: End) -> bool:
+    """Has the message been dealt with at that end, or can it no longer be?"""
+    if not end.member.serving:
+        return True
+    return any(delivery.exit is not None for delivery in call.delivered_to(end.member, end.port))

@@ -1,0 +1,53 @@
+"""Connections with core connectors and their ends, as they are made, broken and undone (10.1.5, 10.1.6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ucm_cts.reference_models.model.runtime import Connection, Member
+
+SENDERS = ("client", "emitter")
+"""The roles of those who call or push."""
+
+TAKERS = ("server", "receiver")
+"""The roles of those who are called or pushed to."""
+
+
+@dataclass(slots=True, eq=False)
+class End:
+    """A port element attached to a link. ``until`` is the ``n`` of what detached it, ``connection`` is there for clients
+    and emitters.
+    """
+
+    role: str
+    member: Member
+    port: str
+    since: int
+    until: int | None = None
+    connection: Connection | None = None
+
+
+@dataclass(slots=True, eq=False)
+class LinkState:
+    """A connection with a core connector. ``broken`` says where it is broken now, ``broken_at`` since when (``t``), and
+    ``mended_at`` when it was mended last of what ``was_broken``.
+    """
+
+    name: str
+    connector: str
+    interface: str
+    ends: list[End] = field(default_factory=list)
+    broken: str = ""
+    broken_at: int = 0
+    was_broken: str = ""
+    mended_at: int = 0
+
+    def live(self, *roles: str) -> list[End]:
+        """The ends of these roles that are attached now."""
+        return [end for end in self.ends if end.until is None and end.role in roles and not end.member.gone]
+
+    @property
+    def is_proper(self) -> bool:
+        """Has it both sides, and no second server? Clients without server are not connected, and that is all."""
+        whole = bool(self.live(*SENDERS) and self.live(*TAKERS))
+        return (whole or bool(self.live("client"))) and len(self.live("server")) < 2

@@ -1,0 +1,405 @@
+"""The reference model of a UCM runtime: follows a trace and knows, before each operation, what may happen (clause 11).
+
+The model is an observer. It predicts by looking up the life-cycle table and then takes over what really happened.
+Where it can no longer know (after a violation, or where the text leaves the outcome open) it *suspends* the instance:
+rules stay silent about it until a start or stop that succeeds tells the state again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario, Step
+from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference, Skip
+from ucm_cts.reference_models.model.expected_callbacks import Fit
+from ucm_cts.reference_models.model.life_cycle import Row, State
+
+if TYPE_CHECKING:
+    from ucm_cts.reference_models.model.executions import Executions
+    from ucm_cts.reference_models.model.interactions import Interactions
+
+NO_ID = 2**64
+"""The id of a connection whose id nobody was told."""
+
+MOST_CONNECTIONS = 4
+"""So many connections of an instance are remembered one by one."""
+
+
+@dataclass(slots=True, eq=False)
+class Connection:
+    """A connection of ``port`` to ``provider``'s port element ``provided``.
+
+    ``live`` is None where the text leaves open whether it still stands.
+
+    ``stale`` connections were made to a reference whose instance had been removed before; ``ambiguous`` ones share their
+    id with another live one.
+    """
+
+    name: str
+    id: int
+    client: Member
+    port: str
+    reference: MaybeReference
+    provider: Member | None
+    provided: str = ""
+    live: bool | None = True
+    stale: bool = False
+    ambiguous: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class Member:
+    """A component instance as far as the trace has shown it.
+
+    ``suspended``: its state is not known, so nothing about it is judged. ``doubtful``: not even whether it is a member.
+    ``leaving``: a removal of it failed half-way. ``lingering``: its on_shutdown raised, and with it the operation, so that it may
+    still be operational. ``handed_over``: the connections that on_startup told it of last, None while that is not known.
+    ``closing``: on_shutdown has come since. ``raising``: where its plan makes it raise, None while nobody has asked.
+    """
+
+    name: str
+    component: str
+    declaration: Declaration
+    container: Container
+    id: int
+    instance: int | None
+    operational: bool = False
+    suspended: bool = False
+    doubtful: bool = False
+    leaving: bool = False
+    lingering: bool = False
+    gone: bool = False
+    startups: int = 0
+    served: bool = False
+    connections: list[Connection] = field(default_factory=list)
+    once_connected: set[str] = field(default_factory=set)
+    handed_over: tuple[Connection, ...] | None = ()
+    closing: bool = False
+    raising: frozenset[Hook] | None = None
+
+    def raises(self, *hooks: Hook) -> bool:
+        """Does the plan make this body raise at one of ``hooks``?"""
+        if self.raising is None:
+            self.raising = raising(self.declaration)
+        return bool(self.raising) and not self.raising.isdisjoint(hooks)
+
+    def forget_repetitions(self) -> None:
+        """Of many connections that are undone, forget those that were like another one: there may be any number of them."""
+        if len(self.connections) <= MOST_CONNECTIONS:
+            return
+        kept: list[Connection] = []
+        seen: set[tuple[str, MaybeReference, int, str]] = set()
+        for connection in self.connections:
+            like = connection.port, connection.reference, id(connection.provider), connection.provided
+            is_over = connection.live is False and not connection.ambiguous and not connection.stale
+            if is_over and like in seen and connection not in (self.handed_over or ()):
+                continue
+            if is_over:
+                seen.add(like)
+            kept.append(connection)
+        self.connections = kept
+
+    def leave(self) -> None:
+        """It has been removed."""
+        self.gone = True
+        self.container.changed()
+
+    def doubt(self) -> None:
+        """Nobody knows whether it still is a member."""
+        self.doubtful = self.container.of_doubt = True
+
+    def live_connections(self, port: str | None = None) -> list[Connection]:
+        """Its own connections that certainly stand, of ``port`` or of all required port elements."""
+        if not self.connections:
+            return []
+        return [c for c in self.connections if c.live and (port is None or c.port == port)]
+
+    @property
+    def serving(self) -> bool:
+        """Is it certain that it is operational at this moment, whatever operation is in progress?"""
+        return self.operational and not self.closing and not self.suspended
+
+    @property
+    def lane(self) -> str:
+        """The instance's name in findings and diagrams."""
+        return lane(self.component, self.instance or 1)
+
+    @property
+    def state(self) -> State:
+        """Where it stands in the life cycle of 11.2.3."""
+        if self.gone:
+            return "absent"
+        if self.operational:
+            return "ready"
+        return "configured" if self.connected else "initialized"
+
+    @property
+    def connected(self) -> bool:
+        """Is every required port element certainly connected?"""
+        required = self.declaration.requires
+        if not required:
+            return True
+        live = [c.port for c in self.connections if c.live]
+        return all(map(live.__contains__, required))
+
+
+@dataclass(slots=True, eq=False)
+class Container:
+    """A container: ``started`` is None where the text leaves the outcome of a failed start or stop open, ``doubtful``
+    says the same of its removal. ``members`` are all it ever had; ``of_doubt`` says that of one of them nobody knows whether
+    it still is.
+    """
+
+    name: str
+    started: bool | None = False
+    removed: bool = False
+    doubtful: bool = False
+    members: list[Member] = field(default_factory=list)
+    startup_order: list[Member] = field(default_factory=list)
+    failed_adds: int = 0
+    of_doubt: bool = False
+    _live: tuple[Member, ...] | None = None
+
+    def live_members(self) -> tuple[Member, ...]:
+        """Members that have not been removed."""
+        if self._live is None:
+            self._live = tuple([m for m in self.members if not m.gone])
+        return self._live
+
+    def changed(self) -> None:
+        """It has other members than before."""
+        self._live = None
+
+    def suspend(self) -> None:
+        """The outcome was left open: be silent about this container until a start or stop succeeds."""
+        self.started = None
+        for member in self.members:
+            member.suspended = True
+
+
+class Window:
+    """One operation of Container or ContainerManager, from call to return.
+
+    ``roles`` pairs each instance concerned with the row of the life-cycle table that stands for it (the instance is
+    None where the row is about one that does not exist). ``judged`` is False where the model cannot predict.
+    After a ``lost`` window nobody can say what state it left. ``created`` are the bodies made meanwhile,
+    ``fitted`` the roles whose instances went a way that their rows permit.
+    ``forgiving`` windows may end in UCM_ERROR for a reason the rows do not show. ``call`` is the call event's ``n``.
+    """
+
+    __slots__ = (
+        "by_body",
+        "call",
+        "callbacks",
+        "connection",
+        "container",
+        "created",
+        "fitted",
+        "forgiving",
+        "hooks",
+        "judged",
+        "lost",
+        "operation",
+        "roles",
+        "step",
+        "step_number",
+        "subject",
+    )
+
+    def __init__(self, step_number: int, step: Step, operation: str, container: Container, call: int = 0) -> None:
+        self.step_number = step_number
+        self.step = step
+        self.operation = operation
+        self.container = container
+        self.call = call
+        self.roles: list[tuple[Member | None, Row]] = []
+        self.judged = True
+        self.forgiving = False
+        self.lost = False
+        self.callbacks: list[Enter] = []
+        self.hooks: set[Hook] = set()
+        self.by_body: dict[tuple[str, int | None], list[Enter]] = {}
+        self.created: list[tuple[str, int]] = []
+        self.fitted: list[tuple[Member | None, Row, Fit]] = []
+        self.subject: Member | None = None
+        self.connection: Connection | None = None
+
+    def hear(self, callback: Enter) -> None:
+        """A body was entered while the operation was in progress."""
+        self.callbacks.append(callback)
+        self.hooks.add(callback.hook)
+        body = callback.component, callback.instance
+        heard = self.by_body.get(body)
+        if heard is None:
+            self.by_body[body] = [callback]
+        else:
+            heard.append(callback)
+
+
+def lane(component: str, instance: int) -> str:
+    """How findings and diagrams name the ``instance``-th body of ``component``."""
+    return component if instance == 1 else f"{component}#{instance}"
+
+
+def raises(declaration: Declaration, *hooks: Hook) -> bool:
+    """Does the plan of ``declaration`` raise at one of ``hooks``?"""
+    return bool(declaration.plan) and not raising(declaration).isdisjoint(hooks)
+
+
+def raising(declaration: Declaration) -> frozenset[Hook]:
+    """The hooks at which the plan of ``declaration`` raises."""
+    plan = declaration.plan
+    return frozenset([hook for hook, actions in plan.items() if _RAISE in actions]) if plan else _NOWHERE
+
+
+_RAISE = RaiseError()
+_NOWHERE: frozenset[Hook] = frozenset()
+
+
+class Behind(NamedTuple):
+    """What is behind a required port element: the instances it is connected to, none if that is not known, and where
+    calls through it arrive: component, instance and port element. ``fragments`` says that all of them are fragments.
+    """
+
+    providers: tuple[Member, ...]
+    fragments: bool
+    targets: frozenset[tuple[str, int | None, str]]
+
+
+class Runtime:
+    """All containers, instances, connections and references of one scenario.
+
+    ``members``, ``connections`` and ``references`` are what variables hold now; ``present`` are the instances in the order
+    in which they were added, without those that have been removed and left nothing behind. ``with_policies`` says that there
+    was one with policies.
+    ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
+    whose on_startup has returned during the operation in progress, ``starting_up`` those that are inside it because their
+    container's start is in progress, each with its thread; ``in_vain`` are gates that were waited for until patience ran
+    out, ``opened`` those that were opened without that. ``last_run`` when run was entered last. ``inside`` are
+    the bodies in which a thread is carrying out business methods or run, the innermost last. ``not_offered`` tells of
+    operations that the adapter does not offer.
+    ``behind`` is what executions.behind has worked out since anything ``changed``, and ``changes`` how often that was so.
+    ``interactions`` are followed where port elements have interfaces or components policies, ``executions`` where
+    components have policies.
+    """
+
+    def __init__(self, scenario: Scenario) -> None:
+        self.scenario = scenario
+        self.containers: dict[str, Container] = {MANAGER: Container(MANAGER)}
+        self.members: dict[str, Member] = {}
+        self.present: list[Member] = []
+        self.with_policies = False
+        self.bodies: dict[tuple[str, int], Member] = {}
+        self.discarded: set[tuple[str, int]] = set()
+        self.startups: dict[tuple[str, int], tuple[int, int]] = {}
+        self.starting: set[tuple[str, int]] = set()
+        self.starting_up: dict[tuple[str, int], int] = {}
+        self.in_vain: set[str] = set()
+        self.opened: set[str] = set()
+        self.last_run: dict[tuple[str, int], int] = {}
+        self.inside: dict[int, list[tuple[str, int]]] = {}
+        self.not_offered: list[Skip] = []
+        self.connections: dict[str, Connection] = {}
+        self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
+        self.ports: dict[str, str] = {}
+        self.destroyed = False
+        self.interactions: Interactions | None = None
+        self.executions: Executions | None = None
+        self.changes = 0
+        self.behind: dict[tuple[str, int, str], Behind] = {}
+
+    def changed(self) -> None:
+        """What is behind the port elements of instances may have changed."""
+        self.changes += 1
+        if self.behind:
+            self.behind.clear()
+
+    def enrol(self, member: Member) -> None:
+        """An instance has been added."""
+        member.container.members.append(member)
+        member.container.changed()
+        self.members[member.name] = member
+        self.present.append(member)
+        self.with_policies = self.with_policies or bool(member.declaration.policies)
+        if member.instance is not None:
+            self.bodies[(member.component, member.instance)] = member
+
+    def let_go(self, member: Member) -> None:
+        """An instance has been removed: it may be called, but its connections are nobody's matter unless they are unclear."""
+        member.leave()
+        if member in self.present and not any(c.live is not False or c.ambiguous for c in member.connections):
+            self.present.remove(member)
+
+    def member_of(self, component: str, instance: int) -> Member | None:
+        """The instance whose body this is, if an ``add_component`` has returned for it."""
+        return self.bodies.get((component, instance))
+
+    def provider_of(self, reference: MaybeReference) -> Member | None:
+        """The instance that a recognised reference belongs to."""
+        return self.bodies.get((reference.component, reference.instance)) if isinstance(reference, Reference) else None
+
+    def started_before(self, one: Member, other: Member) -> bool:
+        """Was the one started before the other, and for certain? Threads may start two of them at a time."""
+        first = self.startups.get((one.component, one.instance or 0))
+        second = self.startups.get((other.component, other.instance or 0))
+        return first is not None and second is not None and first[1] == second[1] and first[0] < second[0]
+
+    def runs_since_start(self, member: Member) -> bool:
+        """Has run been entered since its last on_startup?"""
+        body = member.component, member.instance or 0
+        return body in self.startups and self.last_run.get(body, 0) > self.startups[body][0]
+
+    def may_run(self, member: Member) -> bool:
+        """Has its last on_startup returned, and the stop that follows not?"""
+        return member.operational or (member.component, member.instance or 0) in self.starting
+
+    def find_member(self, container: Container, variable: str) -> tuple[Member | None, str]:
+        """The live instance that the id in ``variable`` designates in ``container``, else None and why.
+
+        The manager may know the members of its sub-containers.
+        """
+        if variable == UNKNOWN or variable not in self.members:
+            return None, "never existed"
+        wanted = self.members[variable]
+        for member in container.live_members():
+            if member.id == wanted.id:
+                return member, ""
+        if wanted.gone:
+            return None, "already removed"
+        return (wanted, "") if container.name == MANAGER else (None, "of another container")
+
+    def find_connection(self, container: Container, variable: str) -> tuple[Connection | None, str]:
+        """The connection, perhaps undone already, that the id in ``variable`` designates in ``container``, else None and why.
+
+        The manager may know the connections of its sub-containers.
+        """
+        if variable == UNKNOWN or variable not in self.connections:
+            return None, "never existed"
+        wanted = self.connections[variable]
+        of_that_id = [c for c in self.all_connections() if c.live is not False and c.id == wanted.id]
+        for connection in (wanted, *of_that_id):
+            if connection.live is not False and connection.client.container is container:
+                return connection, ""
+        if wanted.live is False:
+            return None, "already undone"
+        return (wanted, "") if container.name == MANAGER else (None, "of another container")
+
+    def all_connections(self) -> Iterator[Connection]:
+        """Every connection, but for those of removed instances that are undone."""
+        return (connection for member in self.present for connection in member.connections)
+
+    def clients_of(self, providers: Iterable[Member]) -> Iterator[tuple[Member, list[Connection]]]:
+        """Each other instance that has live connections to one of ``providers``, with these connections."""
+        wanted = {id(p) for p in providers}
+        for member in self.present:
+            if member.gone or id(member) in wanted:
+                continue
+            used = [c for c in member.connections if c.live and c.provider is not None and id(c.provider) in wanted]
+            if used:
+                yield member, used
+
+    def reference(self, variable: str) -> tuple[MaybeReference, Member | None]:
+        """What a reference variable holds and whose port element it is."""
+        return (None, None) if variable == NIL else self.references.get(variable, (None, None))

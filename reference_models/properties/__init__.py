@@ -1,0 +1,1 @@
+"""The properties that every trace is checked against."""

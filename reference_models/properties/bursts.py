@@ -1,0 +1,124 @@
+"""Rules about bursts: many messages, of which only is told how many were pushed and counted (10.1.2, 10.1.6)."""
+
+from __future__ import annotations
+
+import itertools
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Counted, Event, Pushed
+from ucm_cts.reference_models.model.interactions import PushedBurst
+from ucm_cts.reference_models.model.links import LinkState
+from ucm_cts.reference_models.model.messages import CODES, OK, interactions_of, is_well
+from ucm_cts.reference_models.model.runtime import Member, Runtime
+from ucm_cts.reference_models.verdicts import Ledger, rule
+
+
+@rule("told", "R-10.1.2-02", "R-10.1.2-09")
+def burst_answered(ledger: Ledger, runtime: Runtime, event: Event) -> None:
+    """Each message of a burst is answered one of the three codes; ok, where the vendor has declared that push waits."""
+    if not isinstance(event, Pushed):
+        return
+    burst = interactions_of(runtime).bursts[-1]
+    emitter = runtime.member_of(event.component, event.instance)
+    if emitter is None or not emitter.serving or burst.link is None:
+        return
+    unknown = [code for code in event.answers if code not in CODES]
+    if unknown:
+        expected = f"each message of a burst is answered {' or '.join(CODES)}"
+        _violate(ledger, "R-10.1.2-02", "burst_answered", expected, f"{unknown[0] or 'nothing'} was the answer", event)
+        return
+    ledger.exercised("R-10.1.2-02")
+    healthy = len(burst.receivers) == len(burst.link.live("receiver")) > 0 and all(map(is_well, burst.receivers))
+    if not healthy or burst.link.broken_at:
+        return
+    if set(event.answers) == {OK}:
+        ledger.exercised("R-10.1.2-09")
+    elif not ledger.observed("message-overflow", "refuse"):
+        expected = "message-overflow was declared as block: each message of a burst is answered ok"
+        _violate(ledger, "R-10.1.2-09", "burst_answered", expected, f"the answers were {event.answers}", event)
+
+
+@rule("told", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07", timed=True)
+def burst_counted(ledger: Ledger, runtime: Runtime, event: Event) -> None:
+    """What was pushed in bursts and got ok is counted, each message once, and nothing else is."""
+    if not isinstance(event, Counted):
+        return
+    receiver = runtime.member_of(event.component, event.instance)
+    link = interactions_of(runtime).link_to(receiver) if receiver is not None else None
+    bursts = [burst for burst in interactions_of(runtime).bursts if burst.link is link]
+    if receiver is None or link is None or not bursts or _is_busy(runtime, link) or not _is_known(bursts):
+        return
+    _origin(ledger, receiver, bursts, event)
+    _once(ledger, receiver, event)
+    _order(ledger, receiver, event)
+    if link.broken_at or not receiver.serving or not all(receiver in burst.receivers for burst in bursts):
+        return
+    due = sum(burst.pushed.answers.get(OK, 0) for burst in bursts)
+    step = runtime.scenario.steps[event.step]
+    if event.distinct >= due:
+        ledger.exercised("R-10.1.2-10")
+        if len({(b.pushed.component, b.pushed.instance) for b in bursts}) > 1:
+            ledger.exercised("R-10.1.6.1-03")
+    elif isinstance(step, s.AwaitMessages) and event.received < step.count and not interactions_of(runtime).held:
+        expected = f"{receiver.lane} gets each of the {due} messages that were answered ok"
+        observed = f"it has got {event.distinct} of them when patience has run out"
+        _violate(ledger, "R-10.1.2-10", "burst_counted", expected, observed, event, "lost")
+
+
+def _origin(ledger: Ledger, receiver: Member, bursts: list[PushedBurst], event: Counted) -> None:
+    pushed = sum(burst.pushed.count for burst in bursts)
+    least = min(burst.pushed.first for burst in bursts)
+    greatest = max(burst.pushed.first + burst.pushed.count - 1 for burst in bursts)
+    if event.received and (event.distinct > pushed or event.least < least or event.greatest > greatest):
+        expected = f"{receiver.lane} gets {pushed} messages from {least} to {greatest} and nothing else"
+        observed = f"it got {event.distinct} from {event.least} to {event.greatest}"
+        _violate(ledger, "R-10.1.6.1-06", "burst_counted", expected, observed, event, "invented")
+    elif event.received:
+        ledger.exercised("R-10.1.6.1-06")
+
+
+def _once(ledger: Ledger, receiver: Member, event: Counted) -> None:
+    if event.received > event.distinct:
+        again = event.received - event.distinct
+        expected = f"{receiver.lane} gets each message once"
+        _violate(ledger, "R-10.1.6.1-05", "burst_counted", expected, f"{again} came again", event, "repeated")
+    elif event.received:
+        ledger.exercised("R-10.1.6.1-05")
+
+
+def _order(ledger: Ledger, receiver: Member, event: Counted) -> None:
+    """Each burst has numbers of its own, in which the disorder is counted."""
+    if event.received < 2:
+        return
+    ledger.exercised("R-10.1.6.1-07")
+    if not event.disordered:
+        ledger.observed("message-order", "fifo")
+    elif not ledger.observed("message-order", "unordered"):
+        expected = f"{receiver.lane} gets an emitter's messages in the order in which they were pushed"
+        observed = f"{event.disordered} came after a later one"
+        _violate(ledger, "R-10.1.6.1-07", "burst_counted", expected, observed, event, "disordered")
+
+
+def _is_busy(runtime: Runtime, link: LinkState) -> bool:
+    """May an emitter of ``link`` still be pushing?"""
+    inside = {body for bodies in runtime.inside.values() for body in bodies}
+    return any((end.member.component, end.member.instance or 0) in inside for end in link.ends if end.role == "emitter")
+
+
+def _is_known(bursts: list[PushedBurst]) -> bool:
+    """Has no number been pushed twice?"""
+    ranges = sorted((burst.pushed.first, burst.pushed.count) for burst in bursts)
+    return all(first + count <= then for (first, count), (then, _) in itertools.pairwise(ranges))
+
+
+def _violate(
+    ledger: Ledger,
+    requirement: str,
+    rule_name: str,
+    expected: str,
+    observed: str,
+    event: Pushed | Counted,
+    cause: str = "answer",
+) -> None:
+    step = event.step if isinstance(event, Counted) else None
+    ledger.violated(requirement, rule_name, cause, expected, observed, (event.n,), step)

@@ -1,0 +1,136 @@
+"""Rules about the references that on_startup hands over (11.2.1.2, 11.2.3, 12.10)."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
+from ucm_cts.reference_models.findings import Arrow
+from ucm_cts.reference_models.model.callback_history import Heard
+from ucm_cts.reference_models.model.runtime import Member, Runtime, Window, lane
+from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
+from ucm_cts.reference_models.verdicts import Ledger, rule
+
+
+def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
+    """The non-null references of ``on_startup`` by port element name; several entries of one name are one."""
+    by_port: dict[str, list[MaybeReference]] = {}
+    for dependency in event.dependencies or ():
+        by_port.setdefault(dependency.port, []).extend(r for r in dependency.references if r is not None)
+    return by_port
+
+
+@rule("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
+def dependencies(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
+    """on_startup names each connected required port element and gives the reference it was connected to."""
+    member = runtime.member_of(event.component, event.instance)
+    if member is None or member.suspended or member.operational:
+        return
+    given = handed_over(event)
+    again = member.startups > 0
+    problem = _problem(member, given)
+    if problem is None:
+        if member.live_connections():
+            ledger.exercised("R-11.2.3-10" if again else "R-11.2.1.2-09")
+            ledger.exercised("R-11.2.1.2-03")
+            ledger.exercised("R-12.10-25")
+        return
+    requirement, cause, expected, observed = problem
+    ledger.violated(
+        "R-11.2.3-10" if again else requirement,
+        "dependencies",
+        cause,
+        expected,
+        observed,
+        (event.n,),
+        window.step_number if window else None,
+        (Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
+    )
+
+
+def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[str, str, str, str] | None:
+    """Requirement, cause, expected and observed of the first thing wrong with what was handed over."""
+    required = (*member.declaration.requires, *policy_elements(member.declaration, *SERVICES))
+    foreign = [p for p in given if p not in required]
+    if foreign:
+        names = ", ".join(required) or "nothing"
+        return "R-11.2.1.2-09", "name", f"dependencies named {names}", f"a dependency named {foreign[0]}"
+    for port in member.declaration.requires:
+        if given.get(port) == [c.reference for c in member.connections if c.port == port]:
+            continue  # the common case: what was connected, and what of it was undone is no_dangling_reference's matter
+        connections = [c for c in member.connections if c.port == port and c.live is not False]
+        certain = [c for c in connections if c.live]
+        undone = {c.reference for c in member.connections if c.port == port and c.live is False}
+        undone -= {c.reference for c in connections}
+        references = [r for r in given.get(port, []) if r not in undone]  # no_dangling_reference's matter
+        if certain and not references:
+            what = "no reference for it" if port in given else "nothing of that name"
+            return "R-11.2.1.2-09", "missing", f"a reference for {port}, which is connected", what
+        wanted = {c.reference for c in connections if isinstance(c.reference, Reference)}
+        strangers = [
+            r
+            for r in references
+            if isinstance(r, Reference)
+            and r not in wanted
+            and all(isinstance(c.reference, Reference) for c in connections)
+        ]
+        if strangers and certain:
+            return "R-11.2.1.2-03", "reference", f"{port} = {_expected(member)}", f"{port} = {_show(strangers[0])}"
+        lost = [c for c in certain if isinstance(c.reference, Reference) and c.reference not in references]
+        if lost and all(isinstance(r, Reference) for r in references) and not lost[0].stale:
+            shown = ", ".join(map(_show, references))
+            return "R-11.2.1.2-09", "missing", f"{_show(lost[0].reference)} for {port}, connected last", shown
+        if certain and len(references) > len(connections):
+            expected = f"{len(connections)} reference(s) for {port}, one a connection"
+            return "R-12.10-25", "count", expected, f"{len(references)} references"
+    return None
+
+
+@rule("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
+def no_dangling_reference(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
+    """on_startup offers no removed instance, and nothing through a connection that was undone."""
+    if window is not None and window.operation == "connect":
+        return
+    member = runtime.member_of(event.component, event.instance)
+    if member is None or member.operational:
+        return
+    given = handed_over(event)
+    for port, references in given.items():
+        for reference in references:
+            provider = runtime.provider_of(reference)
+            stale = any(c.stale and c.provider is provider for c in member.connections)
+            if provider is not None and provider.gone and not stale:
+                ledger.violated(
+                    "R-11.2.3-14",
+                    "no_dangling_reference",
+                    "removed provider",
+                    f"{provider.lane} was removed, so {port} is not connected to it",
+                    f"on_startup handed over {_show(reference)} for {port}",
+                    (event.n,),
+                    window.step_number if window else None,
+                )
+                return
+            of_port = [c for c in member.connections if c.port == port and c.reference == reference]
+            if of_port and all(c.live is False for c in of_port) and not member.suspended:
+                ledger.violated(
+                    "R-11.2.2.1-10",
+                    "no_dangling_reference",
+                    "undone connection",
+                    f"{of_port[0].name} was disconnected, so its reference is not handed over",
+                    f"on_startup handed over {_show(reference)} for {port}",
+                    (event.n,),
+                    window.step_number if window else None,
+                )
+                return
+    if any(c.provider is not None and c.provider.gone for c in member.connections):
+        ledger.exercised("R-11.2.3-14")
+    if any(c.live is False and c.provider is not None and not c.provider.gone for c in member.connections):
+        ledger.exercised("R-11.2.2.1-10")
+
+
+def _expected(member: Member) -> str:
+    return ", ".join(f"{c.port}={_show(c.reference)}" for c in member.live_connections())
+
+
+def _show(reference: MaybeReference) -> str:
+    if isinstance(reference, Reference):
+        return f"{lane(reference.component, reference.instance)}.{reference.port}"
+    return "nil" if reference is None else "an unrecognised reference"

@@ -1,0 +1,155 @@
+"""Rules about messages and phases: before a receiver is started, after it is stopped, and what waits meanwhile (10.1.6)."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Raise, Return, Timeout
+from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
+from ucm_cts.reference_models.model.messages import (
+    CODES,
+    OK,
+    counts,
+    events_of,
+    interactions_of,
+    is_quiet,
+    is_well,
+    is_whole,
+    messages,
+    name_of,
+    of_one_phase,
+    pushed_before_start,
+    waited_for,
+    was_delivered,
+)
+from ucm_cts.reference_models.model.runtime import Member, Runtime, Window
+from ucm_cts.reference_models.verdicts import Ledger, rule
+
+
+@rule("delivered", "R-10.1.6.1-09")
+def message_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+    """No message enters a receiver before start was called on its container, or after stop returned."""
+    receiver, call = delivery.receiver, delivery.call
+    if receiver is None or receiver.suspended or (call is not None and not call.is_message):
+        return
+    if delivery.link is None or delivery.link.connector != s.MESSAGE_CONNECTOR:
+        return
+    in_progress = interactions_of(runtime).in_progress.values()
+    if receiver.operational or any(isinstance(o.step, s.Start) for o in in_progress):
+        if call is not None and _was_kept_waiting(runtime, call, receiver):
+            ledger.exercised("R-10.1.6.1-09")
+        return
+    if receiver.container.started is not False:
+        return
+    when = "after it was stopped" if receiver.startups else "before it was started"
+    ledger.violated(
+        "R-10.1.6.1-09",
+        "message_phases",
+        when,
+        f"{receiver.lane} gets messages in its operational phase only",
+        f"{list(delivery.enter.arguments or ())} entered it {when}",
+        (delivery.enter.n,),
+    )
+
+
+@rule("delivered", "R-10.1.6.1-09")
+def later_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+    """A message of an earlier phase comes in a later one only if the vendor has not declared that it does not."""
+    call, receiver = delivery.call, delivery.receiver
+    if call is None or receiver is None or not call.is_message or not pushed_before_start(runtime, delivery):
+        return
+    ready = [was_ready for end, was_ready in call.targets if end.member is receiver]
+    was_idle = any(end.member is receiver for end in call.idle)
+    if not (was_idle or any(ready)):
+        return
+    option, value = ("receiver-not-ready", "hold") if was_idle else ("pending-at-stop", "keep")
+    if not ledger.observed(option, value):
+        ledger.violated(
+            "R-10.1.6.1-09",
+            "later_phases",
+            option,
+            f"{option} was declared as {ledger.claims.reading(option)}: {name_of(call)} does not come after a start",
+            f"it entered {receiver.lane} after its next start",
+            events_of(call, delivery.enter.n),
+        )
+
+
+@rule("waited", "R-10.1.6.1-09", timed=True)
+def kept_for_later_phases(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+    """A message that waits for the next start comes then, where the vendor has declared it."""
+    for call in messages(runtime):
+        if call.code != OK or not is_whole(ledger, runtime, call):
+            continue
+        for end, was_ready in call.targets:
+            since, _ = runtime.startups.get((end.member.component, end.member.instance or 0), (0, 0))
+            lost = end.member.serving and end.until is None and since > call.request.n and not was_delivered(call, end)
+            if not lost or counts(end.member) or not waited_for(runtime, timeout, call.reply.t if call.reply else 0):
+                continue
+            if not was_ready and end not in call.idle:
+                continue
+            option = "pending-at-stop" if was_ready else "receiver-not-ready"
+            if not ledger.observed(option, "drop"):
+                expected = (
+                    f"{option} was declared as {ledger.claims.reading(option)}: {name_of(call)} comes after the start"
+                )
+                ledger.violated(
+                    "R-10.1.6.1-09",
+                    "kept_for_later_phases",
+                    option,
+                    expected,
+                    f"it never came to {end.member.lane}",
+                    events_of(call, timeout.n),
+                )
+
+
+@rule("ended", "R-10.1.6.1-09", at=("stop",), where="interactions")
+def delivered_at_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """All that had got ok has arrived when stop returns, where the vendor has declared it."""
+    if isinstance(end, Raise) or runtime.interactions is None:
+        return
+    for call in messages(runtime):
+        for target in of_one_phase(runtime, call) if call.code == OK and is_whole(ledger, runtime, call) else ():
+            here = target.member.container is window.container and not counts(target.member)
+            if not here or call.request.n > window.call or was_delivered(call, target):
+                continue
+            if ledger.claims.reading("pending-at-stop") == "deliver":
+                ledger.violated(
+                    "R-10.1.6.1-09",
+                    "delivered_at_stop",
+                    "pending-at-stop",
+                    f"pending-at-stop was declared as deliver: {name_of(call)} is delivered when stop returns",
+                    f"it had not come to {target.member.lane}",
+                    events_of(call, end.n),
+                )
+
+
+@rule("completed", "R-10.1.6.1-09")
+def unready_receivers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+    """What is pushed to a receiver that is not operational is answered as the vendor has declared."""
+    if not call.is_message or not call.idle or not is_whole(ledger, runtime, call) or not is_quiet(runtime, call):
+        return
+    others = [end for end, ready in call.targets if ready and end not in call.idle]
+    if len(others) + len(call.idle) < len(call.targets) or not all(is_well(end.member) for end in others):
+        return
+    refused = call.code in CODES and call.code != OK
+    declared = ledger.claims.reading("receiver-not-ready")
+    if (refused and not ledger.observed("receiver-not-ready", "error")) or (declared == "error" and call.code == OK):
+        expected = f"is answered as receiver-not-ready was declared: {declared}"
+        ledger.violated(
+            "R-10.1.6.1-09",
+            "unready_receivers",
+            "receiver-not-ready",
+            f"{name_of(call)} {expected}",
+            f"the answer was {call.code}",
+            events_of(call),
+        )
+
+
+def _was_kept_waiting(runtime: Runtime, call: MethodCall, receiver: Member) -> bool:
+    """Has this message, or one before it, been pushed when it could have come while the receiver was not operational?"""
+    since = runtime.startups.get((receiver.component, receiver.instance or 0), (0, 0))[0]
+    starts = [o.begin.n for o in interactions_of(runtime).operations if isinstance(o.step, s.Start)]
+    started = max((n for n in starts if n < since), default=0)
+    last = min(call.request.n, started - 1)
+    earlier = [c for c in messages(runtime) if c.link is call.link and c.request.n <= last]
+    pending = [c for c in earlier if all(d.enter.n > since for d in c.delivered_to(receiver))]
+    return any(end.member is receiver for c in pending for end, _ in c.targets)

@@ -1,0 +1,293 @@
+"""Rules about messages: who gets them, how often, in which order, when and unchanged (10.1.6)."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Raise, Return, Timeout
+from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
+from ucm_cts.reference_models.model.links import End, LinkState
+from ucm_cts.reference_models.model.messages import (
+    OK,
+    counts,
+    events_of,
+    interactions_of,
+    is_disturbed,
+    is_well,
+    is_whole,
+    lasting,
+    messages,
+    name_of,
+    overdue,
+    was_delivered,
+)
+from ucm_cts.reference_models.model.runtime import Member, Runtime, Window
+from ucm_cts.reference_models.model.values_carried import overwritten
+from ucm_cts.reference_models.verdicts import Ledger, rule
+
+
+@rule("closed", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-08", "R-10.1.6.1-10", "R-10.1.6.1-20")
+def messages_arrived(ledger: Ledger, runtime: Runtime) -> None:
+    """Counts what the rules about missing messages watched: messages that reached every receiver they had to."""
+    arrived: dict[str, set[Member | None]] = {}
+    interfaces = set()
+    for call in messages(runtime):
+        ready = [end for end, was_ready in call.targets if was_ready and not counts(end.member)]
+        if call.link is None or not ready or not all(was_delivered(call, end) for end in ready):
+            continue
+        ledger.exercised("R-10.1.6.1-10")
+        arrived.setdefault(call.link.name, set()).add(call.caller)
+        interfaces.add(call.link.interface)
+        if len(ready) > 1:
+            ledger.exercised("R-10.1.6.1-08" if is_disturbed(runtime, call) else "R-10.1.6.1-04")
+    if len(interfaces) > 1:
+        ledger.exercised("R-10.1.6.1-20")
+    for emitters in arrived.values():
+        if len(emitters) > 1:
+            ledger.exercised("R-10.1.6.1-03")
+
+
+@rule("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True)
+def every_receiver(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+    """What entered one receiver enters all that are well; one that is slow or fails costs the others nothing."""
+    for call, missing in overdue(ledger, runtime, timeout):
+        refused, disturbed = call.code != OK, is_disturbed(runtime, call)
+        if not call.deliveries and (refused or not disturbed):
+            continue  # ok_kept's matter
+        if refused and call.crowded:
+            continue
+        requirement = "R-10.1.6.1-08" if disturbed and not refused else "R-10.1.6.1-04"
+        got = ", ".join(sorted({d.receiver.lane for d in call.deliveries if d.receiver is not None}))
+        _missing(ledger, "every_receiver", requirement, call, missing, f"it came to {got or 'nobody'}", timeout)
+
+
+@rule("waited", "R-10.1.6.1-08", timed=True)
+def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+    """Whether the others have the message while one of its receivers is held."""
+    interactions = interactions_of(runtime)
+    held = {(event.component, event.instance) for event in interactions.held}
+    for call in messages(runtime):
+        holding = {d.receiver for d in call.deliveries if d.receiver is not None and d.exit is None}
+        own = {(member.component, member.instance or 0) for member in holding}
+        if (
+            not held
+            or not held <= own
+            or not is_whole(ledger, runtime, call)
+            or (call.reply is not None and call.code != OK)
+        ):
+            continue
+        if timeout.t - call.request.t < runtime.scenario.patience * 900_000:
+            continue
+        others = [end for end in lasting(runtime, call) if end.member not in holding and is_well(end.member)]
+        missing = [end for end in others if not was_delivered(call, end)]
+        if missing and not ledger.observed("slow-receiver", "shared"):
+            _missing(
+                ledger, "slow_receivers", "R-10.1.6.1-08", call, missing, "they wait for one that is slow", timeout
+            )
+        elif others and not missing:
+            ledger.observed("slow-receiver", "independent")
+
+
+@rule("waited", "R-10.1.6.1-03", timed=True)
+def many_emitters(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+    """Messages of each emitter arrive, not of one only."""
+    for call, missing in overdue(ledger, runtime, timeout):
+        if call.code != OK or call.deliveries:
+            continue
+        arrived = {c.caller for c in messages(runtime) if c.link is call.link and c.deliveries}
+        if arrived and call.caller not in arrived:
+            _missing(ledger, "many_emitters", "R-10.1.6.1-03", call, missing, "only another emitter's came", timeout)
+
+
+@rule("waited", "R-10.1.6.1-20", timed=True)
+def message_template(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+    """Messages of each type arrive, not of one only."""
+    for call, missing in overdue(ledger, runtime, timeout):
+        arrived = {c.link.interface for c in messages(runtime) if c.link is not None and c.deliveries}
+        if call.code != OK or call.link is None or not arrived or call.link.interface in arrived:
+            continue
+        _missing(ledger, "message_template", "R-10.1.6.1-20", call, missing, "only another type's came", timeout)
+
+
+@rule("delivered", "R-10.1.6.1-05")
+def at_most_once(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+    """One push enters each receiver once."""
+    call = delivery.call
+    if call is None or not call.is_message or delivery.receiver is None:
+        return
+    if delivery.fit != "repeated":
+        ledger.exercised("R-10.1.6.1-05")
+        return
+    times = len(call.delivered_to(delivery.receiver, delivery.enter.port))
+    ledger.violated(
+        "R-10.1.6.1-05",
+        "at_most_once",
+        "repeated",
+        f"{name_of(call)} enters {delivery.receiver.lane} once",
+        f"it was entered {times} times",
+        events_of(call, delivery.enter.n),
+    )
+
+
+@rule("closed", "R-10.1.6.1-06")
+def message_origin(ledger: Ledger, runtime: Runtime) -> None:
+    """Whatever enters a receiver was pushed before by an emitter of its connection."""
+    for delivery in interactions_of(runtime).deliveries:
+        receiver, link, enter = delivery.receiver, delivery.link, delivery.enter
+        if receiver is None or link is None or link.connector != s.MESSAGE_CONNECTOR or enter.method != s.PUSH:
+            continue
+        call = delivery.call
+        if call is not None and interactions_of(runtime).has_left(delivery):
+            ledger.violated(
+                "R-10.1.6.1-06",
+                "message_origin",
+                "no receiver any more",
+                f"{receiver.lane} gets nothing that is pushed when it is no longer a receiver",
+                f"it got {name_of(call)}",
+                events_of(call, enter.n),
+            )
+            continue
+        if delivery.fit != "stray":
+            ledger.exercised("R-10.1.6.1-06")
+            continue
+        elsewhere = [c for c in messages(runtime) if c.request.arguments == enter.arguments and c.link is not link]
+        what = "which was pushed through another connection" if elsewhere else "which nobody had pushed"
+        ledger.violated(
+            "R-10.1.6.1-06",
+            "message_origin",
+            "another connection" if elsewhere else "invented",
+            f"{receiver.lane} gets what emitters of its connection pushed, and nothing else",
+            f"it got {list(enter.arguments or ())}, {what}",
+            (enter.n,),
+        )
+
+
+@rule("delivered", "R-10.1.6.1-07")
+def message_order(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+    """Do an emitter's messages come in the order in which they were pushed one after the other?"""
+    call = delivery.call
+    if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
+        return
+    others = [c for c in messages(runtime) if c.caller is call.caller and c.link is call.link and c is not call]
+    came = [c for c in others if c.delivered_to(delivery.receiver, delivery.enter.port)]
+    overtaken = [c for c in came if call.reply is not None and call.reply.n < c.request.n]
+    if overtaken:
+        ledger.exercised("R-10.1.6.1-07")
+        if not ledger.observed("message-order", "unordered"):
+            ledger.violated(
+                "R-10.1.6.1-07",
+                "message_order",
+                "overtaken",
+                f"{name_of(call)} comes before {name_of(overtaken[0])}, which was pushed later",
+                "it came after it",
+                events_of(call, overtaken[0].request.n, delivery.enter.n),
+            )
+    elif any(c.reply is not None and c.reply.n < call.request.n for c in came):
+        ledger.exercised("R-10.1.6.1-07")
+        ledger.observed("message-order", "fifo")
+
+
+@rule("delivered", "R-10.1.6.1-19")
+def values_isolated(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+    """Who overwrites what he pushed or got changes what nobody else sees."""
+    call = delivery.call
+    if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
+        return
+    enter = delivery.enter
+    earlier = [d for d in call.deliveries if d is not delivery and d.exit is not None and d.exit.n < enter.n]
+    owners = [d.receiver.lane for d in earlier if d.receiver is not None and _overwrites(d.receiver)]
+    if call.reply is not None and call.reply.n < enter.n and call.caller is not None:
+        owners.append(call.caller.lane)
+    if not owners:
+        return
+    pushed, got = list(call.request.arguments or ()), list(enter.arguments or ())
+    if delivery.fit == "same":
+        ledger.exercised("R-10.1.6.1-19")
+    elif got in overwritten(pushed):
+        ledger.violated(
+            "R-10.1.6.1-19",
+            "values_isolated",
+            "overwritten",
+            f"{enter.component} gets {pushed} as it was pushed",
+            f"it got {got}, after {' and '.join(owners)} had overwritten what is theirs",
+            events_of(call, enter.n),
+        )
+
+
+@rule("linked", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-10", "R-10.1.6.1-20")
+def message_connector(
+    ledger: Ledger, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+) -> None:
+    """A message connector can be had for each type, and any number of emitters and receivers can be joined by it."""
+    if not isinstance(end, Raise) or any(c.started is not False for c in runtime.containers.values()):
+        return
+    if isinstance(step, s.Link) and step.connector == s.MESSAGE_CONNECTOR:
+        others = {o.interface for o in interactions_of(runtime).links.values() if o.connector == step.connector}
+        requirement = "R-10.1.6.1-20" if others - {step.interface} else "R-10.1.6.1-10"
+        what = f"a message connector for {step.interface}"
+    elif isinstance(step, s.Attach) and link is not None and link.connector == s.MESSAGE_CONNECTOR:
+        member = runtime.members.get(step.id)
+        ports = {"emitter": member.declaration.requires, "receiver": member.declaration.provides} if member else {}
+        known = step.port in ports.get(step.role, ())
+        if member is None or member.gone or member.suspended or not known or _is_taken(member, step.port):
+            return
+        if step.role == "emitter" and not link.live("receiver") and end.error in ("UCM_ERROR", "BAD_PARAMETER"):
+            return  # refused_attachment's matter
+        several = "R-10.1.6.1-03" if step.role == "emitter" else "R-10.1.6.1-04"
+        requirement = several if link.live(step.role) else "R-10.1.6.1-10"
+        what = f"{step.port} of {member.lane} as {step.role} of {link.name}, which has {len(link.live(step.role))}"
+    else:
+        return
+    observed = f"it raised {end.error} {end.detail}"
+    ledger.violated(requirement, "message_connector", s.operation(step), what, observed, (end.n,), end.step)
+
+
+@rule("ended", "R-10.1.6.1-10", at=("start",), where="interactions")
+def joined_and_started(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+    """Whoever is joined by a message connector can be started."""
+    if not isinstance(end, Raise) or runtime.interactions is None or window.forgiving:
+        return
+    members = window.container.live_members()
+    if any(m.raises("on_startup") or not m.connected or m.operational or m.suspended for m in members):
+        return
+    links = [link for link in runtime.interactions.links.values() if link.connector == s.MESSAGE_CONNECTOR]
+    joined = [link.name for link in links if any(e.member in members for e in link.live("emitter", "receiver"))]
+    if joined:
+        ledger.violated(
+            "R-10.1.6.1-10",
+            "joined_and_started",
+            "start",
+            f"what is joined by {joined[0]} is started",
+            f"start raised {end.error} {end.detail}",
+            (window.call, end.n),
+            window.step_number,
+        )
+
+
+def _is_taken(member: Member, port: str) -> bool:
+    return bool(member.live_connections(port))
+
+
+def _overwrites(receiver: Member) -> bool:
+    plan = receiver.declaration.plan.get("method", ())
+    return any(isinstance(a, s.Answer) and a.method == s.PUSH and a.overwrite for a in plan)
+
+
+def _missing(
+    ledger: Ledger,
+    rule_name: str,
+    requirement: str,
+    call: MethodCall,
+    missing: list[End],
+    observed: str,
+    timeout: Timeout,
+) -> None:
+    names = ", ".join(sorted(end.member.lane for end in missing))
+    ledger.violated(
+        requirement,
+        rule_name,
+        "missing",
+        f"{name_of(call)} comes to {names}",
+        f"it did not come; {observed}",
+        events_of(call, timeout.n),
+        timeout.step,
+    )

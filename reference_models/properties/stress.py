@@ -1,0 +1,47 @@
+"""Rules about components that many callers enter as fast as they can: tiny holes in their protection (10.1.3.2).
+
+Counters inside the body tell who met whom. They prove something only if they find overlap where nobody protects.
+"""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.trace import Counted, Paused, Pushed, Return, Stressed
+from ucm_cts.reference_models.model.executions import CALL_EXCLUSIONS, exclusion, protection_of
+from ucm_cts.reference_models.model.runtime import Runtime
+from ucm_cts.reference_models.verdicts import Ledger, rule
+
+
+@rule("told", *CALL_EXCLUSIONS)
+def no_overlap_under_stress(
+    ledger: Ledger, runtime: Runtime, event: Return | Pushed | Counted | Paused | Stressed
+) -> None:
+    """Callers that stress a protected component never meet inside."""
+    if not isinstance(event, Stressed):
+        return
+    step = runtime.scenario.steps[event.step]
+    assert isinstance(step, s.Stress)
+    members = {runtime.reference(ref)[1] for ref in step.refs}
+    member = members.pop() if len(members) == 1 else None
+    if member is None or not member.serving:
+        return
+    ports = [runtime.ports[ref] for ref in step.refs]
+    requirement = exclusion(member.declaration, ledger.claims, ports[0], ports[-1])
+    if not requirement:
+        if event.overlaps and protection_of(member.declaration) == "unprotected":
+            ledger.exercised("R-10.1.3.2-20")
+        return
+    ledger.measured("calls stressed", event.calls)
+    if event.overlaps:
+        ledger.violated(
+            requirement,
+            "no_overlap_under_stress",
+            "tiny hole",
+            f"callers of {' and '.join(dict.fromkeys(ports))} are never in '{member.lane}' at a time",
+            f"they met there {event.overlaps} times in {event.calls} calls",
+            (event.n,),
+            event.step,
+        )
+    elif event.control_overlaps and event.calls:
+        ledger.exercised(requirement)
+        ledger.measured("calls stressed beside a control that was found out", event.calls)
