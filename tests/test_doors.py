@@ -1,4 +1,4 @@
-"""Through whichever door a framework is reached, the suite sees the same and says the same."""
+"""Through whichever endpoint a framework is reached, the suite sees the same and says the same."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ PYTHON = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 
 @dataclass(frozen=True)
 class Seen:
-    """What came through a door; what was exercised is counted where no threads run a race."""
+    """What came through an endpoint; what was exercised is counted where no threads run a race."""
 
     traces: dict[str, Trace]
     exercised: Counter[str]
@@ -53,11 +53,11 @@ def sample() -> tuple[tuple[str, Scenario], ...]:
 
 
 @functools.cache
-def through(door: str, in_process: bool = False) -> Seen:
-    """The sample run and judged, each door with the same names and payloads."""
+def through(endpoint: str, in_process: bool = False) -> Seen:
+    """The sample run and judged, each endpoint with the same names and payloads."""
     judge = Judge(load_life_cycle())
     seen = Seen({}, Counter(), {})
-    with Driver(locate(door, in_process), seed=9) as driver:
+    with Driver(locate(endpoint, in_process), seed=9) as driver:
         for answer in driver.run(sample()):
             assert answer.incident is None, (answer.name, answer.incident)
             ledger = judge.judge(answer.disguised, answer.trace)
@@ -171,8 +171,8 @@ def test_executable_that_is_already_running(listening: str) -> None:
     assert_same_traces(through("reference-cpp"), through.__wrapped__(listening))
 
 
-@pytest.mark.parametrize("door", ["reference-py", "reference-cpp-module", "subjects:stops_in_startup_order"])
-def test_in_process_and_in_a_host(door: str) -> None:
-    assert_same_traces(through(door), through(door, in_process=True))
-    if door.startswith("subjects"):
-        assert {r for broken in through(door).broken.values() for r in broken} == {"R-11.2.2.1-13"}
+@pytest.mark.parametrize("endpoint", ["reference-py", "reference-cpp-module", "subjects:stops_in_startup_order"])
+def test_in_process_and_in_a_host(endpoint: str) -> None:
+    assert_same_traces(through(endpoint), through(endpoint, in_process=True))
+    if endpoint.startswith("subjects"):
+        assert {r for broken in through(endpoint).broken.values() for r in broken} == {"R-11.2.2.1-13"}

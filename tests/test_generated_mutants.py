@@ -128,12 +128,12 @@ def test_a_glance_finds_out_a_mutant_and_spares_the_framework() -> None:
     purposes = select(tuple(ordered(statement, ("12.10",))), "R-11.2.2.1-07")[:5]
     glancer = Glancer(statement, purposes, 1)
     glancer.learn(Engine(ReferenceAdapter))
-    with python_programs.python_door(None) as door:
-        right = glancer.look(door, ())
-    with python_programs.python_door(of_framework("self.members[member.id] = member", "pass")) as door:
-        forgets = glancer.look(door, ())
-    with python_programs.python_door(of_framework("import itertools", "import iter_tools")) as door:
-        broken = glancer.look(door, ())
+    with python_programs.python_door(None) as endpoint:
+        right = glancer.look(endpoint, ())
+    with python_programs.python_door(of_framework("self.members[member.id] = member", "pass")) as endpoint:
+        forgets = glancer.look(endpoint, ())
+    with python_programs.python_door(of_framework("import itertools", "import iter_tools")) as endpoint:
+        broken = glancer.look(endpoint, ())
     assert right.outcome is None
     assert not right.suspect
     assert forgets.outcome is not None
@@ -146,8 +146,8 @@ def test_a_framework_that_hangs_is_suspect() -> None:
     statement = stated(python_programs.HOME / "ics.toml")
     glancer = Glancer(statement, ordered(statement, ())[:1], 1, silence=1)
     hangs = of_framework("self._shut_down(self.started.pop(), failures)", "pass")
-    with python_programs.python_door(hangs) as door:
-        assert glancer.look(door, ()).suspect == ordered(statement, ())[0].id
+    with python_programs.python_door(hangs) as endpoint:
+        assert glancer.look(endpoint, ()).suspect == ordered(statement, ())[0].id
 
 
 def test_results_are_kept_one_by_one_and_the_last_word_counts(tmp_path: Path) -> None:

@@ -149,7 +149,7 @@ def test_breach_of_protocol_is_an_incident(
 
 def test_stream_without_end_is_a_hang(tmp_path: Path) -> None:
     with Hosts(locate(str(speakers.wrap(speakers.StreamsForEver, tmp_path))), LIMITS) as hosts:
-        answer = hosts.look_again(Run(1, TRIGGER))
+        answer = hosts.run_again(Run(1, TRIGGER))
     assert isinstance(answer.reply, Incident)
     assert answer.reply.kind == "hang"
     assert answer.happened
@@ -185,7 +185,7 @@ def test_second_look_tells_what_happened_before_a_crash() -> None:
     scenario = Scenario(TRIGGER.components, (s.AddComponent("calm"), s.AddComponent("trigger")))
     with Hosts(locate("misbehaving:Aborts"), PATIENT) as hosts:
         first = next(hosts.run([Run(1, scenario)]))
-        second = hosts.look_again(Run(2, scenario))
+        second = hosts.run_again(Run(2, scenario))
     assert isinstance(first.reply, Incident)
     assert first.happened == ()
     assert isinstance(second.reply, Incident)
@@ -202,7 +202,7 @@ def test_second_look_may_come_between_answers() -> None:
             crashed = isinstance(answer.reply, Incident)
             seen.append((answer.id, crashed))
             if crashed or answer.id % 10 == 0:
-                again = hosts.look_again(Run(1000, TRIGGER if crashed else CALM))
+                again = hosts.run_again(Run(1000, TRIGGER if crashed else CALM))
                 assert isinstance(again.reply, Incident) == crashed
     assert seen == [(n, n % 7 == 3) for n in range(100)]
 
@@ -290,8 +290,8 @@ def test_listening_host(tmp_path: Path, address: str) -> None:
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as server:
         try:
             assert server.stdout
-            door = server.stdout.readline().decode().removeprefix("listening on ").strip()
-            incident = incident_of(door, PATIENT)
+            endpoint = server.stdout.readline().decode().removeprefix("listening on ").strip()
+            incident = incident_of(endpoint, PATIENT)
             assert (incident.kind, incident.detail) == ("exit", "the connection was closed")
         finally:
             server.kill()
@@ -308,7 +308,7 @@ def test_nobody_listens(tmp_path: Path) -> None:
 def test_in_process_gives_the_same_events() -> None:
     def events(in_process: bool) -> list[str]:
         with Hosts(locate(REFERENCE, in_process)) as hosts:
-            answer = hosts.look_again(Run(1, CALM))
+            answer = hosts.run_again(Run(1, CALM))
             assert isinstance(answer.reply, Traced)
             assert answer.reply.events == answer.happened
             return [type(event).__name__ for event in answer.happened]

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import gc
 import importlib
 import os
 import threading
-import time
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -22,8 +20,8 @@ from ucm_cts.adapters.reference.python.framework import Failures, Member
 from ucm_cts.harness.execution import campaign
 from ucm_cts.harness.execution import confirmation as module
 from ucm_cts.harness.execution.campaign import Campaign
-from ucm_cts.harness.execution.clock_gaps import StallWatch
-from ucm_cts.harness.execution.confirmation import Doubts
+from ucm_cts.harness.execution.clock_gaps import ClockGaps
+from ucm_cts.harness.execution.confirmation import Confirmation
 from ucm_cts.harness.execution.driver import Answer, Circumstances, Driver
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -59,41 +57,36 @@ class Clock:
             assert self.seen.acquire(timeout=10)
 
 
-def test_stall_is_noted_and_found_by_the_traces_it_met() -> None:
+def test_gap_is_noted_and_found_by_the_traces_it_met() -> None:
     clock = Clock()
-    watch = StallWatch(clock)
-    for now in (20, 100, 850, 870):
-        clock.pass_on_to(now)
-    assert watch.longest(trace(0, 60)) == 0
-    assert watch.longest(trace(50, 200)) == 750
-    assert watch.longest(trace(300, 400)) == 750
-    assert watch.longest(trace(860, 1000)) == 0
-    assert watch.longest(()) == 0
+    with ClockGaps(clock) as gaps:
+        for now in (20, 100, 850, 870):
+            clock.pass_on_to(now)
+        assert gaps.longest(trace(0, 60)) == 0
+        assert gaps.longest(trace(50, 200)) == 750
+        assert gaps.longest(trace(300, 400)) == 750
+        assert gaps.longest(trace(860, 1000)) == 0
+        assert gaps.longest(()) == 0
 
 
-def test_stall_that_the_watch_has_not_woken_up_from_counts() -> None:
+def test_gap_that_has_not_ended_counts() -> None:
     clock = Clock()
-    watch = StallWatch(clock)
-    clock.pass_on_to(10)
-    watch.close()
-    time.sleep(0.05)
+    with ClockGaps(clock) as gaps:
+        clock.pass_on_to(10)
     clock.now = 600
-    assert watch.longest(trace(0, 500)) == 590
+    assert gaps.longest(trace(0, 500)) == 590
 
 
-def test_watch_ends_with_whoever_holds_it() -> None:
-    def watching() -> int:
-        return sum(thread.name == "stall watch" for thread in threading.enumerate())
+def test_thread_measures_from_start_to_close() -> None:
+    def measuring() -> int:
+        return sum(thread.name == "clock gaps" for thread in threading.enumerate())
 
-    before = watching()
-    watch = StallWatch()
-    assert watching() == before + 1
-    del watch
-    gc.collect()
-    until = time.monotonic() + 10
-    while watching() > before:
-        assert time.monotonic() < until
-        time.sleep(0.01)
+    before = measuring()
+    gaps = ClockGaps()
+    assert measuring() == before
+    with gaps:
+        assert measuring() == before + 1
+    assert measuring() == before
 
 
 # made-up runs
@@ -104,10 +97,10 @@ ANSWER = Answer("a", Scenario({}, ()), Scenario({}, (), patience=100), trace(0, 
 
 
 class MadeUp:
-    """A driver, a judge and a watch in one: the second look finds ``second``, and the machine stood still for ``stalls``."""
+    """A driver, a judge and a watch in one: the second look finds ``second``, and the machine stood still for ``gaps``."""
 
-    def __init__(self, second: list[Finding], *stalls: int) -> None:
-        self.second, self.stalls = second, list(stalls)
+    def __init__(self, second: list[Finding], *gaps: int) -> None:
+        self.second, self.gaps = second, list(gaps)
         self.findings = second
         self.patience: list[float] = []
 
@@ -119,54 +112,54 @@ class MadeUp:
         return self
 
     def longest(self, events: Trace) -> int:
-        return self.stalls.pop(0) if self.stalls else 0
+        return self.gaps.pop(0) if self.gaps else 0
 
-    def doubts(self) -> Doubts:
-        return Doubts(self, self, self)  # type: ignore[arg-type]
+    def confirmation(self) -> Confirmation:
+        return Confirmation(self, self, self)  # type: ignore[arg-type]
 
 
-def test_what_does_not_depend_on_time_is_not_doubted() -> None:
+def test_finding_that_does_not_depend_on_time_is_not_run_again() -> None:
     run = MadeUp([], 900)
-    assert run.doubts().sort(ANSWER, [LASTING]) == ([LASTING], [])
+    assert run.confirmation().separate(ANSWER, [LASTING]) == ([LASTING], [])
     assert run.patience == []
 
 
-def test_what_is_found_again_stands_and_is_not_doubted_twice() -> None:
+def test_finding_that_is_shown_again_is_confirmed_once() -> None:
     run = MadeUp([TIMED])
-    doubts = run.doubts()
+    confirmation = run.confirmation()
     for _ in range(2):
-        assert doubts.sort(ANSWER, [LASTING, TIMED]) == ([LASTING, TIMED], [])
+        assert confirmation.separate(ANSWER, [LASTING, TIMED]) == ([LASTING, TIMED], [])
     assert run.patience == [5]
 
 
 def test_what_is_not_found_again_is_unstable() -> None:
     run = MadeUp([])
-    doubts = run.doubts()
-    stand, doubted = doubts.sort(ANSWER, [TIMED, LASTING])
-    assert stand == [LASTING]
+    confirmation = run.confirmation()
+    confirmed, unconfirmed = confirmation.separate(ANSWER, [TIMED, LASTING])
+    assert confirmed == [LASTING]
     reason = "unstable: seen once, and not when the same scenario was run again with 5 times the patience"
-    assert [(doubt.finding, doubt.reason) for doubt in doubted] == [(TIMED, reason)]
-    assert doubted[0].steady == Answer("a", ANSWER.scenario, ANSWER.scenario, trace(20, 30))
+    assert [(one.finding, one.reason) for one in unconfirmed] == [(TIMED, reason)]
+    assert unconfirmed[0].steady == Answer("a", ANSWER.scenario, ANSWER.scenario, trace(20, 30))
     for _ in range(5):
-        assert doubts.sort(ANSWER, [TIMED])[0] == []
-    assert len(run.patience) == module.LOOKS
+        assert confirmation.separate(ANSWER, [TIMED])[0] == []
+    assert len(run.patience) == module.MOST_ATTEMPTS
 
 
-@pytest.mark.parametrize("stalls", [(700, 0), (0, 700), (300, 700)])
-def test_stall_is_the_reason(stalls: tuple[int, int]) -> None:
-    run = MadeUp([] if stalls[0] else [TIMED], *stalls)
-    (doubt,) = run.doubts().sort(ANSWER, [TIMED])[1]
-    assert doubt.finding is TIMED
-    assert doubt.reason == "the machine stood still for 700 ms when it was to be seen"
+@pytest.mark.parametrize("gaps", [(700, 0), (0, 700), (300, 700)])
+def test_gap_is_the_reason(gaps: tuple[int, int]) -> None:
+    run = MadeUp([] if gaps[0] else [TIMED], *gaps)
+    (one,) = run.confirmation().separate(ANSWER, [TIMED])[1]
+    assert one.finding is TIMED
+    assert one.reason == "the machine stood still for 700 ms when it was to be seen"
 
 
-def test_what_is_found_again_without_a_stall_stands() -> None:
-    assert MadeUp([TIMED], 700, 0).doubts().sort(ANSWER, [TIMED]) == ([TIMED], [])
+def test_finding_that_is_shown_again_without_a_gap_is_confirmed() -> None:
+    assert MadeUp([TIMED], 700, 0).confirmation().separate(ANSWER, [TIMED]) == ([TIMED], [])
 
 
 def test_shorter_scenarios_do_not_count_if_the_machine_stood_still() -> None:
-    assert MadeUp([], 700, 700).doubts().stalled(ANSWER, [TIMED, LASTING]) == [LASTING]
-    assert MadeUp([]).doubts().stalled(ANSWER, [TIMED, LASTING]) == [TIMED, LASTING]
+    assert MadeUp([], 700, 700).confirmation().outside_gaps(ANSWER, [TIMED, LASTING]) == [LASTING]
+    assert MadeUp([]).confirmation().outside_gaps(ANSWER, [TIMED, LASTING]) == [TIMED, LASTING]
 
 
 # whole runs
@@ -215,7 +208,7 @@ def test_failure_must_be_shown_again(forgotten: int, verdict: str, why: str) -> 
 
 
 def test_verdict_is_inconclusive_if_the_machine_stood_still(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(StallWatch, "longest", lambda watch, events: 800)
+    monkeypatch.setattr(ClockGaps, "longest", lambda gaps, events: 800)
     (result,) = (r for r in report_of(1000).requirements if r.id == "R-10.1.4.2-26")
     assert (result.verdict, result.reason) == (
         "inconclusive",
@@ -260,7 +253,7 @@ def looked_at_again(
         run = Campaign(driver, "core", (), READABLE)
         for _ in run.check([_impatient(purpose)] * times):
             pass
-        run.look_again()
+        run.confirm()
         for _ in run.shorten():
             pass
         (result,) = (r for r in run.report().requirements if r.id == requirement)
@@ -290,14 +283,14 @@ def test_failure_that_was_seen_more_than_once_is_looked_at_again_too(slips: int,
 
 
 def test_what_there_is_no_time_to_look_at_stands_and_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(campaign, "SECONDS_FOR_SECOND_LOOKS", -1)
+    monkeypatch.setattr(campaign, "SECONDS_FOR_CONFIRMATION", -1)
     importlib.import_module("test_stalls")._Slips.left = 1
     (purpose,) = (p for p in load_purposes("core") if p.id == "same-connection-twice")
     with Driver(locate("test_stalls:Slipping", True), seed=5) as driver:
         run = Campaign(driver, "core", (), READABLE)
         for _ in run.check([_impatient(purpose)]):
             pass
-        run.look_again()
+        run.confirm()
         report = run.report()
     assert {r.verdict for r in report.requirements if r.id == "R-11.2.1.2-06"} == {"fail"}
     assert report.effort.measures["failures without a second look"] == 1

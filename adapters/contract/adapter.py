@@ -1,4 +1,4 @@
-"""The Python door: subclass ``Adapter`` to bind a framework.
+"""The Python adapter: subclass ``Adapter`` to bind a framework.
 
 An adapter forwards each operation of the Container API (12.10) one to one and translates errors. It adds no state
 checks of its own: they would hide what is being measured. ``ContainerHandle`` is whatever object the framework, or the

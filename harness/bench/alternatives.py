@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, Phase, settings
 from hypothesis.stateful import RuleBasedStateMachine, precondition, rule, run_state_machine_as_test
 
 OPERATIONS = 10
-"""So many operations make a scenario, as in the one that the doors carry out."""
+"""So many operations make a scenario, as in the one that the endpoints carry out."""
 
 _EXAMPLES = 50
 _FEW, _MANY = 20, 420

@@ -1,1 +1,1 @@
-"""The doors for people: the command line and the pytest plugin."""
+"""What people use: the command line and the pytest plugin."""

@@ -136,7 +136,7 @@ def run(
         if not purposes:
             raise WrongUse(f"no test purpose matches -k '{expression}'; try a requirement, a clause or an operation")
     limits = Limits(timeout, memory, incident_seconds=incident_time)
-    door = locate(adapter, in_process)
+    endpoint = locate(adapter, in_process)
     reports: list[Report] = []
     interrupted = False
     cut_short = ""
@@ -144,7 +144,7 @@ def run(
         while len(reports) < repeat and not (interrupted or cut_short):
             which = f"run {len(reports) + 1} of {repeat}"
             try:
-                with Driver(door, drawn + len(reports), limits) as driver:
+                with Driver(endpoint, drawn + len(reports), limits) as driver:
                     if reports and not _is_of(driver.identity, reports[0]):
                         cut_short = f"{which} was of another product, '{_name(driver.identity)}'"
                         continue
@@ -164,7 +164,7 @@ def run(
                     raise
                 cut_short = f"{which} could not begin: {problem}"
         try:
-            report = repeated(reports, looking(door, limits, statement.claims))
+            report = repeated(reports, looking(endpoint, limits, statement.claims))
         except (HostUnavailable, KeyboardInterrupt) as problem:
             interrupted = interrupted or isinstance(problem, KeyboardInterrupt)
             report = repeated(reports, lambda failed, seed: None)
@@ -220,7 +220,7 @@ def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output,
             failing += bool(checked.failures)
             progress.update(task, advance=1, description=f"{which}{failing} failing, {_short(checked.purpose.id)}")
         progress.update(task, description="taking second looks")
-        campaign.look_again()
+        campaign.confirm()
         if failing:
             progress.update(task, description="looking for the shortest scenarios")
             for _ in campaign.shorten():

@@ -145,8 +145,8 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
     with ExitStack() as cleanup:
         try:
             known = known_today(Path(list_of_known) if list_of_known else None)
-            door = locate(adapter, config.getoption("--iut-in-process"))
-            driver = cleanup.enter_context(Driver(door, drawn, limits))
+            endpoint = locate(adapter, config.getoption("--iut-in-process"))
+            driver = cleanup.enter_context(Driver(endpoint, drawn, limits))
             _ = driver.disguise  # asks who is there
             profile = config.getoption("--iut-profile")
             check_subject(statement, driver.identity, profile)
@@ -156,7 +156,7 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
         except (WrongUse, DocumentError, HostUnavailable) as error:
             pytest.exit(f"ucm-cts: {error}", returncode=2)
         yield running
-        running.look_again()
+        running.confirm()
         if out:
             for _ in running.shorten():
                 pass

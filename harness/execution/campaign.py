@@ -1,4 +1,4 @@
-"""One run against one implementation under test: drive, judge, take a second look, shorten, and add up."""
+"""One run against one implementation under test: drive, judge, confirm, shorten, and add up."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import ucm_cts
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
-from ucm_cts.harness.execution.confirmation import TIMED, Doubt, Doubts
+from ucm_cts.harness.execution.confirmation import Confirmation, Unconfirmed, timed_requirements
 from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.execution.shortening import Shortening
 from ucm_cts.harness.purposes.payloads import Payloads
@@ -26,11 +26,11 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Judge
 from ucm_cts.reference_models.verdicts import Ledger
 
-SECONDS_FOR_SECOND_LOOKS = 60
-"""How long second looks may take in all; what was not looked at again stands."""
+SECONDS_FOR_CONFIRMATION = 60
+"""How long all further runs may take; what was not run again by then stands as it was seen."""
 
-NOT_LOOKED_AT = "failures without a second look"
-"""Among the measures: there was no time left for so many."""
+NOT_CONFIRMED = "failures without a second look"
+"""The measure of how many failures were not run again because the time was used up."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Campaign:
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
         self._tally = Tally(distinct_incidents)
         check_statement(self.statement, profile, self._requirements, self._tally)
-        self._doubts = Doubts(driver, self._judge)
+        self._confirmation = Confirmation(driver, self._judge, driver.gaps)
         self._payloads = Payloads(driver.seed)
         self._timed: dict[str, tuple[str, Scenario]] = {}
         self._spent: dict[str, float] = {}
@@ -110,76 +110,77 @@ class Campaign:
             self._tally.add_incident(execution, purpose.requirements)
             yield finding_of_incident(execution), execution
             if answer.is_whole:
-                yield from self._judge_who_hung(answer, execution)
+                yield from self._judge_hang(answer, execution)
             return
         ledger = self._judge.judge(answer.disguised, answer.trace)
         if self._watch is not None:
             self._watch(answer, ledger)
         if not ledger.findings:
             self._tally.add(Execution(answer.name, answer.scenario, answer.trace), ledger, ())
-            for requirement in TIMED.intersection(ledger.exercises).difference(self._timed):
+            for requirement in timed_requirements().intersection(ledger.exercises).difference(self._timed):
                 self._timed[requirement] = answer.name, answer.scenario
             return
         execution = self._driver.revealed(answer)
-        stand, doubted = self._doubts.sort(answer, ledger.findings)
-        findings = [self._driver.reveal(finding) for finding in stand]
+        confirmed, unconfirmed = self._confirmation.separate(answer, ledger.findings)
+        findings = [self._driver.reveal(finding) for finding in confirmed]
         self._tally.add(execution, ledger, findings)
-        self._doubt(execution, doubted)
+        self._mark_unstable(execution, unconfirmed)
         for finding in findings:
             yield finding, execution
 
-    def _judge_who_hung(self, answer: Answer, execution: Execution) -> Iterator[tuple[Finding, Execution]]:
-        """Threads that never came back may be what a rule forbids; the trace tells."""
-        stand, doubted = self._doubts.sort(answer, self._judge.judge(answer.disguised, answer.trace).findings)
-        for finding in map(self._driver.reveal, stand):
+    def _judge_hang(self, answer: Answer, execution: Execution) -> Iterator[tuple[Finding, Execution]]:
+        """Judge the trace of a scenario whose threads never came back: a property may forbid that."""
+        findings = self._judge.judge(answer.disguised, answer.trace).findings
+        confirmed, unconfirmed = self._confirmation.separate(answer, findings)
+        for finding in map(self._driver.reveal, confirmed):
             self._tally.exercised[finding.requirement] += 1
             self._tally.add_failure(finding, execution)
             yield finding, execution
-        self._doubt(execution, doubted)
+        self._mark_unstable(execution, unconfirmed)
 
-    def look_again(self, at_passes: bool = True) -> None:
-        """Take a second look at each failure that was seen once, at one of each requirement that failed more often, and at each
-        requirement that was kept and depends on time, unless passes are of no interest.
+    def confirm(self, passes: bool = True) -> None:
+        """Run again each failure that was seen once, one failure of each requirement that failed more often and, with
+        ``passes``, one scenario of each requirement that was kept and depends on time.
 
-        They are run with another timeout and another schedule. What flips is unstable, and no verdict.
+        The runs have another timeout and another schedule. A result that changes is unstable and gives no verdict.
         """
         began = time.monotonic()
-        last = began + SECONDS_FOR_SECOND_LOOKS
-        standing: set[str] = set()
+        last = began + SECONDS_FOR_CONFIRMATION
+        confirmed: set[str] = set()
         for failure in list(self._tally.failures.values()):
             execution, requirement = failure.execution, failure.finding.requirement
             if execution is None or execution.incident is not None or failure.unstable:
                 continue
-            if failure.occurrences > 1 and requirement in standing:
+            if failure.occurrences > 1 and requirement in confirmed:
                 continue
             if time.monotonic() > last:
-                self._tally.measures[NOT_LOOKED_AT] += 1
+                self._tally.measures[NOT_CONFIRMED] += 1
                 continue
-            doubt = self._doubts.of_failure(failure.finding, execution)
-            if doubt is not None:
-                self._doubt(execution, [doubt])
+            unconfirmed = self._confirmation.of_failure(failure.finding, execution)
+            if unconfirmed is not None:
+                self._mark_unstable(execution, [unconfirmed])
             else:
-                standing.add(requirement)
+                confirmed.add(requirement)
         failed = {requirement for requirement, _, _ in self._tally.failures}
-        kept = [case for requirement, case in self._timed.items() if at_passes and requirement not in failed]
+        kept = [case for requirement, case in self._timed.items() if passes and requirement not in failed]
         for name, scenario in {name: scenario for name, scenario in kept}.items():
             if time.monotonic() > last:
                 break
-            answer, stand, doubted = self._doubts.of_pass(name, scenario)
+            answer, findings, not_confirmed = self._confirmation.of_pass(name, scenario)
             execution = self._driver.revealed(answer)
-            for finding in stand:
+            for finding in findings:
                 self._tally.add_failure(self._driver.reveal(finding), execution)
-            self._doubt(execution, doubted)
+            self._mark_unstable(execution, not_confirmed)
         self._spent["second looks"] = self._spent.get("second looks", 0.0) + time.monotonic() - began
 
-    def _doubt(self, execution: Execution, doubts: Iterable[Doubt]) -> None:
-        for doubt in doubts:
-            steady = self._driver.revealed(doubt.steady) if doubt.steady is not None else None
-            self._tally.doubt(self._driver.reveal(doubt.finding), execution, doubt.reason, steady)
+    def _mark_unstable(self, execution: Execution, unconfirmed: Iterable[Unconfirmed]) -> None:
+        for one in unconfirmed:
+            steady = self._driver.revealed(one.steady) if one.steady is not None else None
+            self._tally.mark_unstable(self._driver.reveal(one.finding), execution, one.reason, steady)
 
     def shorten(self) -> Iterator[Cause]:
         """Look for the shortest scenario of each failure; yields each cause when it is done."""
-        yield from Shortening(self._driver, self._judge, self._doubts, self._tally).of_all()
+        yield from Shortening(self._driver, self._judge, self._confirmation, self._tally).of_all()
 
     def report(self) -> Report:
         """All verdicts of the run so far."""

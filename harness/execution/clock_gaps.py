@@ -1,16 +1,18 @@
-"""Moments at which this machine, or this process, stood still: what depends on time is not held against anybody then.
+"""Clock gaps: moments at which this machine, or this process, stood still. A finding that depends on time gives no verdict
+if a gap may have caused it.
 
-A thread beside the run sleeps again and again for a short while and looks how long that took. Events of traces carry the
-same monotonic clock, as long as the host runs on this machine; of the stalls of another machine nothing is known.
+A thread beside the run sleeps for a short while, again and again, and measures how long that took. Events of traces have
+times of the same monotonic clock as long as the host runs on this machine; gaps of another machine are not known.
 """
 
 from __future__ import annotations
 
 import threading
 import time
-import weakref
 from collections import deque
 from collections.abc import Callable
+from types import TracebackType
+from typing import Self
 
 from ucm_cts.adapters.contract.trace import Trace
 
@@ -18,43 +20,60 @@ NAP = 0.02
 """Seconds that the thread sleeps at a time."""
 
 LATE = 0.1
-"""Seconds. Who wakes up so much later than asked has stood still."""
+"""Seconds. A thread that wakes up so much later than asked has met a gap."""
 
 REMEMBERED = 10_000
-"""So many stalls are kept, the latest ones."""
+"""How many gaps are kept, the latest ones."""
 
 _MILLISECOND = 1_000_000
 _LONGEST_NAP = int((NAP + LATE) * 1000 * _MILLISECOND)
 
 
-class StallWatch:
-    """Notes stalls from now on, until it is closed or nobody holds it any more."""
+class ClockGaps:
+    """Notes clock gaps while it is open: from ``with``, or ``start``, until ``close``."""
 
     def __init__(self, clock: Callable[[], int] = time.monotonic_ns) -> None:
+        """``clock`` gives nanoseconds of the clock that hosts on this machine use."""
         self._clock = clock
-        self._stalls: deque[tuple[int, int]] = deque(maxlen=REMEMBERED)
-        self._awake = [clock()]
-        over = threading.Event()
-        self._end = weakref.finalize(self, over.set)
-        arguments = self._stalls, self._awake, over, clock
-        threading.Thread(target=_watch, args=arguments, name="stall watch", daemon=True).start()
+        self._gaps: deque[tuple[int, int]] = deque(maxlen=REMEMBERED)
+        self._awake = clock()
+        self._over = threading.Event()
+        self._thread: threading.Thread | None = None
+
+    def __enter__(self) -> Self:
+        return self.start()
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def start(self) -> Self:
+        """Start the thread that measures."""
+        self._awake = self._clock()
+        self._thread = threading.Thread(target=self._measure, name="clock gaps", daemon=True)
+        self._thread.start()
+        return self
 
     def close(self) -> None:
-        """Watch no longer."""
-        self._end()
+        """End the thread. The gaps that are known stay."""
+        self._over.set()
+        if self._thread is not None:
+            self._thread.join()
 
     def longest(self, trace: Trace) -> int:
-        """Milliseconds of the longest stall while ``trace`` came about; 0 if there was none."""
+        """Milliseconds of the longest gap while ``trace`` came about; 0 if there was none."""
         times = [event.t for event in trace]
-        asleep = (self._awake[0], self._clock())  # it may still be too late to have woken up
-        naps = (*tuple(self._stalls), asleep) if asleep[1] - asleep[0] > _LONGEST_NAP else tuple(self._stalls)
-        met = (end - begin for begin, end in naps if times and begin < max(times) and min(times) < end)
+        current = (self._awake, self._clock())  # the thread may still be asleep
+        gaps = tuple(self._gaps)
+        if self._thread is not None and current[1] - current[0] > _LONGEST_NAP:
+            gaps = (*gaps, current)
+        met = (end - begin for begin, end in gaps if times and begin < max(times) and min(times) < end)
         return max(met, default=0) // _MILLISECOND
 
-
-def _watch(stalls: deque[tuple[int, int]], awake: list[int], over: threading.Event, clock: Callable[[], int]) -> None:
-    while not over.wait(NAP):
-        now = clock()
-        if now - awake[0] > _LONGEST_NAP:
-            stalls.append((awake[0], now))
-        awake[0] = now
+    def _measure(self) -> None:
+        while not self._over.wait(NAP):
+            now = self._clock()
+            if now - self._awake > _LONGEST_NAP:
+                self._gaps.append((self._awake, now))
+            self._awake = now

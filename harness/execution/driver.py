@@ -16,12 +16,13 @@ import msgspec
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced, Welcome
 from ucm_cts.adapters.contract.scenario import Scenario, Stress
 from ucm_cts.adapters.contract.trace import Event, Trace
+from ucm_cts.harness.execution.clock_gaps import ClockGaps
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.host_clock import HostClock
 from ucm_cts.harness.execution.integrity import believable, contradiction
 from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosting.hosts import Hosts, Limits
-from ucm_cts.harness.hosting.locate import Door
+from ucm_cts.harness.hosting.locate import Endpoint
 from ucm_cts.harness.results.incidents import Patience
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 
@@ -30,7 +31,7 @@ __all__ = ["Answer", "Circumstances", "Driver", "Limits"]
 T = TypeVar("T")
 
 MOST_UNTRIED = 32
-"""So many scenarios in a row are left out before what came before them, and they themselves, are answered."""
+"""How many scenarios in a row are left out before the answers to them, and to those before them, are given."""
 
 _HOST_IS_GONE: frozenset[IncidentKind] = FRAMEWORK_INCIDENTS | {"flood", "garbage", "protocol"}
 
@@ -52,31 +53,41 @@ class Answer:
 
 @dataclass(frozen=True)
 class Circumstances:
-    """How a scenario is run again: so many times as patient, and perhaps with all threads of the host on one core."""
+    """How a scenario is run again.
+
+    ``patience``: the factor by which its patience is multiplied.
+    ``one_core``: all threads of the host run on one core.
+    """
 
     patience: float = 1
     one_core: bool = False
 
 
 class Driver:
-    """Runs scenarios on the implementation behind ``door``; names and payloads are drawn from ``seed``."""
+    """Runs scenarios on the implementation behind ``endpoint``; names and payloads are drawn from ``seed``.
 
-    def __init__(self, door: Door, seed: int, limits: Limits | None = None) -> None:
-        self._hosts = Hosts(door, limits)
-        self.adapter = door.text
+    Use it in a ``with`` statement: from then until its end it has hosts, and ``gaps`` notes when the machine stood still.
+    """
+
+    def __init__(self, endpoint: Endpoint, seed: int, limits: Limits | None = None) -> None:
+        self._hosts = Hosts(endpoint, limits)
+        self.adapter = endpoint.text
         self.seed = seed
+        self.gaps = ClockGaps()
         self._disguise: Disguise | None = None
         self._numbers = itertools.count()
         self._patience = Patience(self._hosts.limits.incident_seconds)
-        self._is_near = door.kind in ("python", "executable")
+        self._is_near = endpoint.kind in ("python", "executable")
         self._clock: tuple[int, HostClock] = (0, HostClock(self._is_near))
 
     def __enter__(self) -> Self:
+        self.gaps.start()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
+        self.gaps.close()
         self._hosts.close()
 
     @property
@@ -156,7 +167,7 @@ class Driver:
         """
         asked = _lasting(scenario, circumstances.patience)
         disguised = self.disguise.scenario(asked)
-        reply = self._hosts.look_again(Run(next(self._numbers), disguised), circumstances.one_core).reply
+        reply = self._hosts.run_again(Run(next(self._numbers), disguised), circumstances.one_core).reply
         if not isinstance(reply, Traced) or contradiction(disguised, reply.events, bool(reply.stuck)) is not None:
             return Answer(name, asked, disguised, ())
         return Answer(name, asked, disguised, reply.events)
@@ -205,7 +216,7 @@ class Driver:
     def _second_look(self, run: Run, first: Incident) -> tuple[Trace, Incident]:
         """The same scenario once more, each event sent as it happens: what led to the incident?"""
         began = time.monotonic()
-        second = self._hosts.look_again(run)
+        second = self._hosts.run_again(run)
         self._patience.looked(time.monotonic() - began)
         if isinstance(second.reply, Incident) and second.reply.kind == first.kind:
             return believable(run.scenario, second.happened), msgspec.structs.replace(
@@ -215,7 +226,7 @@ class Driver:
 
 
 def _lasting(scenario: Scenario, times: float) -> Scenario:
-    """``scenario`` so many times as patient; whoever is stressed is stressed so many times as long."""
+    """``scenario`` with its patience, and the duration of its ``Stress`` steps, multiplied by ``times``."""
     steps = tuple(
         msgspec.structs.replace(step, milliseconds=round(step.milliseconds * times))
         if isinstance(step, Stress)

@@ -9,7 +9,7 @@ import msgspec
 
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Circumstances, Driver, Limits
-from ucm_cts.harness.hosting.locate import Door
+from ucm_cts.harness.hosting.locate import Endpoint
 from ucm_cts.harness.results.tally import cause_of, overall
 from ucm_cts.harness.results.values import (
     Effort,
@@ -29,14 +29,14 @@ Steady = Callable[[FailedExecution, int], Execution | None]
 """Runs the scenario of a failure with the seed of another run; the execution, unless that one shows the failure, too."""
 
 
-def looking(door: Door, limits: Limits, claims: Claims) -> Steady:
-    """Looks for a steady execution on hosts behind ``door``."""
+def looking(endpoint: Endpoint, limits: Limits, claims: Claims) -> Steady:
+    """Looks for a steady execution on hosts behind ``endpoint``."""
     judge = Judge(load_life_cycle(), claims)
 
     def steady(failed: FailedExecution, seed: int) -> Execution | None:
         if failed.execution is None:
             return None
-        with Driver(door, seed, limits) as driver:
+        with Driver(endpoint, seed, limits) as driver:
             answer = driver.again(failed.execution.name, failed.execution.scenario, Circumstances())
             findings = judge.judge(answer.disguised, answer.trace).findings
             shown = not answer.trace or any(f.requirement == failed.finding.requirement for f in findings)

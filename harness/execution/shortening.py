@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.execution import shrink, smaller_values
-from ucm_cts.harness.execution.confirmation import Doubts
+from ucm_cts.harness.execution.confirmation import Confirmation
 from ucm_cts.harness.execution.driver import Answer, Driver
 from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.tally import Cause, Tally, cause_of
@@ -34,10 +34,10 @@ SECONDS_FOR_SMALLER_VALUES = 5
 class Shortening:
     """Of the failures that ``tally`` holds: what is found takes their place there."""
 
-    def __init__(self, driver: Driver, judge: Judge, doubts: Doubts, tally: Tally) -> None:
+    def __init__(self, driver: Driver, judge: Judge, confirmation: Confirmation, tally: Tally) -> None:
         self._driver = driver
         self._judge = judge
-        self._doubts = doubts
+        self._confirmation = confirmation
         self._tally = tally
 
     def of_all(self) -> Iterator[Cause]:
@@ -99,4 +99,4 @@ class Shortening:
             finding = finding_of_incident(execution)
             return [finding] if finding is not None else []
         findings = self._judge.judge(answer.disguised, answer.trace).findings
-        return [self._driver.reveal(finding) for finding in self._doubts.stalled(answer, findings)]
+        return [self._driver.reveal(finding) for finding in self._confirmation.outside_gaps(answer, findings)]

@@ -126,7 +126,7 @@ class Exploration:
 
     def finish(self) -> None:
         """Take a second look at what was found, and shorten what stands."""
-        self._campaign.look_again(at_passes=False)
+        self._campaign.confirm(passes=False)
         for _ in self._campaign.shorten():
             pass
 

@@ -14,7 +14,7 @@ import time
 from contextlib import suppress
 from typing import Protocol
 
-from ucm_cts.harness.hosting.locate import Door, WrongUse
+from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
 from ucm_cts.harness.results.foreign import clean, one_line
 from ucm_cts.harness.results.values import Incident, IncidentKind
 
@@ -28,7 +28,7 @@ _LAST_LINES = 20
 
 
 class HostUnavailable(Exception):
-    """There is no host to be had behind a door; ``incident`` says why, the text the end of it."""
+    """There is no host to be had behind an endpoint; ``incident`` says why, the text the end of it."""
 
     def __init__(self, incident: Incident) -> None:
         printed = incident.stacks.strip().splitlines()
@@ -60,21 +60,21 @@ class Channel(Protocol):
 
 
 class Opener(Protocol):
-    """Makes fresh hosts behind one door."""
+    """Makes fresh hosts behind one endpoint."""
 
     def open(self) -> Channel:
-        """A fresh host. Raises ``HostUnavailable``, and ``WrongUse`` if the door leads to no adapter."""
+        """A fresh host. Raises ``HostUnavailable``, and ``WrongUse`` if the endpoint leads to no adapter."""
 
     def close(self) -> None:
         """End all hosts and what made them."""
 
 
-def opener(door: Door) -> Opener:
-    """What opens ``door``, which is not an in-process one."""
-    if door.kind in ("tcp", "unix"):
-        return Connector(door)
-    module = "ucm_cts.adapters.sdk.python.host" if door.kind == "python" else "ucm_cts.harness.hosting.spawner"
-    return TemplateProcess([sys.executable, "-X", "faulthandler", "-m", module, door.target], door.text)
+def opener(endpoint: Endpoint) -> Opener:
+    """What opens ``endpoint``, which is not an in-process one."""
+    if endpoint.kind in ("tcp", "unix"):
+        return Connector(endpoint)
+    module = "ucm_cts.adapters.sdk.python.host" if endpoint.kind == "python" else "ucm_cts.harness.hosting.spawner"
+    return TemplateProcess([sys.executable, "-X", "faulthandler", "-m", module, endpoint.target], endpoint.text)
 
 
 class TemplateProcess:
@@ -265,8 +265,8 @@ class HostProcess:
 class Connector:
     """Connects to a host that somebody else runs; retries for a moment, since a replaced host may still be ending."""
 
-    def __init__(self, door: Door) -> None:
-        self._door = door
+    def __init__(self, endpoint: Endpoint) -> None:
+        self._endpoint = endpoint
 
     def open(self) -> Channel:
         deadline = time.monotonic() + _RETRY_SECONDS
@@ -275,7 +275,9 @@ class Connector:
                 return Connection(self._connect())
             except OSError as error:
                 if time.monotonic() > deadline:
-                    detail = f"nobody answers at {self._door.text}: {error.strerror or error}; is the adapter running?"
+                    detail = (
+                        f"nobody answers at {self._endpoint.text}: {error.strerror or error}; is the adapter running?"
+                    )
                     raise HostUnavailable(Incident("unreachable", detail)) from error
             time.sleep(0.05)
 
@@ -283,15 +285,15 @@ class Connector:
         """Nothing to end: the other side runs on."""
 
     def _connect(self) -> socket.socket:
-        if self._door.kind == "unix":
+        if self._endpoint.kind == "unix":
             connection = socket.socket(socket.AF_UNIX)
             try:
-                connection.connect(self._door.target)
+                connection.connect(self._endpoint.target)
             except OSError:
                 connection.close()
                 raise
             return connection
-        host, _, port = self._door.target.rpartition(":")
+        host, _, port = self._endpoint.target.rpartition(":")
         connection = socket.create_connection((host, int(port)), timeout=_RETRY_SECONDS)
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         return connection

@@ -1,4 +1,4 @@
-"""Hosts: give scenarios to the host behind a door and get an answer to each, whatever happens to the host.
+"""Hosts: give scenarios to the host behind an endpoint and get an answer to each, whatever happens to the host.
 
     with Hosts(locate("reference-py")) as hosts:
         print(hosts.welcome.product)
@@ -40,7 +40,7 @@ from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.adapters.sdk.python.loading import CannotLoad, load
 from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, opener
 from ucm_cts.harness.hosting.host_watch import Deadline, Host, HostIncident, InProcessHost, Limits, WatchedHost
-from ucm_cts.harness.hosting.locate import Door, WrongUse
+from ucm_cts.harness.hosting.locate import Endpoint, WrongUse
 from ucm_cts.harness.results.values import Incident
 
 __all__ = ["Answer", "HostUnavailable", "Hosts", "Limits"]
@@ -63,14 +63,14 @@ class Answer(msgspec.Struct, frozen=True):
 
 
 class Hosts:
-    """The hosts behind ``door``, one at a time. Close it, or use it in a ``with`` statement: nothing stays behind.
+    """The hosts behind ``endpoint``, one at a time. Close it, or use it in a ``with`` statement: nothing stays behind.
 
-    Raises ``WrongUse`` from ``welcome`` and ``run`` if the door leads to no adapter, ``HostUnavailable`` if no first
+    Raises ``WrongUse`` from ``welcome`` and ``run`` if the endpoint leads to no adapter, ``HostUnavailable`` if no first
     host can be had.
     """
 
-    def __init__(self, door: Door, limits: Limits | None = None) -> None:
-        self._door = door
+    def __init__(self, endpoint: Endpoint, limits: Limits | None = None) -> None:
+        self._endpoint = endpoint
         self.limits = limits or Limits()
         self._opener: Opener | None = None
         self._host: Host | None = None
@@ -87,7 +87,7 @@ class Hosts:
 
     @property
     def welcome(self) -> Welcome:
-        """Who is behind the door; starts a host if there has not been one."""
+        """Who is behind the endpoint; starts a host if there has not been one."""
         if self._welcome is None:
             self._open()
             assert self._welcome
@@ -96,7 +96,7 @@ class Hosts:
     def run(self, runs: Iterable[Run], window: int = 32) -> Generator[Answer, None, None]:
         """The answers to ``runs``, in order; up to ``window`` messages are on their way at a time.
 
-        Between two answers the caller may ``look_again``: what was on its way is then sent again.
+        Between two answers the caller may ``run_again``: what was on its way is then sent again.
 
         If there is no host any more, what remains is answered by incidents of kind ``unreachable``.
         """
@@ -139,7 +139,7 @@ class Hosts:
             if waiting:  # nobody waits for these answers any more
                 self.discard()
 
-    def look_again(self, run: Run, one_core: bool = False) -> Answer:
+    def run_again(self, run: Run, one_core: bool = False) -> Answer:
         """Run one scenario alone on a host of its own that sends each event as it happens, perhaps on ``one_core`` only.
 
         May be called between two answers of a ``run`` in progress, which goes on with a fresh host.
@@ -169,7 +169,7 @@ class Hosts:
         try:
             self._welcome = self._greet(host)
         except HostIncident as error:
-            raise HostUnavailable(_explained(error.incident, self._door)) from error
+            raise HostUnavailable(_explained(error.incident, self._endpoint)) from error
         except BaseException:
             host.close()
             raise
@@ -177,13 +177,13 @@ class Hosts:
         self._opened += 1
 
     def _new_host(self) -> Host:
-        if self._door.in_process:
+        if self._endpoint.in_process:
             try:
-                return InProcessHost(load(self._door.target))
+                return InProcessHost(load(self._endpoint.target))
             except CannotLoad as error:
-                raise WrongUse(f"'{self._door.text}': {error}") from error
+                raise WrongUse(f"'{self._endpoint.text}': {error}") from error
         if self._opener is None:
-            self._opener = opener(self._door)
+            self._opener = opener(self._endpoint)
         return WatchedHost(self._opener.open(), self.limits)
 
     def _greet(self, host: Host) -> Welcome:
@@ -267,7 +267,7 @@ def _tag(message: FromHost) -> str:
     return str(type(message).__struct_config__.tag)
 
 
-def _explained(incident: Incident, door: Door) -> Incident:
+def _explained(incident: Incident, endpoint: Endpoint) -> Incident:
     return msgspec.structs.replace(
-        incident, detail=f"'{door.text}' does not answer hello: {incident.kind}, {incident.detail}"
+        incident, detail=f"'{endpoint.text}' does not answer hello: {incident.kind}, {incident.detail}"
     )

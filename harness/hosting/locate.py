@@ -1,4 +1,4 @@
-"""From the text that names an adapter to the door behind which it is found.
+"""From the text that names an adapter to the endpoint behind which it is found.
 
 Nothing is started here, and only short names import anything: an adapter that breaks when it is loaded breaks a host.
 """
@@ -25,7 +25,7 @@ STATEMENTS = "ucm_cts.statements"
 
 FORMS = "a short name, package.module:Class, package.module, a path, tcp://HOST:PORT or unix:/PATH"
 
-DoorKind = Literal["python", "executable", "tcp", "unix"]
+EndpointKind = Literal["python", "executable", "tcp", "unix"]
 
 
 class WrongUse(Exception):
@@ -33,15 +33,15 @@ class WrongUse(Exception):
 
 
 @dataclass(frozen=True)
-class Door:
-    """Where an adapter is found: ``text`` as the user wrote it, ``target`` as the kind of door needs it.
+class Endpoint:
+    """Where an adapter is found: ``text`` as the user wrote it, ``target`` as the kind of endpoint needs it.
 
-    ``python`` doors name a class, a module with ``answer`` or an extension module's path; ``executable`` an absolute
-    path; ``tcp`` ``HOST:PORT``; ``unix`` a path. ``in_process`` doors open inside the harness, for debuggers.
+    ``python`` endpoints name a class, a module with ``answer`` or an extension module's path; ``executable`` an absolute
+    path; ``tcp`` ``HOST:PORT``; ``unix`` a path. ``in_process`` endpoints open inside the harness, for debuggers.
     """
 
     text: str
-    kind: DoorKind
+    kind: EndpointKind
     target: str
     in_process: bool = False
 
@@ -57,15 +57,15 @@ def published_statement(text: str) -> Path | None:
     return Path(found)
 
 
-def locate(text: str, in_process: bool = False) -> Door:
-    """The door that ``text`` names. Raises ``WrongUse``."""
+def locate(text: str, in_process: bool = False) -> Endpoint:
+    """The endpoint that ``text`` names. Raises ``WrongUse``."""
     published = _published(GROUP)
-    door = _follow(published[text]) if text in published else _parse(text, published)
-    if in_process and door.kind != "python":
+    endpoint = _follow(published[text]) if text in published else _parse(text, published)
+    if in_process and endpoint.kind != "python":
         raise WrongUse(
             f"'{text}' cannot run in the harness process: that takes a Python adapter or an extension module"
         )
-    return replace(door, text=text, in_process=in_process)
+    return replace(endpoint, text=text, in_process=in_process)
 
 
 def _published(group: str) -> dict[str, EntryPoint]:
@@ -77,14 +77,14 @@ def _published(group: str) -> dict[str, EntryPoint]:
     return published
 
 
-def _follow(entry: EntryPoint) -> Door:
-    """Classes and modules are loaded by the host; anything else must be looked at to know which door it names."""
+def _follow(entry: EntryPoint) -> Endpoint:
+    """Classes and modules are loaded by the host; anything else must be looked at to know which endpoint it names."""
     if not entry.attr:
-        return Door(entry.name, "python", entry.value)
+        return Endpoint(entry.name, "python", entry.value)
     found = _load(entry)
     if isinstance(found, str | Path):
         return _parse(str(found), {})
-    return Door(entry.name, "python", f"{entry.module}:{entry.attr}")
+    return Endpoint(entry.name, "python", f"{entry.module}:{entry.attr}")
 
 
 def _load(entry: EntryPoint) -> object:
@@ -96,13 +96,13 @@ def _load(entry: EntryPoint) -> object:
         ) from error
 
 
-def _parse(text: str, published: Mapping[str, EntryPoint]) -> Door:
+def _parse(text: str, published: Mapping[str, EntryPoint]) -> Endpoint:
     if text.startswith("tcp:"):
-        return Door(text, "tcp", _address(text))
+        return Endpoint(text, "tcp", _address(text))
     if text.startswith("unix:"):
         if not text.removeprefix("unix:"):
             raise WrongUse(f"'{text}' names no socket; write unix:/PATH")
-        return Door(text, "unix", os.path.abspath(text.removeprefix("unix:")))
+        return Endpoint(text, "unix", os.path.abspath(text.removeprefix("unix:")))
     path = Path(text)
     if os.sep in text or path.is_file():
         return _parse_path(text, path)
@@ -112,7 +112,7 @@ def _parse(text: str, published: Mapping[str, EntryPoint]) -> Door:
     if not _is_there(module.partition(".")[0]):
         missing = f": there is no module {module.partition('.')[0]}" if colon or "." in module else ""
         raise WrongUse(f"'{text}' names no adapter{missing}. {_what_there_is(text, published)}")
-    return Door(text, "python", text)
+    return Endpoint(text, "python", text)
 
 
 def _address(text: str) -> str:
@@ -126,18 +126,18 @@ def _address(text: str) -> str:
     return f"{host}:{port}"
 
 
-def _parse_path(text: str, path: Path) -> Door:
+def _parse_path(text: str, path: Path) -> Endpoint:
     if not path.is_file():
         raise WrongUse(
             f"there is no file '{text}'" if not path.exists() else f"'{text}' is no file; name the adapter in it"
         )
     if path.suffix in (".so", ".pyd"):
-        return Door(text, "python", str(path.resolve()))
+        return Endpoint(text, "python", str(path.resolve()))
     if path.suffix == ".py":
         raise WrongUse(f"'{text}' is a Python file; name the adapter's class: {path.stem}:Class")
     if not os.access(path, os.X_OK):
         raise WrongUse(f"'{text}' is not executable; an adapter is an executable or an extension module (.so)")
-    return Door(text, "executable", str(path.resolve()))
+    return Endpoint(text, "executable", str(path.resolve()))
 
 
 def _is_there(module: str) -> bool:

@@ -105,19 +105,21 @@ class Tally:
         self.exercised[finding.requirement] += 1
         self.add_failure(finding, None)
 
-    def doubt(self, finding: Finding, execution: Execution | None, reason: str, steady: Execution | None) -> None:
-        """``finding`` does not stand: ``steady`` is another run of the same scenario, which does not show it.
+    def mark_unstable(
+        self, finding: Finding, execution: Execution | None, reason: str, steady: Execution | None
+    ) -> None:
+        """``finding`` is unstable: ``steady`` is another run of the same scenario, which does not show it.
 
-        Other executions that show the same count less than this doubt, until one of them stands.
+        Other executions that show the same count less than this one, until one of them is confirmed.
         """
         known = self.failures.get(cause_of(finding))
         if known is None or known.execution == execution:
             occurrences = known.occurrences if known is not None else 1
-            doubted = FailedExecution(finding, execution, occurrences, "", reason, steady)
-            self.failures[cause_of(finding)] = doubted
+            unstable = FailedExecution(finding, execution, occurrences, "", reason, steady)
+            self.failures[cause_of(finding)] = unstable
 
-    def doubt_processed(self, finding: Finding, processed: Processed | None, reason: str) -> None:
-        """``finding`` of a tool chain does not stand: a second look at what ``processed`` shows did not show it."""
+    def mark_unstable_processed(self, finding: Finding, processed: Processed | None, reason: str) -> None:
+        """``finding`` of a tool chain is unstable: another run of what ``processed`` shows did not show it."""
         known = self.failures[cause_of(finding)]
         if known.processed == processed:
             self.failures[cause_of(finding)] = msgspec.structs.replace(known, unstable=reason)

@@ -47,7 +47,7 @@ def report_on(cheat: Cheat) -> Report:
         if seed > cheat.rehearsals:
             _rehearse(cheat, False)
         limits = Limits(seconds=5, incident_seconds=2)
-        with Driver(locate(cheat.door, in_process), seed, limits) as driver:
+        with Driver(locate(cheat.endpoint, in_process), seed, limits) as driver:
             campaign = Campaign(driver, "core")
             for _ in campaign.check(purposes(cheat)):
                 pass
@@ -76,5 +76,5 @@ def what_came_out(report: Report) -> set[str]:
 
 def _rehearse(cheat: Cheat, on: bool) -> None:
     if cheat.rehearsals:
-        subject: Any = cheat.adapter or importlib.import_module(cheat.door).player
+        subject: Any = cheat.adapter or importlib.import_module(cheat.endpoint).player
         subject.rehearsing = on

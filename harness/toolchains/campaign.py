@@ -161,7 +161,9 @@ class ToolChainCampaign:
             try:
                 for fact, shown in zip(broken.values(), pool.map(is_shown_again, broken.values()), strict=True):
                     if not shown and fact.finding is not None:
-                        self._tally.doubt_processed(fact.finding, fact.processed, "a second try did not show it")
+                        self._tally.mark_unstable_processed(
+                            fact.finding, fact.processed, "a second try did not show it"
+                        )
                     yield fact.requirement
             finally:
                 pool.shutdown(cancel_futures=True)

@@ -1,1 +1,1 @@
-"""GStreamer, a framework of elements and pads for media, behind the Python door: a real framework, not made for UCM."""
+"""GStreamer, a framework of elements and pads for media, by the Python SDK: a real framework, not made for UCM."""

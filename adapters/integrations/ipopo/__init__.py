@@ -1,1 +1,1 @@
-"""iPOPO, a service-oriented component framework for Python, behind the Python door: a real framework, not made for UCM."""
+"""iPOPO, a service-oriented component framework for Python, by the Python SDK: a real framework, not made for UCM."""

@@ -56,11 +56,11 @@ class Cheat:
     """An adapter that hides what a framework does. ``detected_by`` says what must come out, all of it: requirements that fail,
     or kinds of incident; nothing if no observation can tell it from an honest adapter of a conformant framework.
 
-    ``door`` is how it is named on the command line. ``rehearsals`` are runs in which it learns, before it cheats.
+    ``endpoint`` is how it is named on the command line. ``rehearsals`` are runs in which it learns, before it cheats.
     """
 
     name: str
-    door: str
+    endpoint: str
     lie: str
     detected_by: tuple[str, ...]
     clauses: tuple[str, ...] = CONTAINER

@@ -1,4 +1,4 @@
-"""The C++ reference framework behind the C++ door, as a stand-alone executable."""
+"""The C++ reference framework by the C++ SDK, as a stand-alone executable."""
 
 from __future__ import annotations
 

@@ -60,16 +60,16 @@ def python(results: Path, limit: int | None, part: str, again: str, glance_only:
     known = read_results(results)
     drawn = _drawn(candidates, limit, part)
     for mutant in _left(drawn, known, again):
-        with python_programs.python_door(mutant) as door:
-            glance = glancer.look(door, python_programs.CONCERNED[mutant.file])
+        with python_programs.python_door(mutant) as endpoint:
+            glance = glancer.look(endpoint, python_programs.CONCERNED[mutant.file])
         known[mutant.key] = Result(mutant, glance.outcome or Outcome("open", glance.suspect))
         append(results, known[mutant.key])
     reasons = read_equivalents(python_programs.EQUIVALENTS)
     for mutant in [] if glance_only else drawn:
         outcome = known[mutant.key].outcome
         if outcome.fate == "open" and mutant.key not in reasons:
-            with python_programs.python_door(mutant) as door:
-                outcome = try_out(door, statement, python_programs.CONCERNED[mutant.file], outcome.by, SEED)
+            with python_programs.python_door(mutant) as endpoint:
+                outcome = try_out(endpoint, statement, python_programs.CONCERNED[mutant.file], outcome.by, SEED)
             known[mutant.key] = Result(mutant, outcome)
             append(results, known[mutant.key])
             _tell(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")
@@ -88,8 +88,8 @@ def cpp(results: Path, limit: int | None, part: str, again: str, root: Path, bui
     _tell("compiling the framework as it is")
     framework.prepare()
     statement = stated(reference_cpp.STATEMENT)
-    with framework.door("", None) as door:
-        control = try_out(door, statement, (), "", SEED)
+    with framework.endpoint("", None) as endpoint:
+        control = try_out(endpoint, statement, (), "", SEED)
     if control.fate != "survived":
         raise click.ClickException(f"the framework as it is does not pass: {control}")
     candidates = list(framework.candidates())
@@ -131,8 +131,8 @@ def _try_cpp(framework: CppFramework, mutant: GeneratedMutant, statement: Statem
             made = framework.compile(mutant, Path(folder))
             if framework.is_same(mutant.file, made):
                 return Outcome("same program")
-            with framework.door(mutant.file, made) as door:
-                return try_out(door, statement, CONCERNED.get(mutant.file, ()), "", SEED)
+            with framework.endpoint(mutant.file, made) as endpoint:
+                return try_out(endpoint, statement, CONCERNED.get(mutant.file, ()), "", SEED)
         except DoesNotCompile as error:
             return Outcome("not compiled", told=str(error))
 

@@ -82,7 +82,7 @@ class CppFramework:
         return digest(made) == digest(self._object(file))
 
     @contextmanager
-    def door(self, file: str, made: Path | None) -> Iterator[str]:
+    def endpoint(self, file: str, made: Path | None) -> Iterator[str]:
         """The path of a host with ``made`` in place of ``file``'s object, while in the ``with`` statement."""
         with TemporaryDirectory(prefix="mutant-") as folder:
             objects = [self._object(path.name) for path in self.files() if made is None or path.name != file]

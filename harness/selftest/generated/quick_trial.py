@@ -27,7 +27,7 @@ from ucm_cts.adapters.contract.scenario import Burst, Scenario, Stress
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
-from ucm_cts.harness.execution.clock_gaps import StallWatch
+from ucm_cts.harness.execution.clock_gaps import ClockGaps
 from ucm_cts.harness.execution.confirmation import is_timed
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
@@ -86,7 +86,7 @@ class Glancer:
     _prepared: list[Prepared] = field(default_factory=list)
     _killers: Counter[str] = field(default_factory=Counter)
     _right: set[bytes] = field(default_factory=set)
-    _watch: StallWatch | None = None
+    _watch: ClockGaps | None = None
 
     def __post_init__(self) -> None:
         disguise, payloads = Disguise(self.seed, "{port}_{element}"), Payloads(self.seed)
@@ -128,7 +128,7 @@ class Glancer:
         os.dup2(null, 1)
         os.dup2(null, 2)
         try:
-            self._watch = StallWatch()
+            self._watch = ClockGaps().start()
             os.write(writing, msgspec.json.encode(self._examine(adapter, clauses, writing)))
         finally:
             os._exit(0)

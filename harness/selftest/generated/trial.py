@@ -14,7 +14,7 @@ import msgspec
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.campaign import Campaign
-from ucm_cts.harness.execution.confirmation import Doubts
+from ucm_cts.harness.execution.confirmation import Confirmation
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.hosts import HostUnavailable, Limits
 from ucm_cts.harness.hosting.locate import WrongUse, locate
@@ -63,15 +63,15 @@ def _try_out(adapter: str, statement: Statement, purposes: Sequence[TestPurpose]
     try:
         with Driver(locate(adapter), seed, Limits(incident_seconds=INCIDENT_SECONDS)) as driver:
             campaign = Campaign(driver, "core", (), statement)
-            doubts = Doubts(driver, Judge(load_life_cycle(), statement.claims))
+            confirmation = Confirmation(driver, Judge(load_life_cycle(), statement.claims), driver.gaps)
             for checked in campaign.check(_in_small_parts(purposes)):
                 for finding, execution in checked.failures:
                     if execution.incident is not None:
                         return _of_incident(adapter, seed, execution, execution.incident)
-                    if finding is not None and doubts.of_failure(finding, execution) is None:
+                    if finding is not None and confirmation.of_failure(finding, execution) is None:
                         told = f"{finding.rule}: {finding.observed}"
                         return Outcome("failed", finding.requirement, execution.name, told)
-            campaign.look_again()
+            campaign.confirm()
             report = campaign.report()
     except (HostUnavailable, WrongUse) as problem:
         return Outcome("not loaded", told=str(problem).strip().rpartition("\n")[2])

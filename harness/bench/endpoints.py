@@ -1,4 +1,4 @@
-"""What a life-cycle scenario costs through each door, beside the framework alone and what one would test it with instead."""
+"""What a life-cycle scenario costs through each endpoint, beside the framework alone and what one would test it with instead."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ _ECHO = "import os\nwhile True:\n    data = os.read(0, 65536)\n    if not data: 
 
 
 def tables() -> Iterator[Table]:
-    """What the doors cost, one table after the other."""
+    """What the endpoints cost, one table after the other."""
     module: Any = importlib.import_module("ucm_cts.adapters._reference_cpp")
     cases: dict[str, Callable[[], float]] = {}
     trace = module.answer(encode(Run(0, LIFE_CYCLE)))
