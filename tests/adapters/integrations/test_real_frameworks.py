@@ -1,0 +1,52 @@
+"""Frameworks not made for UCM: each habit that docs/real-frameworks.md tells of comes out as it says, and no more fails."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from folders import ROOT
+from gstreamer_here import gstreamer_adapter
+from habits import HABITS, PAGE, check, published
+from pipeline import Product
+
+from ucm_cts.adapters.contract.adapter import Adapter
+
+
+def check_here(adapter: type[Adapter]) -> None:
+    (habits,) = (habits for name, habits in HABITS.items() if name.rpartition(" ")[0] == adapter.product)
+    product = Product(adapter)
+    check(habits, set(product.failing), product.readings)
+
+
+def test_each_row_is_read() -> None:
+    assert {"GStreamer 1.22.0", "iPOPO 3.2.4", "Fractal Julia 2.5.2"} <= set(HABITS)
+    assert sum(map(len, HABITS.values())) == len(re.findall(r"(?m)^\| .*R-\d", PAGE))
+
+
+@pytest.mark.parametrize("name", HABITS)
+def test_the_published_report_shows_it(name: str) -> None:
+    report = published()[name]
+    verdicts = {result["id"]: result["verdict"] for result in report["requirements"]}
+    failing = {requirement for requirement, verdict in verdicts.items() if verdict == "fail"}
+    check(HABITS[name], failing, report["readings"])
+    for habit in HABITS[name]:
+        assert verdicts[habit.requirement] == habit.verdict, habit
+
+
+def test_the_test_command_brings_gstreamer() -> None:
+    """So that the next test is not skipped where it counts."""
+    (packages,) = re.findall(r"(?m)^ +apt-get install (.*gstreamer.*)$", PAGE)
+    commands = re.findall(r"(?m)^apt-get update .*$", (ROOT / "README.md").read_text())
+    assert [packages in command for command in commands if command.endswith("pipx run tox")] == [True]
+
+
+def test_gstreamer_shows_it_here() -> None:
+    check_here(gstreamer_adapter().GStreamerAdapter)
+
+
+def test_ipopo_shows_it_here() -> None:
+    pytest.importorskip("pelix")
+    from ucm_cts.adapters.integrations.ipopo.adapter import IpopoAdapter
+
+    check_here(IpopoAdapter)

@@ -1,0 +1,28 @@
+"""Adapters that cheat are found out by the ordinary pipeline, for the right reason; the limits of that are what docs/honesty.md says."""
+
+from __future__ import annotations
+
+import pytest
+from folders import ROOT
+
+from ucm_cts.adapters.mutants.python import CHEATS, UNSEEN, Cheat
+from ucm_cts.harness.selftest.cheating import examine_cheat
+
+
+@pytest.mark.parametrize("cheat", CHEATS.values(), ids=CHEATS.keys())
+def test_cheat_is_found_out_for_the_right_reason(cheat: Cheat) -> None:
+    result = examine_cheat(cheat)
+    assert result.is_as_it_should, result
+
+
+@pytest.mark.parametrize("cheat", UNSEEN.values(), ids=UNSEEN.keys())
+def test_what_no_observation_shows(cheat: Cheat) -> None:
+    assert not examine_cheat(cheat).came_out
+
+
+def test_the_page_tells_of_each() -> None:
+    page = (ROOT / "docs" / "honesty.md").read_text()
+    for cheat in CHEATS.values():
+        assert f"| `{cheat.name}`: {cheat.lie} | {', '.join(cheat.detected_by)} |" in page, cheat.name
+    for cheat in UNSEEN.values():
+        assert f"(`{cheat.name}`)" in page, cheat.name

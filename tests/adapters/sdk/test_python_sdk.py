@@ -1,0 +1,449 @@
+"""The Python SDK does what docs/design.md says."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from folders import ROOT
+from performing import SINK, SOURCE, answer, play, scenario, told
+
+from ucm_cts.adapters.contract.messages import (
+    PROTOCOL,
+    Happened,
+    Hello,
+    Refused,
+    Run,
+    Traced,
+    Welcome,
+    encode,
+    from_host_decoder,
+)
+from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject
+from ucm_cts.adapters.contract.scenario import SELF_EXECUTING, SELF_EXECUTION_API
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python import engine, workers
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.hosting.hosts import Hosts
+from ucm_cts.harness.hosting.locate import locate
+
+GUIDE = ROOT / "docs" / "adapter-python.md"
+
+
+class Spy(ReferenceAdapter):
+    """Records what reaches the adapter."""
+
+    seen: list[Any]
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+        type(self).seen = []
+        return super().create_runtime(implementations)
+
+    def add_component(self, container: Any, implementation: str, attributes: Mapping[str, str]) -> int:
+        self.seen.append(("add", implementation, dict(attributes)))
+        return super().add_component(container, implementation, attributes)
+
+    def remove_component(self, container: Any, comp_instance: int) -> None:
+        self.seen.append(("remove", comp_instance))
+        super().remove_component(container, comp_instance)
+
+    def disconnect(self, container: Any, connection: int) -> None:
+        self.seen.append(("disconnect", connection))
+        super().disconnect(container, connection)
+
+    def remove_container(self, manager: Any, sub_container: Any) -> None:
+        self.seen.append(("remove_container", sub_container))
+        super().remove_container(manager, sub_container)
+
+    def connect(self, container: Any, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        self.seen.append(("connect", to_port))
+        return super().connect(container, instance, port_name, to_port)
+
+    def destroy(self, manager: Any) -> None:
+        self.seen.append(("destroy",))
+        super().destroy(manager)
+
+    def close(self) -> None:
+        self.seen.append(("close",))
+
+
+def test_hello_is_answered_with_welcome() -> None:
+    reply = from_host_decoder().decode(Engine(ReferenceAdapter).answer(encode(Hello(PROTOCOL))))
+    assert reply == Welcome(PROTOCOL, ReferenceAdapter.product, ReferenceAdapter.version)
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        (b"", "truncated"),
+        (b"nonsense", "malformed"),
+        (b'{"type":"run","id":1}', "missing required field `scenario`"),
+        (b'{"type":"dance"}', "Invalid value 'dance'"),
+        (b'{"type":"hello","protocol":"1"}', "Expected `int`, got `str`"),
+        (b'{"type":"run","id":1,"scenario":{"components":{},"steps":[{"op":"start","x":1}]}}', "unknown field `x`"),
+        (b'{"type":"\xff"}', "utf-8"),
+    ],
+)
+def test_breach_of_protocol_is_refused_and_the_engine_goes_on(line: bytes, reason: str) -> None:
+    engine = Engine(ReferenceAdapter)
+    reply = from_host_decoder().decode(engine.answer(line))
+    assert isinstance(reply, Refused)
+    assert reason in reply.reason
+    assert isinstance(from_host_decoder().decode(engine.answer(encode(Hello(PROTOCOL)))), Welcome)
+
+
+def test_trace_of_a_whole_life() -> None:
+    server = SINK | {"attributes": {"colour": "red"}}
+    client = SOURCE | {"plan": {"on_startup": [{"do": "call", "port": "out", "value": 3}]}}
+    trace = play(
+        {"server": server, "client": client},
+        ["add_component component=server", "add_component component=client bind=c",
+         "get_port_element id=server port=in bind=api", "connect id=c port=out to=api bind=link", "start",
+         "invoke ref=api value=5", "stop", "disconnect connection=link", "remove_component id=c", "destroy"],
+    )  # fmt: skip
+    assert trace == [
+        "call step=0", "create server#1", "enter server#1 hook=on_init attributes={'colour': 'red'}",
+        "exit server#1 hook=on_init", "return step=0 value=1",
+        "call step=1", "create client#1", "enter client#1 hook=on_init attributes={}", "exit client#1 hook=on_init",
+        "return step=1 value=2",
+        "call step=2", "return step=2 value=server#1.in",
+        "call step=3", "enter client#1 hook=on_connect port=out reference=server#1.in", "exit client#1 hook=on_connect",
+        "return step=3 value=3",
+        "call step=4", "enter server#1 hook=on_startup dependencies=[]", "exit server#1 hook=on_startup",
+        "enter client#1 hook=on_startup dependencies=[[server#1.in]@out]", "request client#1 port=out value=3",
+        "enter server#1 hook=exchange port=in value=3", "exit server#1 hook=exchange value=-4",
+        "reply client#1 port=out value=-4", "exit client#1 hook=on_startup", "return step=4",
+        "call step=5", "enter server#1 hook=exchange port=in value=5", "exit server#1 hook=exchange value=-6",
+        "return step=5 value=-6",
+        "call step=6", "enter client#1 hook=on_shutdown", "exit client#1 hook=on_shutdown",
+        "enter server#1 hook=on_shutdown", "exit server#1 hook=on_shutdown", "return step=6",
+        "call step=7", "enter client#1 hook=on_disconnect port=out", "exit client#1 hook=on_disconnect", "return step=7",
+        "call step=8", "enter client#1 hook=on_remove", "exit client#1 hook=on_remove", "return step=8",
+        "call step=9", "enter server#1 hook=on_remove", "exit server#1 hook=on_remove", "return step=9",
+    ]  # fmt: skip
+
+
+def test_unbound_variables_are_skipped_and_reserved_ones_passed_on() -> None:
+    trace = play(
+        {"sink": SINK, "source": SOURCE},
+        ["remove_component id=sink", "add_component component=source", "connect id=source port=out to=nowhere bind=x",
+         "invoke ref=nowhere value=1", "invoke ref=nil value=1", "disconnect connection=x", "start container=nowhere",
+         "remove_component id=unknown", "disconnect connection=unknown", "connect id=source port=out to=nil bind=x",
+         "remove_container container=nil", "add_component component=stranger"],
+        Spy,
+    )  # fmt: skip
+    skipped = [
+        f"skip step={n} variable={v}"
+        for n, v in enumerate(["sink", "", "nowhere", "nowhere", "nil", "x", "nowhere"])
+        if v
+    ]
+    assert [line for line in trace if line.startswith("skip")] == skipped
+    unknown = 2**31 - 1
+    assert Spy.seen == [
+        ("add", "source", {}), ("remove", unknown), ("disconnect", unknown), ("connect", None),
+        ("remove_container", None), ("add", "stranger", {}), ("destroy",), ("close",),
+    ]  # fmt: skip
+
+
+def test_variables_outlive_what_they_name_and_traces_start_anew() -> None:
+    steps = ["add_component component=sink", "get_port_element id=sink port=in bind=api", "remove_component id=sink",
+             "invoke ref=api value=1", "remove_component id=sink", "destroy"]  # fmt: skip
+    engine = Engine(Spy)
+    for _ in range(2):
+        reply = from_host_decoder().decode(engine.answer(encode(Run(1, scenario({"sink": SINK}, steps)))))
+        assert isinstance(reply, Traced)
+        assert [event.n for event in reply.events] == list(range(1, len(reply.events) + 1))
+        trace = [told(event) for event in reply.events]
+        assert "return step=3 value=-2" in trace
+        assert "raise step=4 error=NOT_FOUND" in trace
+        assert Spy.seen.count(("destroy",)) == 1  # not once more after the scenario has done so
+
+
+def test_planned_actions_and_undeclared_exceptions() -> None:
+    class PassesOn(ReferenceAdapter):
+        def start(self, container: Any) -> None:
+            for member in container.members.values():
+                member.body.on_startup([])
+
+    plan = {
+        "exchange": [{"do": "return", "value": 9}],
+        "on_startup": [{"do": "siblings"}, {"do": "raise"}, {"do": "siblings"}],
+    }
+    trace = play(
+        {"f": SINK | {"fragment": True, "plan": plan | {"on_init": [{"do": "siblings"}]}}},
+        ["add_component component=f", "get_port_element id=f port=in bind=api", "invoke ref=api value=1", "start"],
+        PassesOn,
+    )
+    assert "siblings f#1" in trace[: trace.index("return step=0 value=1")]
+    assert "return step=2 value=9" in trace
+    assert trace[-4:] == ["enter f#1 hook=on_startup dependencies=[]", "siblings f#1 ids=[1]",
+                          "exit f#1 hook=on_startup raised=True", "raise step=3 error=UNDECLARED"]  # fmt: skip
+
+
+def test_failing_callee_is_recorded_and_not_passed_on() -> None:
+    trace = play(
+        {"bad": SINK | {"plan": {"exchange": [{"do": "raise"}]}},
+         "client": SOURCE | {"plan": {"on_startup": [{"do": "call", "port": "out", "value": 1}]}}},
+        ["add_component component=bad", "add_component component=client", "get_port_element id=bad port=in bind=api",
+         "connect id=client port=out to=api bind=link", "start"],
+    )  # fmt: skip
+    assert "reply client#1 port=out raised=True" in trace
+    assert trace[-1] == "return step=4"
+
+
+def test_workers_gates_and_joins() -> None:
+    held = SINK | {"plan": {"exchange": [{"do": "hold", "gate": "g"}]}}
+    trace = play(
+        {"s": held},
+        ["add_component component=s", "get_port_element id=s port=in bind=api", "invoke ref=api value=1 thread=w",
+         "reach gate=g", "get_components", "open gate=g", "join worker=w", "join worker=nobody"],
+    )  # fmt: skip
+    assert trace[trace.index("1:call step=2") :] == [
+        "1:call step=2", "1:enter s#1 hook=exchange port=in value=1", "1:held s#1 gate=g",
+        "call step=4", "return step=4 value=[1]", "opened gate=g",
+        "1:exit s#1 hook=exchange value=-2", "1:return step=2 value=-2",
+    ]  # fmt: skip
+
+
+class Waits(ReferenceAdapter):
+    """start sleeps until stop, stop is slow, create_container spins, destroy polls; all for patience at most."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+        self.stopped = threading.Event()
+        return super().create_runtime(implementations)
+
+    def start(self, container: Any) -> None:
+        self.stopped.wait()
+
+    def stop(self, container: Any) -> None:
+        self.stopped.set()
+
+    def create_container(self, manager: Any) -> Any:
+        end = time.monotonic() + 0.3
+        while time.monotonic() < end:
+            pass
+
+    def remove_container(self, manager: Any, sub_container: Any) -> None:
+        end = time.monotonic() + 0.3
+        while time.monotonic() < end:
+            time.sleep(0.0002)
+
+
+BLOCKS = ["start thread=w", "settle worker=w", "stop", "join worker=w"]
+
+
+@pytest.mark.parametrize(
+    ("steps", "where"),
+    [
+        (BLOCKS, "blocked"),
+        (["settle worker=nobody"], "done"),
+        (["get_components thread=w", "settle worker=w"], "done"),
+        (["create_container bind=box thread=w", "settle worker=w", "join worker=w"], "running"),
+        (["create_container bind=box thread=w", "create_container bind=tub thread=v", "settle worker=w",
+          "join worker=w", "join worker=v"], "running"),
+        (["remove_container container=nil thread=w", "settle worker=w", "join worker=w"], "running"),
+    ],
+)  # fmt: skip
+def test_settle_tells_where_a_worker_is(steps: list[str], where: str) -> None:
+    trace = play({}, steps, Waits, patience=100)
+    assert [line.rpartition("=")[2] for line in trace if line.startswith("settled")] == [where]
+
+
+def test_settle_finds_workers_that_are_held() -> None:
+    held = SINK | {"plan": {"exchange": [{"do": "hold", "gate": "g"}, {"do": "hold", "gate": "h"}]}}
+    trace = play(
+        {"s": held},
+        ["add_component component=s", "get_port_element id=s port=in bind=api", "invoke ref=api value=1 thread=w",
+         "settle worker=w", "open gate=g", "settle worker=w", "open gate=h", "settle worker=w"],
+    )  # fmt: skip
+    assert [line for line in trace if "settled" in line or "held" in line] == [
+        "1:held s#1 gate=g", "settled worker=w where=held",
+        "1:held s#1 gate=h", "settled worker=w where=held", "settled worker=w where=done",
+    ]  # fmt: skip
+
+
+def test_nobody_is_seen_to_be_blocked_where_the_operating_system_does_not_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workers, "_sleeps", lambda thread: None)
+    monkeypatch.setattr(engine, "SEAL", engine.sealed())
+    assert "settled worker=w where=running" in play({}, BLOCKS, Waits, patience=50)
+
+
+def test_probes_that_execute_themselves_can_be_run() -> None:
+    given: list[Any] = []
+
+    class Runs(ReferenceAdapter):
+        def start(self, container: Any) -> None:
+            for member in container.members.values():
+                get = member.body.get_policy_element
+                given.extend([get(SELF_EXECUTING, SELF_EXECUTION_API), get(SELF_EXECUTING, "x"), get("x", "x")])
+                if given[0]:
+                    given[0].run()
+
+    plan = {"run": [{"do": "call", "port": "out", "value": 3}, {"do": "raise"}]}
+    steps = ["add_component component=s", "start"]
+    trace = play({"s": {"policies": [{"definition": SELF_EXECUTING}], "plan": plan}}, steps, Runs)
+    assert trace[-3:] == ["enter s#1 hook=run", "exit s#1 hook=run raised=True", "raise step=1 error=UNDECLARED"]
+    assert given[1:] == [None, None]
+    given.clear()
+    assert play({"s": {}}, steps, Runs)[-1] == "return step=1"
+    assert given == [None] * 3
+
+
+def test_waits_take_no_longer_than_patience_and_all_gates_open_at_the_end() -> None:
+    held = SINK | {"plan": {"exchange": [{"do": "hold", "gate": "g"}]}}
+    trace = play(
+        {"s": held},
+        ["reach gate=g", "add_component component=s", "get_port_element id=s port=in bind=api",
+         "invoke ref=api value=1", "invoke ref=api value=2 thread=w", "join worker=w"],
+        patience=30,
+    )  # fmt: skip
+    assert trace[0] == "timeout step=0"
+    assert "return step=3 value=-2" in trace  # the probe itself lost patience
+    assert "1:return step=4 value=-3" in trace
+
+
+def test_threads_that_never_come_back_are_stuck() -> None:
+    class Hangs(Spy):
+        def start(self, container: Any) -> None:
+            threading.Event().wait()
+
+    trace = play({}, ["start thread=w", "get_components thread=v", "join worker=w"], Hangs, patience=30)
+    assert trace[-2:] == ["timeout step=2", "stuck w"]
+    assert Hangs.seen == []  # neither destroyed nor closed under the feet of a stuck thread
+
+
+def test_probes_are_silent_after_the_scenario() -> None:
+    kept: list[PortElementObject] = []
+
+    class Keeps(ReferenceAdapter):
+        def get_port_element(self, container: Any, comp_instance: int, port_name: str) -> PortElementObject | None:
+            kept.append(super().get_port_element(container, comp_instance, port_name))  # type: ignore[arg-type]
+            return kept[0]
+
+    steps = ["add_component component=s", "get_port_element id=s port=in bind=api"]
+    bad = SINK | {"plan": {"exchange": [{"do": "raise"}], "on_remove": [{"do": "hold", "gate": "g"}]}}
+    play({"s": bad}, steps, Keeps)
+    assert kept[0].exchange(1) == -2
+    assert play({"s": SINK}, steps, Keeps)[-1] == "return step=1 value=opaque"  # another scenario's probe
+
+
+def test_framework_made_references_are_opaque() -> None:
+    class Proxy(PortElementObject):
+        def __init__(self, real: PortElementObject) -> None:
+            self.real = real
+
+        def exchange(self, value: int) -> int:
+            return self.real.exchange(value)
+
+    class Proxies(ReferenceAdapter):
+        def get_port_element(self, container: Any, comp_instance: int, port_name: str) -> PortElementObject | None:
+            real = super().get_port_element(container, comp_instance, port_name)
+            return Proxy(real) if real else None
+
+    trace = play(
+        {"s": SINK},
+        ["add_component component=s", "get_port_element id=s port=in bind=api", "invoke ref=api value=0"],
+        Proxies,
+    )
+    assert "return step=1 value=opaque" in trace
+    assert trace[-1] == "return step=2 value=-1"
+
+
+@pytest.mark.parametrize(
+    ("operation", "value", "reason"),
+    [
+        ("add_component", None, "add_component returned None; it returns an integer"),
+        ("get_components", 5, "get_components returned 5; it returns a sequence of integers"),
+        ("get_components", ["a"], "get_components returned 'a'; it returns an integer"),
+        ("add_component", 2**70, "it returns an integer"),
+    ],
+)
+def test_adapter_that_breaks_the_contract_is_refused(operation: str, value: object, reason: str) -> None:
+    broken = type("Broken", (ReferenceAdapter,), {operation: lambda *arguments: value})
+    reply = answer(scenario({"s": SINK}, ["add_component component=s", "get_components"]), broken)
+    assert isinstance(reply, Refused)
+    assert reply.id == 7
+    assert reason in reply.reason
+
+
+def test_malformed_dependencies_are_refused() -> None:
+    for given in (None, [("out", ())], [PortConnection(5, ())]):  # type: ignore[arg-type]
+
+        class Careless(ReferenceAdapter):
+            given_to_bodies: Any = given
+
+            def start(self, container: Any) -> None:
+                for member in container.members.values():
+                    member.body.on_startup(self.given_to_bodies)
+
+        reply = answer(scenario({"s": SINK}, ["add_component component=s", "start"]), Careless)
+        assert isinstance(reply, Refused)
+        assert "on_startup" in reply.reason
+
+
+def test_streamed_events_come_before_the_answer() -> None:
+    lines: list[bytes] = []
+    asked = Run(3, scenario({"s": SINK}, ["add_component component=s", "start"]), stream=True)
+    reply = from_host_decoder().decode(Engine(ReferenceAdapter).answer(encode(asked), lines.append))
+    assert isinstance(reply, Traced)
+    assert all(line.endswith(b"\n") for line in lines)
+    assert [from_host_decoder().decode(line) for line in lines] == [Happened(3, event) for event in reply.events]
+
+
+def test_the_guide_for_adapter_authors_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, text in re.findall(r"<!-- file: (\S+) -->\n```\w+\n(.*?)```", GUIDE.read_text(), re.DOTALL):
+        (tmp_path / name).write_text(text)
+    monkeypatch.chdir(tmp_path)
+    asked = scenario(
+        {"server": SINK | {"attributes": {"a": "1"}}, "client": SOURCE, "fragment": {"fragment": True}},
+        ["add_component component=server", "add_component component=client", "add_component component=fragment",
+         "get_port_element id=server port=in bind=api", "connect id=client port=out to=api bind=link",
+         "connect id=client port=none to=api bind=x", "start", "invoke ref=api value=1", "stop",
+         "disconnect connection=link", "remove_component id=client", "remove_component id=client",
+         "create_container bind=box", "get_components", "destroy"],
+    )  # fmt: skip
+    with Hosts(locate("my_adapter:BeansAdapter")) as hosts:
+        assert hosts.welcome.product == "Beans"
+        (reply,) = hosts.run([Run(1, asked)])
+    assert isinstance(reply.reply, Traced)
+    ends = [line for line in map(told, reply.reply.events) if re.match(r"return|raise", line)]
+    assert [line for line in ends if line.startswith("raise")] == [
+        "raise step=5 error=NOT_FOUND",
+        "raise step=11 error=NOT_FOUND",
+    ]
+    assert len(ends) == len(asked.steps)
+    assert "return step=7 value=-2" in ends
+
+
+def test_frameworks_may_mark_bodies_and_not_change_them() -> None:
+    class Marks(ReferenceAdapter):
+        mark = "framework_number"
+
+        def start(self, container: Any) -> None:
+            for member in container.members.values():
+                for number in range(2):
+                    setattr(member.body, self.mark, number)
+
+    class Shadows(Marks):
+        mark = "on_shutdown"
+
+    class Meddles(ReferenceAdapter):
+        def start(self, container: Any) -> None:
+            for member in container.members.values():
+                with contextlib.suppress(TypeError):
+                    member.body.stage.recorder.recording = True
+
+    steps = ["add_component component=s", "start"]
+    connectable = {"s": SINK | {"connectable": True}}
+    assert play(connectable, steps, Marks)[-1] == "return step=1"
+    for adapter, what in (Shadows, "ConnectableProbe.on_shutdown"), (Meddles, "Recorder.recording"):
+        refused = answer(scenario(connectable, steps), adapter)
+        assert isinstance(refused, Refused), refused
+        assert refused.reason.endswith(what)
+    assert play(connectable, steps, Marks)[-1] == "return step=1"  # what one adapter does is not told of the next

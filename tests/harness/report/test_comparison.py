@@ -1,0 +1,239 @@
+"""``ucm-cts compare``: what reports say stands side by side, whoever wrote them, and what is no report is refused."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+from command_line import Outcome, ucm_cts
+from folders import ROOT
+from lxml import html
+from made_up_run import CATALOGUE, HOSTILE, sample
+
+from ucm_cts.harness.report import comparison
+from ucm_cts.harness.report.comparison import compare
+from ucm_cts.harness.report.comparison_page import to_html
+from ucm_cts.harness.report.json_report import FindingEntry, ReportEntry, RequirementEntry, to_json
+from ucm_cts.harness.results.foreign import clean_report
+from ucm_cts.harness.results.values import Verdict
+
+SAMPLE = msgspec.json.decode(to_json(clean_report(sample()), CATALOGUE), type=ReportEntry)
+FINDING = FindingEntry("rule", "this", "that", 3, "", "", "scenario", (), "failures/x.json")
+
+
+def requirement(id_: str, verdict: Verdict, observed: str = "that") -> RequirementEntry:
+    findings = (msgspec.structs.replace(FINDING, observed=observed),) if verdict == "fail" else ()
+    clause, times = id_.removeprefix("R-").rpartition("-")[0], 0 if verdict == "inconclusive" else 7
+    return RequirementEntry(id_, clause, f"Title of {id_}", "shall", verdict, times, "", findings)
+
+
+def report(name: str, *requirements: RequirementEntry, **changes: Any) -> ReportEntry:
+    verdicts = {entry.verdict for entry in requirements}
+    overall = "not conformant" if "fail" in verdicts else "inconclusive" if "inconclusive" in verdicts else "conformant"
+    made = {
+        "product": name,
+        "version": "1",
+        "verdict": overall,
+        "requirements": requirements,
+        "incidents": (),
+        "readings": {},
+    }
+    return msgspec.structs.replace(SAMPLE, **{**made, **changes})
+
+
+def save(folder: Path, *reports: ReportEntry) -> list[Path]:
+    """A folder for each report, as ``ucm-cts run`` leaves it."""
+    files = [folder / f"{number}" / "report.json" for number in range(len(reports))]
+    for file, content in zip(files, reports, strict=True):
+        file.parent.mkdir(exist_ok=True)
+        file.write_bytes(msgspec.json.format(msgspec.json.encode(content)))
+        file.with_name("report.html").write_text("")
+    return files
+
+
+LEFT = report(
+    "Left",
+    requirement("R-11.10-01", "pass"),
+    requirement("R-11.2.3-01", "fail", "it was seen <here>"),
+    requirement("R-11.2.3-02", "fail"),
+    requirement("R-12.10-01", "pass"),
+    readings={"late-add": ("refuse",), "double-start": ("noop",)},
+)
+RIGHT = report(
+    "Right",
+    requirement("R-11.2.3-01", "inconclusive"),
+    requirement("R-11.2.3-02", "fail"),
+    requirement("R-12.10-01", "pass"),
+    readings={"late-add": ("deferred",)},
+)
+
+
+def test_rows_are_in_the_order_of_clauses_and_know_what_was_not_asked(tmp_path: Path) -> None:
+    both = compare(save(tmp_path, LEFT, RIGHT))
+    told = [(row.id, *(cell and cell.verdict for cell in row.cells)) for row in both.rows]
+    assert told == [
+        ("R-11.2.3-01", "fail", "inconclusive"),
+        ("R-11.2.3-02", "fail", "fail"),
+        ("R-11.10-01", "pass", None),
+        ("R-12.10-01", "pass", "pass"),
+    ]
+    assert [row.id for row in both.rows if row.differs] == ["R-11.2.3-01"]
+    assert [row.id for row in both.rows if row.is_kept] == ["R-11.10-01", "R-12.10-01"]
+    assert [row.id for row in both.shared] == ["R-11.2.3-01", "R-11.2.3-02", "R-12.10-01"]
+    assert {option.name: option.differs for option in both.options} == {"double-start": False, "late-add": True}
+
+
+def test_the_page_tells_who_passes_what_and_where_they_differ(tmp_path: Path) -> None:
+    save(tmp_path, LEFT, RIGHT)
+    page_file = tmp_path / "new" / "page.html"
+    outcome = ucm_cts("compare", *sorted(tmp_path.glob("*/report.json")), "--out", page_file)
+    assert outcome.status == 0
+    lines = outcome.out.splitlines()
+    assert lines[:2] == ["Left 1: 2 fail, 2 pass", "Right 1: 1 fail, 1 inconclusive, 1 pass"]
+    assert lines[2] == f"3 requirements are asked of all; on 1 they differ. {page_file} shows it"
+    page = html.parse(page_file).getroot()
+    assert "3 requirements asked of all: 1 kept by all, 1 on which they differ, 1 broken by all" in page.text_content()
+    clauses = [[cell.text_content().split() for cell in row] for row in page.xpath("//*[@id='clauses']//tbody/tr[td]")]
+    assert clauses == [
+        [["11.2.3"], ["✗", "0", "of", "2"], ["✗", "0", "of", "2"]],
+        [["12.10"], ["✓", "1", "of", "1"], ["✓", "1", "of", "1"]],
+        [["11.10"], ["✓", "1", "of", "1"], ["not", "asked"]],
+    ]
+    (row,) = page.xpath("//*[@id='R-11.2.3-01']")
+    assert [cell.text_content().split() for cell in row.xpath("td")] == [
+        ["✗", "fail", "it", "was", "seen", "<here>", "(3", "times)"],
+        ["?", "inconclusive"],
+    ]
+    assert row.xpath("td//a/@href") == [f"../{n}/report.html#R-11.2.3-01" for n in (0, 1)]
+    assert [row.xpath("string(.//code)") for row in page.xpath("//*[@id='kept']//tr[td]")] == [
+        "R-11.10-01",
+        "R-12.10-01",
+    ]
+
+
+def test_links_lead_only_to_what_is_there(tmp_path: Path) -> None:
+    files = save(tmp_path, LEFT, RIGHT)
+    files[0].with_name("report.html").unlink()
+    links = html.document_fromstring(to_html(compare(files), tmp_path)).xpath("//@href")
+    assert {link.partition("#")[0] for link in links} == {"", "1/report.html"}
+
+
+def test_a_report_may_be_compared_with_itself_and_with_one_of_another_suite(tmp_path: Path) -> None:
+    page = to_html(compare(save(tmp_path, LEFT, LEFT)), tmp_path)
+    assert "0 on which they differ" in page
+    assert "different versions" not in page
+    assert "different versions" in to_html(
+        compare(save(tmp_path, LEFT, report("Other", suite_version="9", verdict="inconclusive"))), tmp_path
+    )
+
+
+def test_hostile_text_stays_text(tmp_path: Path) -> None:
+    evil = HOSTILE.replace("\ud800", "")
+    wrong = msgspec.structs.replace(requirement("R-11.2.3-01", "fail", evil), title=evil, clause=evil, reason=evil)
+    many = {
+        "product": evil,
+        "version": evil * 900,
+        "profile": evil,
+        "adapter": evil,
+        "started": evil,
+        "suite_version": evil,
+    }
+    source = to_html(compare(save(tmp_path, LEFT, report("", wrong, **many, readings={evil: (evil,)}))), tmp_path)
+    page = html.document_fromstring(source)
+    assert not page.xpath("//script | //img | //link | //*[@onerror] | //*[@src]")
+    assert page.xpath("//td[contains(., '<img src=x onerror=alert(2)>') and contains(., '{{ 7*7 }}')]")
+    assert not re.search("[\x00-\x08\x0b-\x1f\x7f\u202e\ud800-\udfff]", source)
+    assert not re.search(r"url\(|@import|https?:", source)
+    assert "default-src 'none'" in page.xpath("//meta[@http-equiv]/@content")[0]
+    assert len(source) < 100_000
+
+
+def edited(edit: Callable[[dict[str, Any]], object]) -> bytes:
+    """The left report after ``edit``, on many lines."""
+    content = json.loads(msgspec.json.encode(LEFT))
+    edit(content)
+    return json.dumps(content, indent=2).encode()
+
+
+def first(content: dict[str, Any]) -> dict[str, Any]:
+    entry: dict[str, Any] = content["requirements"][0]
+    return entry
+
+
+BROKEN: dict[str, tuple[bytes, str]] = {
+    "empty": (b"", "is no report"),
+    "not JSON": (b"product: Left\n", "is no report"),
+    "cut off": (edited(lambda _: None)[:-20], "is no report"),
+    "not UTF-8": (b'{"product": "\xff"}', "is not UTF-8"),
+    "nested": (b'{"product":' + b"[" * 100_000, "Expected `str`, got `array`"),
+    "nested where values are skipped": (
+        edited(lambda c: c).replace(b'"findings": []', b'"findings": ' + b"[" * 9999, 1),
+        "Expected",
+    ),
+    "a list": (b"[]", "Expected `object`, got `array`"),
+    "field missing": (edited(lambda c: first(c).pop("title")), r":\d+: .*missing required field `title`"),
+    "field too many": (edited(lambda c: first(c).update(colour="red")), r":\d+: .*unknown field `colour`"),
+    "wrong type": (edited(lambda c: first(c).update(exercised="7")), r":\d+: Expected `int`, got `str`"),
+    "unknown verdict": (edited(lambda c: first(c).update(verdict="passed")), r":\d+: .*'passed'"),
+    "infinite": (edited(lambda c: c.update(seconds=float("inf"))), "is no report"),
+    "twice": (edited(lambda c: c["requirements"].append(first(c))), "holds R-11.10-01 twice"),
+    "no requirement": (edited(lambda c: first(c).update(id="<b>")), "'<b>' is no requirement"),
+    "pass for nothing": (edited(lambda c: first(c).update(exercised=0)), "is 'pass' and was never exercised"),
+    "fail for nothing": (edited(lambda c: first(c).update(verdict="fail")), "is 'fail', against its findings"),
+    "failure hidden": (
+        edited(lambda c: c["requirements"][1].update(verdict="pass")),
+        "is 'pass', against its findings",
+    ),
+    "verdict hidden": (edited(lambda c: c.update(verdict="conformant")), "says 'conformant', but what it holds is"),
+}
+
+
+def refused(outcome: Outcome) -> str:
+    assert outcome.status == 2
+    assert outcome.out == ""
+    assert outcome.err.startswith("ucm-cts: ")
+    assert outcome.err.count("\n") == 1
+    return outcome.err
+
+
+@pytest.mark.parametrize("kind", BROKEN)
+def test_what_is_no_report_is_refused_in_one_line(kind: str, tmp_path: Path) -> None:
+    content, problem = BROKEN[kind]
+    good, bad = save(tmp_path, RIGHT, LEFT)
+    bad.write_bytes(content)
+    told = refused(ucm_cts("compare", good, bad, "--out", tmp_path / "page.html"))
+    assert told.startswith(f"ucm-cts: {bad}:")
+    assert re.search(problem, told), told
+    assert len(told) < 900
+    assert not (tmp_path / "page.html").exists()
+
+
+def test_the_unbroken_report_is_taken(tmp_path: Path) -> None:
+    good, same = save(tmp_path, RIGHT, LEFT)
+    same.write_bytes(edited(lambda _: None))
+    assert len(compare([good, same]).columns) == 2
+
+
+def test_other_mistakes_are_told_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = save(tmp_path, LEFT, RIGHT)
+    page = tmp_path / "page.html"
+    for number in (0, 1, 13):
+        assert "name 2 to 12 files" in refused(ucm_cts("compare", *files[:1] * number, "--out", page))
+    assert "cannot be read" in refused(ucm_cts("compare", files[0], tmp_path / "none.json", "--out", page))
+    (tmp_path / "file").write_text("")
+    assert "cannot be written" in refused(ucm_cts("compare", *files, "--out", tmp_path / "file" / "page.html"))
+    monkeypatch.setattr(comparison, "LARGEST", 100)
+    assert "is larger than 100 bytes" in refused(ucm_cts("compare", *files, "--out", page))
+
+
+def test_the_published_page_is_what_the_documented_command_writes() -> None:
+    """Where this fails, run the command again: a report has changed."""
+    text = (ROOT / "docs" / "real-frameworks.md").read_text()
+    ((reports, out),) = re.findall(r"(?m)^ +ucm-cts compare (\S+) --out (\S+)$", text)
+    written = to_html(compare(sorted(ROOT.glob(reports))), (ROOT / out).parent)
+    assert (ROOT / out).read_text(encoding="utf-8") == written
