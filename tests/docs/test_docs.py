@@ -128,18 +128,16 @@ def test_what_is_named_exists(page: Path) -> None:
         assert f"[testenv:{name}]" in TOX, name
 
 
-def test_design_shows_every_module() -> None:
-    """Its maps name a folder at the left margin, and files beside and below it."""
-    shown: set[Path] = set()
-    folder = ROOT
-    maps = text_of("docs/design.md") + text_of("docs/toolchain-design.md")
-    for head, rest in re.findall(r"(?m)^    (?:(\w+/(?:\S*/)?) )?(.+)$", maps):
-        folder = ROOT / head if head else folder
-        for name in re.findall(r"(?:[\w*]+/)*[\w*.]+\.(?:py|hpp|cpp|json)\b|\b\w+/(?=\s|$)", rest):
-            assert any(folder.glob(name.rstrip("/"))), f"{folder.name}/ has no {name}"
-            shown |= set(folder.glob(name))
-    modules = {p for room in ("harness", "reference_models", "adapters") for p in (ROOT / room).glob("**/*.py")}
-    assert not {p for p in modules - shown if p.name != "__init__.py" and p.parent.name != "report"}
+def test_every_module_says_what_it_is_for() -> None:
+    lines = shell(f"{shlex.quote(sys.executable)} {ROOT}/docs/modules.py").splitlines()
+    assert [line for line in lines if len(line.split()) < 2] == []
+    assert any(line.startswith("harness/results/tally.py ") for line in lines)
+
+
+def test_former_module_of_the_python_host_still_serves() -> None:
+    command = "echo x | python -m ucm_cts.adapters.python.host subjects:stops_in_startup_order 2> warning"
+    assert json.loads(shell(command, PYTHONPATH=str(ROOT / "tests")))["type"] == "refused"
+    assert Path("warning").read_text().endswith("is deprecated: use ucm_cts.adapters.sdk.python.host\n")
 
 
 def test_tables_name_what_there_is() -> None:

@@ -1,4 +1,4 @@
-"""Engine: answers wire messages by running scenarios against an adapter, as docs/design.md says."""
+"""Engine: answers wire messages by running scenarios against an adapter, as docs/protocol.md says."""
 
 from __future__ import annotations
 

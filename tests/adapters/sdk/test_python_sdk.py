@@ -1,4 +1,4 @@
-"""The Python SDK does what docs/design.md says."""
+"""The Python SDK does what docs/protocol.md says."""
 
 from __future__ import annotations
 

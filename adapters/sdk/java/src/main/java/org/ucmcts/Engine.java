@@ -7,7 +7,7 @@ import java.util.function.Consumer;
 import java.util.function.Supplier;
 import org.ucmcts.Shape.Misfit;
 
-/** Answers wire messages by running scenarios, as docs/design.md says: one message in, one answer out, in order. */
+/** Answers wire messages by running scenarios, as docs/protocol.md says: one message in, one answer out, in order. */
 final class Engine {
     private final Product product;
     private final Supplier<? extends Adapter<?>> adapters;

@@ -3,6 +3,6 @@
  *
  * <p>An adapter implements {@code Adapter} and handles what frameworks see of the suite's component bodies: {@code
  * Body}, {@code Connectable}, {@code Fragment}, {@code PortElement}, {@code PortConnection}, {@code Implementation}.
- * Everything else carries out scenarios as docs/design.md says.
+ * Everything else carries out scenarios as docs/protocol.md says.
  */
 package org.ucmcts;
