@@ -1,1 +1,1 @@
-"""What testing costs, against its limits and against what one would do instead (``tox -e bench``)."""
+"""Measures what testing costs, against limits and against other ways to test (``tox -e bench``)."""

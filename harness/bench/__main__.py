@@ -9,11 +9,11 @@ from ucm_cts.harness.bench import endpoints, judging, models
 EVENTS = 1_000_000
 
 WIDTH = 120
-"""Columns of what goes to a file: no table is squeezed."""
+"""The width, in columns, of output to a file: no table is squeezed."""
 
 
 def main() -> None:
-    """Measure, and print each table when it is there. Memory is looked at first, while nothing else has taken any."""
+    """Measure, and print each table when it is there. Memory is measured first, before anything else uses it."""
     console = Console()
     if not console.is_terminal:
         console.width = WIDTH

@@ -1,4 +1,4 @@
-"""What one would test a framework with instead: hypothesis' state machine, and a parametrised pytest test, both calling the C++
+"""Other ways to test a framework: hypothesis' state machine, and a parametrised pytest test, both calling the C++
 reference framework directly.
 """
 
@@ -42,7 +42,7 @@ def test_whole_life(case):
 
 
 class Life(RuleBasedStateMachine):
-    """The life cycle as one would write it down for hypothesis: only what is permitted, with a model of two components."""
+    """The life cycle as a hypothesis state machine: permitted operations only, with a model of two components."""
 
     operations = 0
 
@@ -118,7 +118,7 @@ def state_machine() -> float:
 
 
 def parametrised_test() -> float:
-    """Microseconds that one case of a parametrised pytest test costs, without what it takes pytest to start."""
+    """Microseconds that one case of a parametrised pytest test costs, without pytest's start."""
     return (_run(_MANY) - _run(_FEW)) / (_MANY - _FEW) * 1e6
 
 
@@ -133,6 +133,6 @@ def _run(cases: int) -> float:
 
 
 def _spent_by_children() -> float:
-    """Seconds of processor time; other processes would weigh more in the difference of two runs than what is looked for."""
+    """Seconds of processor time; the difference of two runs is small, and other processes would distort wall-clock time."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime

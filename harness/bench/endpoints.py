@@ -1,4 +1,4 @@
-"""What a life-cycle scenario costs through each endpoint, beside the framework alone and what one would test it with instead."""
+"""Measures a life-cycle scenario through each endpoint, the framework alone, and other ways to test it."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def tables() -> Iterator[Table]:
 
 
 SAMPLE = ("initialises_at_stop", "same_id_for_all", "forgets_the_last", "mixes_references_up")
-"""Mutants of the container profile that are as good as others to tell what one costs."""
+"""Mutants of profile container, a sample for the cost of one."""
 
 
 def _one_mutant() -> tuple[float, int]:

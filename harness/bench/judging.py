@@ -1,4 +1,4 @@
-"""What judging costs an event: on a life of a million events, read as a stream, and on the suite's own scenarios."""
+"""Measures judging per event: on a trace of a million events, read as a stream, and on the suite's own scenarios."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ CALLS = 100
 """Calls of the test between two reconnections of the long life; the client passes each one on."""
 
 AIM = 5
-"""Judging takes at most so many times as long as decoding."""
+"""The limit of judging time, as a multiple of decoding time."""
 
 _BLOCK = 64 * 1024
 _ROUNDS = 3
@@ -58,7 +58,7 @@ class Costs:
 
 
 def of_a_long_life(events: int) -> Costs:
-    """What it costs to judge one trace of so many events that comes as a stream."""
+    """Measure judging one long trace that comes as a stream."""
     small = LongLife(2, CALLS)
     life = LongLife(max(2, events // (len(LongLife(3, CALLS)) - len(small))), CALLS)
     scenario = life.scenario()
@@ -91,7 +91,7 @@ def of_a_long_life(events: int) -> Costs:
 
 
 def of_the_suite(profile: str) -> Costs:
-    """What it costs to judge the traces of the profile's scenarios, but those in which time passes, one by one."""
+    """Measure judging the traces of the profile's scenarios one by one, without those in which time passes."""
     answers = list(_answers(profile))
     lines = [line for _, line in answers]
     traced = [(scenario, _events(line), line) for scenario, line in answers]

@@ -20,7 +20,7 @@ COMPOSITES = 4
 
 
 def large_model(elements: int) -> Model:
-    """A model of about so many elements, at least of those that the core has and one block of the mix."""
+    """A model of about ``elements`` elements: the core models and at least one block of the mix."""
     core = tuple(_core())
     left = elements - sum(1 for module in core for _ in walk(module))
     one = block(0)

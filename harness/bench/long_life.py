@@ -27,7 +27,7 @@ _BEGINNING: tuple[s.Step, ...] = (
 
 
 class LongLife:
-    """A life of so many ``rounds``, with ``calls`` of the test in each, which the client passes on to the server."""
+    """A scenario of ``rounds`` rounds with ``calls`` calls each, which the client passes on to the server."""
 
     def __init__(self, rounds: int, calls: int) -> None:
         self._round: tuple[s.Step, ...] = (
@@ -43,7 +43,7 @@ class LongLife:
         self._size = len(self._first) - self._begin
 
     def scenario(self, rounds: int | None = None) -> s.Scenario:
-        """What is to be done; each step of a round is one value, however often it is done."""
+        """The steps; a step of a round is one value, shared by all rounds."""
         plan: dict[s.Hook, tuple[s.Action, ...]] = {"exchange": (s.CallPort(_REQUIRED, 2),)}
         components = {
             _SERVER: s.Declaration(provides=(_PROVIDED,)),
@@ -56,7 +56,7 @@ class LongLife:
         return self._begin + self._size * (self._rounds - 1)
 
     def events(self) -> Iterator[Event]:
-        """What happens, event by event."""
+        """The trace, event by event."""
         yield from self._first[: self._begin]
         again = self._first[self._begin :]
         duration = again[-1].t - again[0].t + 1000

@@ -21,7 +21,7 @@ def medians(cases: dict[str, Callable[[], float]], rounds: int = ROUNDS) -> dict
 
 
 def timed(action: Callable[[], object], times: int, each: int = 1) -> float:
-    """Microseconds that ``action`` takes; divided by ``each`` if it does so many things at a time."""
+    """Microseconds that ``action`` takes; divided by ``each``, the number of operations in one ``action``."""
     began = time.perf_counter()
     for _ in range(times):
         action()

@@ -1,4 +1,4 @@
-"""What reading and checking a large model costs, beside what lxml needs for the same file: ``python -m
+"""Measures reading and checking a large model, beside parsing it with lxml: ``python -m
 ucm_cts.harness.bench.models``. Each way is gone in a process of its own, so that memory is its own, too.
 """
 
@@ -32,7 +32,7 @@ from ucm_cts.harness.toolchains.schema import parser, schema
 ELEMENTS = 1_000_000
 
 TIMES = 6
-"""Reading and checking take at most so many times as long as parsing with lxml."""
+"""The limit of reading and checking, as a multiple of parsing with lxml."""
 
 MEGABYTES = 1000
 """Reading and checking take at most so much memory."""
@@ -66,7 +66,7 @@ WAYS: dict[str, Callable[[Path], None]] = {
 
 
 def _alone(*arguments: str) -> Any:
-    """What this module answers in a process of its own."""
+    """What this module prints when it runs in a process of its own."""
     command = [sys.executable, "-m", __spec__.name, *arguments]
     return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
 
@@ -97,7 +97,7 @@ def table(elements: int, size: int, measured: dict[str, tuple[float, float]]) ->
 
 
 def of_a_large_model(elements: int = ELEMENTS) -> Table:
-    """What each way costs with a model of about so many elements."""
+    """Measure each way with a model of about ``elements`` elements."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "large.xml"
         count = _alone("--make", "--elements", str(elements), str(path))
@@ -110,7 +110,7 @@ def of_a_large_model(elements: int = ELEMENTS) -> Table:
 @click.option("--elements", default=ELEMENTS, show_default=True)
 @click.argument("path", type=click.Path(path_type=Path), required=False)
 def main(make: bool, way: str | None, elements: int, path: Path | None) -> None:
-    """Make a large model and print what each way costs. This process stays small: others begin with its memory."""
+    """Make a large model and print the cost of each way. This process stays small, because child processes start with its memory."""
     if path is None:
         Console(width=100).print(of_a_large_model(elements))
     elif make:

@@ -26,7 +26,7 @@ MOST_DOTS = 100
 
 
 LONGEST_PROBLEM = 600
-"""Characters that are told of what is wrong."""
+"""How many characters of a wrong value a message shows."""
 
 
 class DocumentError(Exception):
@@ -127,7 +127,7 @@ _KEY = re.compile(r"[ \t]*(?:\"([^\"\\\n]*)\"|'([^'\n]*)'|([A-Za-z0-9_-]+))[ \t]
 
 
 def _toml_lines(text: str) -> dict[str, int]:
-    """Where tables and keys stand, as far as that can be told line by line; it is for messages only."""
+    """Where tables and keys stand, as far as lines show it; messages name these lines."""
     lines: dict[str, int] = {}
     table = ""
     for number, line in enumerate(text.split("\n"), 1):

@@ -16,7 +16,7 @@ from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 
 Level = Literal["shall", "should", "may", "statement"]
-"""How strongly the text speaks: an obligation, a recommendation, a permission, or a plain statement of what is."""
+"""The force of a requirement: an obligation, a recommendation, a permission, or a fact."""
 
 
 class Requirement(Value, frozen=True):
@@ -63,7 +63,7 @@ def load_requirements() -> tuple[Requirement, ...]:
 
 
 def in_the_making(profile: str) -> str:
-    """Why a run cannot choose ``profile`` yet; nothing for a profile that is complete or that nobody knows."""
+    """Why a run cannot choose ``profile`` yet; empty for a complete or unknown profile."""
     requirements = [r for r in load_requirements() if r.profile in PARTS.get(profile, (profile,))]
     pending = sum(bool(r.pending) for r in requirements)
     if not pending:

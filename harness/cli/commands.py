@@ -157,7 +157,7 @@ def run(
                         _check(campaign, purposes, console, f"{which}: " if repeat > 1 else "")
                     except KeyboardInterrupt:
                         interrupted = True
-                    if not (interrupted and reports):  # what is half done would look unstable
+                    if not (interrupted and reports):  # an interrupted run would look unstable
                         reports.append(campaign.report())
             except (HostUnavailable, WrongUse) as problem:
                 if not reports:
@@ -315,7 +315,7 @@ cli.add_command(compare)
 
 
 def main() -> None:
-    """The console entry point: turns what goes wrong into one clear line and an exit status."""
+    """The console entry point: turns an error into one clear line and an exit status."""
     try:
         cli(standalone_mode=False)
     except click.exceptions.Exit as end:
@@ -329,7 +329,7 @@ def main() -> None:
     except (click.exceptions.Abort, KeyboardInterrupt):
         click.echo("ucm-cts: interrupted", err=True)
         sys.exit(HARNESS_FAILED)
-    except Exception as error:  # noqa: BLE001 - the last resort; nobody shall read a traceback
+    except Exception as error:  # noqa: BLE001 - the last resort: a user sees one line, not a traceback
         click.echo(f"ucm-cts: the harness failed: {type(error).__name__}: {error}", err=True)
         sys.exit(HARNESS_FAILED)
 

@@ -1,4 +1,4 @@
-"""``ucm-cts explore``: what does ADAPTER do with scenarios that nobody wrote?"""
+"""``ucm-cts explore``: run ADAPTER on generated scenarios"""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ _UNITS = {"s": 1, "m": 60, "h": 3600}
 
 @dataclass(frozen=True)
 class Budget:
-    """So many seconds, or so many scenarios."""
+    """The budget: a number of seconds, or a number of scenarios."""
 
     amount: float
     is_time: bool = True
@@ -107,7 +107,7 @@ def explore(
     in_process: bool,
     timeout: float,
 ) -> None:
-    """Draw scenarios that nobody wrote, run them on ADAPTER, and shorten what fails.
+    """Generate scenarios, run them on ADAPTER, and shorten those that fail.
 
     Failures are remembered and tried first the next time. Exit status: 0 nothing found, 1 something found or
     interrupted, 2 wrong use, 3 the harness failed.
@@ -145,7 +145,7 @@ def explore(
 def _explore(
     exploration: Exploration, memory: Memory, budget: Budget, console: Output
 ) -> tuple[list[Replayed], HowFar, bool]:
-    """What is still there, how far it came, and whether it was interrupted."""
+    """The failures that are still there, the scenarios run, and whether the run was interrupted."""
     known: list[Replayed] = []
     far = HowFar(0, 0, 0, 0, 0)
     with _progress(console) as progress:

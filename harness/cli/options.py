@@ -1,4 +1,4 @@
-"""What several commands of the command line take, and how they end."""
+"""Options and exit statuses that several commands share."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.execution.driver import Limits
 
 CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
-"""Exit statuses; what is not conformant may be merely inconclusive."""
+"""Exit statuses; NOT_CONFORMANT includes inconclusive runs."""
 
 DEFAULT_ADAPTER = "reference-cpp"
 
@@ -68,7 +68,7 @@ timeout_option = click.option(
 
 
 def leave(console: Output, status: int, remainder: str = "") -> NoReturn:
-    """End with ``status``, unless something of what was to be read is lost."""
+    """End with ``status``, or with a failure if output was lost."""
     console.file.flush()
     if console.error:
         click.echo(f"ucm-cts: standard output cannot be written: {console.error}{remainder}", err=True)

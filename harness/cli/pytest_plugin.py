@@ -53,7 +53,7 @@ def _seconds(text: str) -> float:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Wrong use is told before anything runs."""
+    """Report wrong use before anything runs."""
     profile = config.getoption("--iut-profile")
     if profile != _PROFILE:
         from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
@@ -147,7 +147,7 @@ def campaign(request: pytest.FixtureRequest) -> Iterator[Campaign]:
             known = known_today(Path(list_of_known) if list_of_known else None)
             endpoint = locate(adapter, config.getoption("--iut-in-process"))
             driver = cleanup.enter_context(Driver(endpoint, drawn, limits))
-            _ = driver.disguise  # asks who is there
+            _ = driver.disguise  # starts a host, which identifies the adapter
             profile = config.getoption("--iut-profile")
             check_subject(statement, driver.identity, profile)
             running = Campaign(driver, profile, known, statement)
@@ -171,7 +171,7 @@ _STATEMENT: pytest.StashKey[Statement] = pytest.StashKey()
 
 
 def _undecided(campaign: Campaign, report: Report) -> list[str]:
-    """What no node shows and yet is not green: a line each. Of a selection only what it meant to find out counts."""
+    """One line for each requirement that no node shows and that did not pass. After a selection, only selected ones count."""
     from ucm_cts.harness.results.known_failures import stale
     from ucm_cts.harness.statement.applicability import purposes_for
 
@@ -204,7 +204,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
-    """Say what is not known."""
+    """Print the requirements without a verdict."""
     lines = config.stash.get(_UNDECIDED, [])
     if lines:
         terminalreporter.section("UCM conformance is not established", red=True)

@@ -23,10 +23,10 @@ from ucm_cts.harness.selftest.page import write_matrix
 from ucm_cts.harness.selftest.toolchains import ToolChainSubject, all_subjects
 
 TOLD_EVERY = 50
-"""Where no progress can be drawn, it is told each time so many have been examined."""
+"""Without a terminal, progress is printed each time this many subjects have been examined."""
 
 LISTED = 40
-"""So many survivors, spills and wronged variants are told in the terminal; the page has them all."""
+"""How many survivors, spills and failed variants the terminal shows; the page has all."""
 
 
 @click.command()
@@ -113,7 +113,7 @@ def _list(
 
 
 def _conduct(conduct: Conduct, console: Output) -> bool:
-    """Run everybody; True if interrupted."""
+    """Run all subjects. Returns True if interrupted."""
     done = wrong = 0
     with ends_like_interrupts(), progress_of(console) as progress:
         total = conduct.number

@@ -1,4 +1,4 @@
-"""The terminal: what it cannot show is shown otherwise, and when nobody listens any more the work goes on all the same."""
+"""The terminal: characters that it cannot show are replaced, and a terminal that has closed does not end the run."""
 
 from __future__ import annotations
 
@@ -76,14 +76,14 @@ class _Stream(io.TextIOBase):
             self._give_up()
 
     def _give_up(self) -> None:
-        """What is buffered must not fail again when the interpreter ends."""
+        """Buffered output must not fail again when the interpreter ends."""
         with suppress(OSError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), self._target.fileno())
 
 
 @contextmanager
 def ends_like_interrupts() -> Iterator[None]:
-    """A request to end, or a terminal that closes, is as good as an interrupt, once; nobody is asked twice."""
+    """Treat a request to end, or a closed terminal, as one interrupt; later ones are ignored."""
     before = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}
     ours = [number for number, handler in before.items() if handler is not signal.SIG_IGN]
 
@@ -102,7 +102,7 @@ def ends_like_interrupts() -> Iterator[None]:
 
 
 def progress_of(console: Output) -> Progress:
-    """What is done and how much there is; gone when all is done."""
+    """A progress bar; it disappears at the end."""
     return Progress(
         TextColumn("{task.description}", markup=False),
         BarColumn(),

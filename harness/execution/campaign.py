@@ -35,7 +35,7 @@ NOT_CONFIRMED = "failures without a second look"
 
 @dataclass(frozen=True)
 class Checked:
-    """What came out for one test purpose: the failures its scenarios showed, of whatever requirement."""
+    """The result of one test purpose: the failures that its scenarios showed, of any requirement."""
 
     purpose: TestPurpose
     executions: int
@@ -54,7 +54,7 @@ class Campaign:
         watch: Callable[[Answer, Ledger], None] | None = None,
         distinct_incidents: bool = False,
     ) -> None:
-        """``watch`` is told of each answer that is a trace, and of what the judge says of it. Of ``distinct_incidents`` the
+        """``watch`` gets each answer with a trace, and the verdicts on it. Of ``distinct_incidents`` the
         report has one of each cause, of others all.
         """
         self._driver = driver

@@ -1,4 +1,4 @@
-"""Drives scenarios through a host: disguised, pipelined, with a second look at whatever went wrong."""
+"""Drives scenarios through a host: disguised, pipelined, and once more after an incident."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ _HOST_IS_GONE: frozenset[IncidentKind] = FRAMEWORK_INCIDENTS | {"flood", "garbag
 
 @dataclass(frozen=True)
 class Answer:
-    """One scenario and what came of it. ``trace`` is spelled as ``disguised`` is; after an incident it is what is known.
+    """One scenario and its result. ``trace`` has the names of ``disguised``; after an incident it is the known part.
 
-    That is everything if ``is_whole``: the host itself told it, and which of its threads never came back.
+    With ``is_whole`` it is complete: the host sent it, with the threads that never came back.
     """
 
     name: str
@@ -92,7 +92,7 @@ class Driver:
 
     @property
     def identity(self) -> Welcome:
-        """Who is tested. Starts a host; raises ``WrongUse`` or ``HostUnavailable`` if there is none."""
+        """The implementation under test. Starts a host; raises ``WrongUse`` or ``HostUnavailable`` if there is none."""
         return self._hosts.welcome
 
     @property
@@ -150,7 +150,7 @@ class Driver:
                         break
                     began = time.monotonic()
             yield from untried()
-            returned.extendleft(reversed(waiting))  # what was on its way to a host that is gone
+            returned.extendleft(reversed(waiting))  # these were sent to a host that has ended
             waiting.clear()
 
     def _next(self, source: Iterator[tuple[str, Scenario]]) -> _Case | None:
@@ -206,7 +206,7 @@ class Driver:
         return self._second_look(run, reply)
 
     def _out_of_time(self, answer: HostAnswer) -> str | None:
-        """Why the host cannot have lived through what it tells."""
+        """Why the times of the trace cannot be true; None if they can."""
         received = time.monotonic_ns()
         if self._clock[0] != answer.host:
             self._clock = answer.host, HostClock(self._is_near)
@@ -214,7 +214,7 @@ class Driver:
         return self._clock[1].contradiction(events, answer.sent, received)
 
     def _second_look(self, run: Run, first: Incident) -> tuple[Trace, Incident]:
-        """The same scenario once more, each event sent as it happens: what led to the incident?"""
+        """Run the scenario once more and have each event sent as it happens, to find what led to the incident."""
         began = time.monotonic()
         second = self._hosts.run_again(run)
         self._patience.looked(time.monotonic() - began)
@@ -238,7 +238,7 @@ def _lasting(scenario: Scenario, times: float) -> Scenario:
 
 @dataclass(frozen=True)
 class _Case:
-    """One scenario on its way: what is sent, and why it is not sent after all."""
+    """One scenario in the pipeline: the message for the host, or the reason for leaving it out."""
 
     name: str
     scenario: Scenario

@@ -1,4 +1,4 @@
-"""Does a host's clock tell the truth from answer to answer? An old trace told again has old times, or new ones that nobody lived.
+"""Checks a host's clock from answer to answer. A replayed trace has old times, or invented ones that do not fit the harness's clock.
 
 Events of one host have times of one monotonic clock (trace.py), so that a later scenario has later times. And where the harness
 starts the host their clocks run alike: no event comes before its scenario was sent, and none after its answer.
@@ -12,7 +12,7 @@ GRAIN = 50_000_000
 """Nanoseconds by which two clocks may seem to differ at any time."""
 
 DRIFT = 0.001
-"""Of the time that has passed: by so much they may drift apart, if what is started here stands for a host elsewhere."""
+"""The part of the elapsed time by which the clocks may drift apart, if the process started here is a proxy of a remote host."""
 
 
 class HostClock:
@@ -25,7 +25,7 @@ class HostClock:
         self._ahead: int | None = None
 
     def contradiction(self, trace: Trace, sent: int, received: int) -> str | None:
-        """Why ``trace`` cannot be what this host told next; None if it can.
+        """Why ``trace`` cannot be this host's next answer; None if it can.
 
         ``sent`` and ``received`` are when the harness sent the scenario and got the answer, in nanoseconds of its own
         monotonic clock.
@@ -35,7 +35,7 @@ class HostClock:
         first, last = trace[0].t, max(event.t for event in trace)
         before, self._last = self._last, last
         if before is not None and first < before:
-            return f"it begins {before - first} ns before the end of what this host told last: an old trace told again"
+            return f"it begins {before - first} ns before the end of this host's last answer: a replayed trace"
         if not self._is_near:
             return None
         least = sent - first  # the host's clock is behind the harness's by so much at least, since it was sent before
@@ -43,5 +43,5 @@ class HostClock:
         self._first = first if self._first is None else self._first
         too_much = last + self._ahead - received
         if too_much > GRAIN + DRIFT * (last - self._first):
-            return f"it tells of {too_much / 1e6:.0f} ms more than have passed since the host was asked"
+            return f"it spans {too_much / 1e6:.0f} ms more than have passed since the host got the scenario"
         return None

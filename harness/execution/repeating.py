@@ -23,7 +23,7 @@ from ucm_cts.reference_models.model.ics import Claims
 from ucm_cts.reference_models.monitor import Judge
 
 SEEDS = 3
-"""Of so many runs that did not show a failure its scenario is run again, until it is not shown."""
+"""The scenario of a failure is run again for up to this many runs that did not show it, until one does not show it."""
 
 Steady = Callable[[FailedExecution, int], Execution | None]
 """Runs the scenario of a failure with the seed of another run; the execution, unless that one shows the failure, too."""

@@ -32,7 +32,7 @@ SECONDS_FOR_SMALLER_VALUES = 5
 
 
 class Shortening:
-    """Of the failures that ``tally`` holds: what is found takes their place there."""
+    """Shortens the failures of ``tally`` and replaces them there."""
 
     def __init__(self, driver: Driver, judge: Judge, confirmation: Confirmation, tally: Tally) -> None:
         self._driver = driver
@@ -94,7 +94,7 @@ class Shortening:
             yield from self._driver.run([case], insist=True)
 
     def _findings(self, answer: Answer, execution: Execution) -> list[Finding]:
-        """What is wrong with one answer, as people read it."""
+        """The findings about one answer, in the names of the scenario."""
         if answer.incident is not None:
             finding = finding_of_incident(execution)
             return [finding] if finding is not None else []

@@ -27,17 +27,17 @@ from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.findings import Finding
 
 TRIES = 200
-"""Values that are drawn for one failure; shrinking what fails takes some more."""
+"""How many values are drawn for one failure; shrinking draws some more."""
 
 _PARTS = 60
 _PAUSE = 20
-"""Milliseconds in which a message may have been delivered: what waits for nothing is shortened faster."""
+"""Milliseconds after which a message counts as lost; a short wait makes shrinking fast."""
 
 _HASTE = 5
 """Tries wait for less time: many of them wait in vain."""
 
 FirstFailing = Callable[[Sequence[Scenario]], int | None]
-"""Runs scenarios and tells which is the first that still shows the failure."""
+"""Runs scenarios and returns the first one that still shows the failure."""
 
 
 @dataclass(frozen=True)
@@ -150,7 +150,7 @@ def _draw_smaller(part: _Sent, search: _Search, seed: int) -> None:
 
 @contextmanager
 def _without_traces() -> Iterator[None]:
-    """Hypothesis keeps what it learns of modules; not where the user is."""
+    """Keeps hypothesis from writing its cache into the user's folder."""
     from hypothesis import configuration
 
     with tempfile.TemporaryDirectory() as home:

@@ -1,1 +1,1 @@
-"""What did nobody think of? Scenarios are drawn, and drawn anew from those that showed something new."""
+"""Exploration: generates scenarios, and varies those that showed something new."""

@@ -1,4 +1,4 @@
-"""Exploration: scenarios nobody wrote, drawn one after the other, sent many at a time through the ordinary pipeline.
+"""Exploration: generates scenarios one after the other and sends them, many at a time, through the ordinary pipeline.
 
 Of a few candidates the one is sent whose transitions of the life-cycle model are the rarest so far. What shows events in an
 order not seen before is changed and becomes a candidate again.
@@ -39,13 +39,13 @@ CHANGED = 0.15
 """So often a candidate is one that showed something new, changed."""
 
 LAG = 128
-"""So many scenarios later what was new is taken up: more than are on their way at a time, so that a seed repeats all."""
+"""After this many further scenarios a new one is varied. It is more than are in the pipeline at a time, so that a seed repeats the run."""
 
 TRIES = 3
-"""So often a remembered failure is looked for before it is told to be gone."""
+"""How often the scenario of a remembered failure is run before the failure counts as gone."""
 
 IN_VAIN = 64
-"""After so many scenarios in a row that were not tried, because of what incidents took, no more are drawn."""
+"""After this many scenarios in a row that were left out because of incidents, no more are drawn."""
 
 
 @dataclass(frozen=True)
@@ -62,12 +62,12 @@ class Progress:
 
 
 Fate = Literal["still there", "no longer shown", "not told"]
-"""What becomes of a remembered failure. Nothing is told if something else came in between: an incident, or no time."""
+"""The fate of a remembered failure; None if an incident or the end of the time came first."""
 
 
 @dataclass(frozen=True)
 class Replayed:
-    """A failure that was remembered, and what became of it."""
+    """A remembered failure and its fate."""
 
     remembered: Remembered
     fate: Fate
@@ -93,7 +93,7 @@ class Exploration:
         self._run = 0
 
     def replay(self) -> list[Replayed]:
-        """Run what is remembered. What is not shown any more is forgotten, unless an incident kept it from being shown."""
+        """Run the remembered failures. One that is not shown any more is forgotten, unless an incident came first."""
         remembered = missing = self._memory.recall()
         answered: set[Identity] = set()
         for _ in range(TRIES):
@@ -125,7 +125,7 @@ class Exploration:
                 return
 
     def finish(self) -> None:
-        """Take a second look at what was found, and shorten what stands."""
+        """Confirm the failures, and shorten the confirmed ones."""
         self._campaign.confirm(passes=False)
         for _ in self._campaign.shorten():
             pass
@@ -161,7 +161,7 @@ class Exploration:
         return Writer(choose).scenario()
 
     def _draw_core(self) -> Scenario:
-        """One that asks for nothing that the vendor does not claim."""
+        """A scenario that needs only what the vendor claims."""
         for _ in range(TRIES):
             drawn = fitting([("", CoreWriter(self._random.choice).scenario())], self._statement)
             if drawn:

@@ -34,7 +34,7 @@ _OBJECT = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*")
 
 
 Identity = tuple[str, str, str, str]
-"""What makes two remembered failures the same."""
+"""The key by which two remembered failures are the same."""
 
 
 class Remembered(Value, frozen=True):
@@ -65,7 +65,7 @@ class Remembered(Value, frozen=True):
 
     @property
     def identity(self) -> Identity:
-        """What makes two failures the same."""
+        """The key by which two failures are the same."""
         return self.requirement, self.rule, self.cause, self.operation
 
     @property
@@ -84,9 +84,9 @@ class Memory:
         self.unreadable = 0
 
     def recall(self) -> list[Remembered]:
-        """What is remembered, the shortest scenario of each cause: incidents, then requirements in their order.
+        """The remembered failures, the shortest scenario of each cause: incidents, then requirements in their order.
 
-        What cannot be read, of another version perhaps, stays where it is and is counted as ``unreadable``.
+        An entry that cannot be read, perhaps of another version, stays and counts as ``unreadable``.
         """
         entries = self._entries()
         self.unreadable = sum(entry is None for _, entry in entries)
@@ -105,7 +105,7 @@ class Memory:
                 self._database.delete(self._key, known)
 
     def forget(self, cause: Identity) -> None:
-        """Nothing shows ``cause`` any more. What is in databases that are only read stays there."""
+        """Forget ``cause``. Entries of read-only databases stay."""
         for known, entry in self._entries():
             if entry is not None and entry.identity == cause:
                 self._database.delete(self._key, known)
@@ -122,7 +122,7 @@ def _read(value: bytes) -> Remembered | None:
 
 
 def open_databases(texts: Sequence[str]) -> ExampleDatabase:
-    """The databases that ``texts`` name, as one: what is found is written to all that can be written.
+    """The databases that ``texts`` name, as one: failures are written to all writable ones.
 
     Raises ``WrongUse`` if one of them is none, or cannot be used.
     """

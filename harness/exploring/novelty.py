@@ -1,4 +1,4 @@
-"""What is new: which of several scenarios is worth its time, and which have shown what nobody had seen before."""
+"""Novelty: which of several scenarios is worth running, and which traces show something new."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ucm_cts.harness.exploring.predicted_coverage import Transition, transitions
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 
 Kind = tuple[str, ...]
-"""What is told of an event: its type, the operation or hook, how it ended."""
+"""The features of an event: its type, the operation or hook, how it ended."""
 
 
 class Guide:

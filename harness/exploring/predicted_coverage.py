@@ -14,7 +14,7 @@ from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.model.prediction import Prediction
 
 Transition = tuple[str, ...]
-"""Rows of the life-cycle table: one after the other for one instance, or all that stand for one operation together."""
+"""Rows of the life-cycle table: one after the other for one instance, or all rows of one operation together."""
 
 _CALLS = get_args(s.ContainerCall)
 

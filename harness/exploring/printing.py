@@ -1,4 +1,4 @@
-"""What an exploration found, for people and machines."""
+"""Prints the result of an exploration, for people and for machines."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ from ucm_cts.harness.results.values import Execution, FailedExecution, IncidentR
 FILE = "exploration.json"
 
 SHOWN = 20
-"""So many failures, and so many incidents, are told in the terminal; the file has them all."""
+"""How many failures, and how many incidents, the terminal shows; the file has all."""
 
 _COLOURS: dict[Fate, str] = {"still there": "red", "no longer shown": "green", "not told": "yellow"}
 
 _STEPS = 12
-"""So many steps of the shortest scenario are told."""
+"""How many steps of the shortest scenario the terminal shows."""
 
 
 class Failure(Value, frozen=True):
@@ -62,7 +62,7 @@ class Mishap(Value, frozen=True):
 
 
 class Known(Value, frozen=True):
-    """A remembered failure, or the ``kind`` of a remembered incident, and whether it is still there; null if nobody knows."""
+    """A remembered failure, or the ``kind`` of a remembered incident, and whether it is still there; null if unknown."""
 
     requirement: str
     kind: str
@@ -90,12 +90,12 @@ class Found(Value, frozen=True):
 
 
 def is_found(report: Report) -> bool:
-    """Did anything fail, or not come back although nobody may wait for ever?"""
+    """Whether anything failed, or hung where waiting for ever is not permitted."""
     return bool(mishaps(report)) or any(result.verdict == "fail" for result in report.requirements)
 
 
 def mishaps(report: Report) -> list[tuple[int, IncidentReport]]:
-    """Incidents with their numbers, less what was not tried, and less calls that may wait for a start that never comes.
+    """The numbered incidents, without scenarios left out and without calls that may wait for a start that never comes.
 
     Once such calls have been seen waiting, a hang of which nothing more is known is taken for another one.
     """
@@ -166,7 +166,7 @@ def _steps(execution: Execution) -> tuple[str, ...]:
 
 
 def known_text(known: Sequence[Replayed], unreadable: int) -> RenderableType:
-    """What became of the failures that were remembered."""
+    """The fate of the remembered failures."""
     lines = [
         Text.assemble((f"{k.fate:15}  ", _COLOURS[k.fate]), f"{_name(k.remembered)}  {one_line(_observed(k), 200)}")
         for k in known

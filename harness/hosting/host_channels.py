@@ -40,7 +40,7 @@ class HostUnavailable(Exception):
 
 
 class Channel(Protocol):
-    """The descriptors that lead to one host, and what can be done to it."""
+    """The file descriptors of one host, and the operations on its process."""
 
     source: int
     target: int
@@ -66,11 +66,11 @@ class Opener(Protocol):
         """A fresh host. Raises ``HostUnavailable``, and ``WrongUse`` if the endpoint leads to no adapter."""
 
     def close(self) -> None:
-        """End all hosts and what made them."""
+        """End all hosts and the process that forks them."""
 
 
 def opener(endpoint: Endpoint) -> Opener:
-    """What opens ``endpoint``, which is not an in-process one."""
+    """The opener of ``endpoint``, which is not an in-process one."""
     if endpoint.kind in ("tcp", "unix"):
         return Connector(endpoint)
     module = "ucm_cts.adapters.sdk.python.host" if endpoint.kind == "python" else "ucm_cts.harness.hosting.spawner"
@@ -126,7 +126,7 @@ class TemplateProcess:
         return self._ended[pid]
 
     def forget(self, pid: int) -> None:
-        """Nobody will ask for the status any more."""
+        """The exit status is not needed any more."""
         self._ended.pop(pid, None)
 
     @property
@@ -275,9 +275,7 @@ class Connector:
                 return Connection(self._connect())
             except OSError as error:
                 if time.monotonic() > deadline:
-                    detail = (
-                        f"nobody answers at {self._endpoint.text}: {error.strerror or error}; is the adapter running?"
-                    )
+                    detail = f"no adapter answers at {self._endpoint.text}: {error.strerror or error}; is the adapter running?"
                     raise HostUnavailable(Incident("unreachable", detail)) from error
             time.sleep(0.05)
 

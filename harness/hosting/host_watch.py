@@ -31,7 +31,7 @@ _PAGE = os.sysconf("SC_PAGE_SIZE")
 @dataclass(frozen=True)
 class Limits:
     """What a host may take: ``seconds`` an answer, waits of the scenario not counted; ``memory`` resident MiB;
-    ``line`` bytes in one message; ``welcome_seconds`` until it has said who it is. ``incident_seconds`` is what a run
+    ``line`` bytes in one message; ``welcome_seconds`` until it has sent ``welcome``. ``incident_seconds`` is what a run
     may take for all that goes wrong with its hosts.
     """
 
@@ -55,7 +55,7 @@ class Deadline(msgspec.Struct, frozen=True):
 
 
 class HostIncident(Exception):
-    """The host did what it must not, and is gone."""
+    """The host broke a rule of the protocol or a limit, and has been ended."""
 
     def __init__(self, incident: Incident) -> None:
         super().__init__(f"{incident.kind}: {incident.detail}")
@@ -72,7 +72,7 @@ class Host(Protocol):
         """The next message of the host. Raises ``HostIncident``, also when the deadline passes."""
 
     def fail(self, kind: IncidentKind, detail: str) -> NoReturn:
-        """End the host because of what it said: raises ``HostIncident``."""
+        """End the host because of its message: raises ``HostIncident``."""
 
     def keep_to_one_core(self) -> None:
         """Let the threads that it will start take turns on one core, where the host is this machine's to schedule."""
@@ -180,7 +180,7 @@ class WatchedHost:
                 self._poll.unregister(self._channel.target)
 
     def _read(self) -> bool:
-        """Take in what there is; False when there was nothing."""
+        """Read the available bytes; False if there were none."""
         try:
             data = os.read(self._source, _CHUNK)
         except BlockingIOError:
@@ -203,7 +203,7 @@ class WatchedHost:
         return True
 
     def _drain(self) -> int:
-        """Keep the end of what there is on standard error; returns how much was new."""
+        """Keep the last bytes of standard error; returns how many were new."""
         new = 0
         with suppress(OSError):
             while self._channel.error is not None and new < 4 * _STDERR_TAIL:

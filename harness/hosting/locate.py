@@ -29,7 +29,7 @@ EndpointKind = Literal["python", "executable", "tcp", "unix"]
 
 
 class WrongUse(Exception):
-    """What the user asked for cannot be done; the message says what is wrong and what to try."""
+    """A wrong request of the user; the message says what is wrong and what to try."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def _published(group: str) -> dict[str, EntryPoint]:
 
 
 def _follow(entry: EntryPoint) -> Endpoint:
-    """Classes and modules are loaded by the host; anything else must be looked at to know which endpoint it names."""
+    """Classes and modules are loaded by the host; for other texts the file system decides which endpoint they name."""
     if not entry.attr:
         return Endpoint(entry.name, "python", entry.value)
     found = _load(entry)

@@ -1,4 +1,4 @@
-"""Finds the declarations of 10.1 in a framework's models and notes, fact by fact, what is as it should be."""
+"""Finds the declarations of 10.1 in a framework's models and compares them, fact by fact, with those of the suite."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.models.spellings import INTEGERS, KNOWN_ATTRIBUTES, KNOWN_TAGS, Element, is_printed, words
 
 Status = Literal["kept", "broken", "absent", "left out", "unclear"]
-"""``absent``: there is nothing to look at, because what should contain it is missing. ``left out``: it may be missing, and it
+"""``absent``: the declaration that should contain it is missing. ``left out``: it may be missing, and it
 is. ``unclear``: it is missing, but something is there in a spelling that the text never prints."""
 
 
@@ -25,7 +25,7 @@ class Reading(Value, frozen=True):
 
 
 class Declaration(Value, frozen=True):
-    """Where the declaration that a requirement speaks of stands in our own files."""
+    """The place of a requirement's declaration in the suite's own files."""
 
     requirement: str
     file: str
@@ -58,7 +58,7 @@ _REFERENCES = words("technicalAspect interface type item pattern portRole api in
 
 @dataclass(frozen=True)
 class Fact:
-    """One thing seen, and what it should have been."""
+    """One observed fact and the expected one."""
 
     status: Status
     expected: str = ""
@@ -131,7 +131,7 @@ class Comparing:
                 self.claims[option] = value
 
     def _declaration(self, ours: Element, scope: Element | None) -> Element | None:
-        """Look for ``ours`` in ``scope``, note what there is to say of it and all inside; what it was taken to be."""
+        """Look for ``ours`` in ``scope``, compare it and everything inside it; returns the element that was compared."""
         declaration = self.declarations[ours]
         readings = [r for r in declaration.readings if self._accepts(r)]
         theirs = _match(ours, scope, readings) if scope is not None else None
@@ -225,7 +225,7 @@ class Comparing:
         return expected in named if expected else _segments(there)[-1:] == _segments(value)[-1:]
 
     def _named(self, reference: str, element: Element) -> list[tuple[str, ...]]:
-        """What ``reference`` stands for: the nearest declaration, or what it could stand for if nothing is declared."""
+        """The declaration that ``reference`` means: the nearest one, or the possible paths if there is none."""
         candidates = _candidates(reference, element)
         return [p for p in candidates if p in self.declared][:1] or candidates
 
@@ -296,7 +296,7 @@ def _same(one: Element, other: Element) -> bool:
 
 
 def _form(element: Element) -> tuple[Any, ...]:
-    """What is declared, in whatever order."""
+    """The declarations, in any order."""
     return element.tag, tuple(sorted(element.attributes.items())), tuple(sorted(map(_form, element.children)))
 
 
@@ -305,7 +305,7 @@ def _segments(reference: str) -> tuple[str, ...]:
 
 
 def _candidates(reference: str, element: Element) -> list[tuple[str, ...]]:
-    """The paths that ``reference`` can stand for where ``element`` is, the nearest first."""
+    """The paths that ``reference`` can mean at ``element``, the nearest first."""
     segments = _segments(reference)
     if reference.startswith("::") or element.parent is None:
         return [segments[1:] if segments[:1] == ("core",) else segments]

@@ -28,12 +28,12 @@ CHECKS = {
     "no_policy_api": "Passive policies have no port elements.",
     "port_sides": "Who requires an interface and who provides it is as 10.1 tells it.",
 }
-"""The checks that the catalogue names among its rules, and what each looks at."""
+"""The checks that the catalogue names among its rules, with the declarations that each compares."""
 
 
 @dataclass(frozen=True)
 class ModelResult:
-    """What the models show about one requirement. ``expected`` and ``observed`` say what is wrong, if anything is."""
+    """The result of the model checks for one requirement; ``expected`` and ``observed`` describe a difference."""
 
     requirement: str
     check: str
@@ -51,7 +51,7 @@ class Comparison:
 
 
 class Statement(Value, frozen=True):
-    """A requirement that repeats what declarations say of themselves, or speaks of what is not to be there."""
+    """A requirement that repeats other declarations, or forbids a declaration."""
 
     requirement: str
     check: str
@@ -85,7 +85,7 @@ def compare(paths: Sequence[Path], claims: Mapping[str, str] = {}) -> Comparison
 
 
 def checked() -> dict[str, frozenset[str]]:
-    """The requirements that each check stands for."""
+    """The requirements of each check."""
     catalogue = core_catalogue()
     stands_for: dict[str, set[str]] = {name: set() for name in CHECKS}
     stands_for["core_declarations"] |= {d.requirement for d in catalogue.declarations}
@@ -135,7 +135,7 @@ def _results(facts: Mapping[str, Mapping[str, Fact]]) -> Iterator[ModelResult]:
 
 
 def _result(requirement: str, check: str, facts: list[Fact]) -> ModelResult:
-    """The worst of ``facts`` decides; what is there and what is absent together is kept."""
+    """The worst of ``facts`` decides; present and absent facts together count as kept."""
     for status in _WORST_FIRST:
         telling = [fact for fact in facts if fact.status == status]
         if telling:

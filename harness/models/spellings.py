@@ -26,7 +26,7 @@ _IMPLIED = {
 
 
 def words(text: str) -> tuple[str, ...]:
-    """The words of ``text``, for lists that nobody wants to read in quotes."""
+    """The words of ``text``, for lists without quotes."""
     return tuple(text.split())
 
 
@@ -39,7 +39,7 @@ INTEGERS = tuple(INTEGER_RANGES)
 
 
 def _words() -> dict[str, tuple[str, ...]]:
-    """What may stand in attributes that hold words, in canonical spelling."""
+    """The permitted words of an attribute, in canonical spelling."""
     found: dict[str, tuple[str, ...]] = {}
     for cls, fields in LITERALS.items():
         for held, meanings in fields.items():
@@ -104,7 +104,7 @@ def read_models(paths: list[Path]) -> tuple[Element, Element]:
 
 
 def _modules(element: etree._Element) -> Iterator[etree._Element]:
-    """The outermost modules, whatever a tool wraps around them; what is no wrapper either is taken as it is."""
+    """The outermost modules, inside the elements that a tool may wrap around them; other elements stay as they are."""
     inside = [e for e in element.iterdescendants() if isinstance(e.tag, str) and _tag(e) in MODULES]
     if _tag(element) in (*MODULES, "ComponentModule") or not inside or _name(element):
         yield element
@@ -141,7 +141,7 @@ def _value(attribute: str, value: str) -> str:
 
 
 def _name(element: etree._Element) -> str:
-    """The name, called identifier in 9.1.4.1; what has a name may have any further identifier."""
+    """The name, called identifier in 9.1.4.1; a named element may have any further identifier."""
     return str(element.get("name", element.get("identifier", ""))).strip()
 
 

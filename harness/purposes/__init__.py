@@ -1,1 +1,1 @@
-"""What to run: scenarios of people, and those derived from tables, types and schedules."""
+"""Test purposes: scenarios from scripts, and scenarios derived from tables, types and schedules."""

@@ -15,9 +15,9 @@ Plan = Mapping[Hook, Sequence[Action]]
 def value_problems(
     ports: Mapping[str, str], plan: Plan, interfaces: Mapping[str, Interface]
 ) -> Iterator[tuple[str, str]]:
-    """What is wrong with calls and answers of a component whose ``ports`` have these interfaces: where in it, and what.
+    """The errors in calls and answers of a component whose ``ports`` have these interfaces: place and message.
 
-    Port elements without interface, and those of policies, are not looked at.
+    Port elements without interface, and those of policies, are not checked.
     """
     known = {port: interfaces[name] for port, name in ports.items() if name in interfaces}
     for hook, actions in plan.items():

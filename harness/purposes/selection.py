@@ -37,7 +37,7 @@ def load_purposes(profile: str, *readings: str, extra_states: int = 0) -> tuple[
     """All test purposes of ``profile``: scripts first, because they read best when they fail.
 
     Those for other ``readings`` (``option=value``) are left out; of an option that is not declared the first value holds.
-    Systematic suites are those for so many ``extra_states``.
+    Systematic suites are those for ``extra_states`` additional states.
     """
     known = _readings(readings)
     data = data_purposes(known) if "core" in PARTS[profile] else []

@@ -69,7 +69,7 @@ def repeat_command(report: Report) -> str:
 
 
 def saved(execution: Execution, exercises: tuple[str, ...]) -> dict[str, Any]:
-    """A scenario as it stands in a file: a script of one scenario."""
+    """The text of a scenario file: a script with one scenario."""
     return {"scenario": execution.name, "exercises": list(exercises), **msgspec.to_builtins(execution.scenario)}
 
 

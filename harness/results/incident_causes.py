@@ -1,4 +1,4 @@
-"""Which incidents are one and the same: those that agree in kind, in what is told of them, and in the operation in progress."""
+"""Groups incidents: those that agree in kind, in detail and in the operation in progress are one."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ucm_cts.harness.results.incidents import is_waiting, last_open_call
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, IncidentKind, IncidentReport
 
 NOT_AGAIN = "not when run once more"
-"""Instead of an operation: the second look, which would have told, did not show the incident."""
+"""In place of an operation: the second run, which would have shown it, did not show the incident."""
 
 _DIFFERENT = re.compile(r"0[xX][0-9a-fA-F]+|\b(?=[a-fA-F-]*\d)[0-9a-fA-F-]{8,}\b|\d+(?:[.,]\d+)*")
 """Addresses, hexadecimal ids and numbers."""
@@ -24,10 +24,10 @@ _SAME_AGAIN = re.compile(r"([^\s,]+)(?:, \1)+(?![^\s,])")
 
 
 class IncidentCause(NamedTuple):
-    """What makes two incidents the same.
+    """The key by which two incidents are the same.
 
     ``detail`` is its first line, in which numbers, ids, addresses and names of components are all alike; ``operation`` was
-    in progress, or is empty if nothing is known of that. Calls that wait for a start are told from others that hang.
+    in progress, or is empty if nothing is known of that. Calls that wait for a start are kept apart from other calls that hang.
     """
 
     kind: IncidentKind
@@ -37,7 +37,7 @@ class IncidentCause(NamedTuple):
 
     @property
     def is_open(self) -> bool:
-        """Did nobody look what was going on?"""
+        """Whether no second run showed the operation in progress."""
         return not self.operation and self.kind in FRAMEWORK_INCIDENTS
 
     def may_be(self, other: IncidentCause) -> bool:
@@ -62,7 +62,7 @@ def cause_of_incident(execution: Execution) -> IncidentCause:
 
 
 def during(cause: IncidentCause) -> str:
-    """When it happened, in words that go on after what happened; empty if nobody knows."""
+    """When it happened, in words that continue the incident's description; empty if it is not known."""
     if cause.operation in ("", NOT_AGAIN):
         return cause.operation and f", {cause.operation}"
     return f", during {cause.operation}"
@@ -75,7 +75,7 @@ class DistinctIncidents:
         self._met: dict[IncidentCause, IncidentReport] = {}
 
     def add(self, execution: Execution) -> None:
-        """One more. If nobody looked what was going on, it counts as one of those that it may be."""
+        """Add one. Without a known operation it counts as one of those that it may be."""
         assert execution.incident is not None
         cause, new = cause_of_incident(execution), IncidentReport(execution.incident, execution)
         alike = [one for one in self._met if one.may_be(cause) and NOT_AGAIN not in (one.operation, cause.operation)]
@@ -85,7 +85,7 @@ class DistinctIncidents:
             known = new = self._met[cause]
         counted = known.occurrences if known is not None else 0
         for one in alike:
-            if one.is_open and one != cause:  # now it is known what that was
+            if one.is_open and one != cause:  # its operation is known now
                 counted += self._met.pop(one).occurrences
         best = known if known is not None and length(known.execution) <= length(execution) else new
         self._met[cause] = msgspec.structs.replace(best, occurrences=counted + 1)

@@ -1,4 +1,4 @@
-"""Incidents of the framework: what they say about an operation, and how much time a run gives them.
+"""Incidents of the framework: the finding that each gives, and the time that a run spends on them.
 
 Every scenario is tried and waited for in full, as long as that does not take for ever. Once incidents have taken their
 time, scenarios with an operation that has met one are no longer tried; all others still are.
@@ -16,10 +16,10 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.properties.operations import DECLARED
 
 FREE_LOOKS = 0.25
-"""The part of the time for incidents in which each is looked at again, whatever is known by then."""
+"""The part of the incident time in which every incident gets a second run."""
 
 LOOKS = 2
-"""Afterwards an operation that has met so many incidents of a kind explains the next one of that kind."""
+"""After that part, an operation with this many incidents of a kind explains the next one of that kind."""
 
 
 class Patience:
@@ -71,13 +71,13 @@ class Patience:
         self._spent_looking += seconds
 
     def spend(self, seconds: float, scenario: Scenario, incident: Incident, trace: Trace) -> None:
-        """An incident has taken ``seconds`` in all; ``trace`` is what is known of how it came about."""
+        """An incident has taken ``seconds`` in all; ``trace`` is the known part of its trace."""
         self._spent += seconds
         call = last_open_call(trace)
         if call is not None:
             self._met[s.operation(scenario.steps[call.step]), incident.kind] += 1
         elif self._spent >= self.seconds and not any(self._met[o, incident.kind] for o in _operations(scenario)):
-            self._exhausted = True  # nobody knows which scenarios to leave out
+            self._exhausted = True  # the operation is not known, so no scenario can be left out for it
 
 
 def finding_of_incident(execution: Execution) -> Finding | None:

@@ -21,7 +21,7 @@ HOOKS = ("transport-fault", "connector-fault", "trace-sink")
 
 @dataclass(frozen=True)
 class Quantity:
-    """A value of the IXIT: what holds when none is declared, its unit, what it means, and the greatest that makes sense."""
+    """A value of the IXIT: its default, its unit, its meaning, and its greatest sensible value."""
 
     default: float
     unit: str
@@ -53,11 +53,11 @@ IXIT: Mapping[str, Quantity] = {
 
 
 class Statement(Value, frozen=True):
-    """What one vendor states of one product.
+    """The statement (ICS and IXIT) of one product.
 
     ``capabilities``, ``readings`` and ``ixit`` have every part, option and quantity. ``models`` are the framework's own core
-    models, as written in the statement; ``folder`` is what they are relative to. ``source`` is the statement's file, empty
-    where nobody gave one; ``product`` is empty where it does not say whose it is.
+    models, as written in the statement; ``folder`` is the folder that they are relative to. ``source`` is the statement's file, empty
+    without a file; ``product`` is empty where the statement names none.
     """
 
     product: str
@@ -72,7 +72,7 @@ class Statement(Value, frozen=True):
 
     @property
     def claims(self) -> Claims:
-        """What rules need of it."""
+        """The part that properties need."""
         return Claims(self.readings, {name: value for name, value in self.ixit.items() if name in TOLERANCES})
 
     @property
@@ -93,7 +93,7 @@ class Statement(Value, frozen=True):
 
 @functools.cache
 def default_statement() -> Statement:
-    """What holds when the vendor states nothing."""
+    """The statement that holds when the vendor states nothing."""
     return Statement(
         product="",
         version="",

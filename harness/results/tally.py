@@ -1,4 +1,4 @@
-"""What all judged executions of a run add up to: verdicts for requirements, and the run's own."""
+"""Adds up all judged executions of a run: verdicts of the requirements, and the verdict of the run."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ Cause = tuple[str, str, str]
 
 
 def cause_of(finding: Finding) -> Cause:
-    """What makes two findings the same failure."""
+    """The key by which two findings are the same failure."""
     return finding.requirement, finding.rule, finding.cause
 
 
@@ -59,7 +59,7 @@ class Tally:
         self._reasons: dict[str, str] = {}
 
     def add(self, execution: Execution, ledger: Ledger, findings: Sequence[Finding]) -> None:
-        """Take in one execution, what the judge says of it, and the findings as people read them."""
+        """Add one execution, the verdicts on it, and its findings in the scenario's names."""
         self.scenarios += 1
         self.events += len(execution.trace)
         self.exercised.update(ledger.exercises)
@@ -78,7 +78,7 @@ class Tally:
             self.readings.setdefault(option, set()).update(values)
 
     def add_models(self, comparison: Comparison) -> None:
-        """What the framework's own models show."""
+        """Add the results of comparing the framework's own models."""
         self._observe(comparison.readings)
         for result in comparison.results:
             if result.status in ("kept", "broken"):
@@ -93,11 +93,11 @@ class Tally:
                 self.explain(result.requirement, f"models: {result.observed}")
 
     def settle(self, requirement: str, verdict: Verdict, reason: str) -> None:
-        """What becomes of a requirement that no run decides, unless something breaks it all the same."""
+        """Set the verdict of a requirement that no run decides, unless a finding breaks it."""
         self._settled.setdefault(requirement, (verdict, reason))
 
     def explain(self, requirement: str, reason: str) -> None:
-        """Why nothing exercises a requirement."""
+        """Give the reason why no scenario exercises a requirement."""
         self._reasons.setdefault(requirement, reason)
 
     def deny(self, finding: Finding) -> None:

@@ -1,4 +1,4 @@
-"""The values a run produces, from single traces to the whole report. No behaviour: who computes them says so."""
+"""The values a run produces, from single traces to the whole report. They have no behaviour."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Incident(Value, frozen=True):
     """A scenario that did not come back with a trace, or came back with one that cannot be true.
 
     ``detail`` names the signal, exit status, limit or offending field; ``stacks`` is what the host printed while it
-    was interrupted or died, empty if nothing; ``reproduced`` tells whether the second look met the incident again.
+    was interrupted or died, empty if nothing; ``reproduced``: whether the second run met the incident again.
     """
 
     kind: IncidentKind

@@ -1,1 +1,1 @@
-"""For whom: what a vendor states, and what follows from it."""
+"""Reads and checks a vendor's statement (ICS, IXIT), and selects what applies to the product."""

@@ -1,4 +1,4 @@
-"""What of the suite applies to a product, by what its vendor states: which scenarios are run, and which requirements count."""
+"""Selects, by the vendor's statement, the scenarios that are run and the requirements that count."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Draw = Callable[[int, Mapping[str, str]], Cases]
 
 def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
     """The test purposes of ``profile``, with those scenarios that ask for nothing that is not claimed; systematic suites are
-    those for so many ``extra_states``.
+    those for ``extra_states`` additional states.
     """
     reduced = (_reduced(purpose, statement) for purpose in _all_purposes(statement, profile, extra_states))
     return tuple(purpose for purpose in reduced if purpose.scenarios)
@@ -42,7 +42,7 @@ def needs_of(scenario: Scenario) -> frozenset[str]:
 def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, str] | None:
     """Why ``requirement`` is not decided for this vendor, and what its verdict is then; None if it is to be decided.
 
-    What only tests need, and the adapter does not offer, leaves it undecided; what else is not claimed makes it not apply.
+    A test facility that the adapter does not offer makes it inconclusive; a capability that is not claimed makes it not applicable.
     """
     missing = [unmet for need in load_capabilities().of(requirement.id) for unmet in _unmet(need, statement)]
     if set(requirement.rules) <= CHECKS.keys() and not statement.meets(_WITH_MODELS):
@@ -57,7 +57,7 @@ def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, st
 
 
 def asked_in_vain(statement: Statement, profile: str) -> Mapping[str, str]:
-    """What is not claimed and yet asked for by every scenario of a requirement, by the requirement's id."""
+    """The capabilities that are not claimed and that every scenario of a requirement needs, by requirement id."""
     lacking: dict[str, set[str]] = {}
     found: set[str] = set()
     for purpose in _all_purposes(statement, profile):
@@ -114,8 +114,8 @@ def fitting(cases: Iterable[tuple[str, Scenario]], statement: Statement) -> Case
 
 
 def _fitted(scenario: Scenario, statement: Statement) -> Scenario:
-    """The scenario with the declared patience, policies where they can be attached, and no reading of a log that nobody
-    can read back.
+    """The scenario with the declared patience, policies where they can be attached, and no ``read_log`` steps if the log cannot be
+    read back.
     """
     patience = round(scenario.patience * statement.ixit["patience"] / default_statement().ixit["patience"])
     steps = scenario.steps

@@ -1,4 +1,4 @@
-"""What can be told of a vendor's statement without running anything: false claims, what does not apply, the models."""
+"""Checks a vendor's statement without running a scenario: false claims, requirements that do not apply, the models."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ LARGEST = 256 * 1024
 
 
 def stated_by(path: Path | None, adapter: str) -> Statement:
-    """The statement in the file at ``path``, else the one published with ``adapter``, else what holds without any.
+    """The statement in the file at ``path``, else the one published with ``adapter``, else the default.
 
     Raises ``DocumentError``.
     """
@@ -29,7 +29,7 @@ def stated_by(path: Path | None, adapter: str) -> Statement:
 
 
 class Identity(Protocol):
-    """Who says which product it is: an adapter's welcome, or the description of a tool chain."""
+    """The identity of a product: an adapter's welcome, or the description of a tool chain."""
 
     @property
     def product(self) -> str: ...
@@ -39,7 +39,7 @@ class Identity(Protocol):
 
 
 def check_subject(statement: Statement, identity: Identity, profile: str) -> None:
-    """Is ``statement`` about the product that ``identity`` tells, and about ``profile``? Raises ``WrongUse`` if not."""
+    """Check that ``statement`` is about the product ``identity`` and about ``profile``. Raises ``WrongUse`` if not."""
     for what, stated, told in (
         ("product", statement.product, identity.product),
         ("version", statement.version, identity.version),
@@ -60,7 +60,7 @@ def read_statement(path: Path) -> Statement:
 
 
 class _Reader:
-    """Takes one file apart; whatever does not fit is told with its line and what would fit."""
+    """Reads one file; an error names the line and the permitted values."""
 
     def __init__(self, path: Path) -> None:
         self.path = path

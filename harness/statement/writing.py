@@ -21,7 +21,7 @@ WIDTH = 120
 
 
 def write_statement(out: Path, identity: Identity, adapter: str, force: bool = False) -> None:
-    """Write what holds unless another statement is given, for the vendor of ``identity`` to edit. Raises ``WrongUse``."""
+    """Write the default statement for the vendor of ``identity`` to edit. Raises ``WrongUse``."""
     known = stated_by(None, adapter)
     models = tuple(str(path.resolve()) for path in known.model_paths)
     profiles = known.profiles if known.source else FRAMEWORK_PROFILES
@@ -53,7 +53,7 @@ def _write(out: Path, known: Statement, identity: Identity, subject: str, force:
 
 
 def to_toml(statement: Statement, adapter: str, file: str) -> str:
-    """The whole file: each value with what it means, what it can be, and where in the specification that is unclear.
+    """The whole file: each value with its meaning, its permitted values, and the unclear place of the specification.
 
     ``adapter`` and ``file`` are for the command that it shows.
     """
@@ -92,7 +92,7 @@ def _toml(value: str | bool | float) -> str:
 
 
 def _comment(entry: Interpretation) -> str:
-    """What is unclear, how it is decided, and what each value is held to, each on lines of its own."""
+    """The unclear place, the decision, and the consequence of each value, on lines of their own."""
     text = entry.text.replace(" Decision: ", "\nDecision: ").replace(" Checked: ", "\nChecked: ")
     lines = [f"{entry.id} ({', '.join(entry.clauses)})", *text.split("\n")]
     return "\n".join(

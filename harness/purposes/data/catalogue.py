@@ -103,7 +103,7 @@ DEEP = Structure(
 
 @dataclass(frozen=True)
 class TypesUnderTest:
-    """Types of one sort: the requirement that asks for them, and a name for each."""
+    """Types of one sort: their requirement, and a name for each."""
 
     sort: str
     requirement: str

@@ -1,4 +1,4 @@
-"""Corner values of UCM types: the bounds, the empty and the full, each enumerator, each case, what other formats lose."""
+"""Corner values of UCM types: the bounds, the empty and the full, each enumerator, each case, values that other formats lose."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Readings = Mapping[str, str]
 """Values of options of ``suite/interpretations/clause_10_1.yaml``; an option that is missing has its first value."""
 
 UNDECLARED: Readings = MappingProxyType({})
-"""What holds when the vendor declares nothing."""
+"""The readings of a vendor who declares nothing."""
 
 LONG_STRING = 1025
 """Characters of an unbounded string that counts as long."""
@@ -41,13 +41,13 @@ LONG_SEQUENCE = 1000
 """Elements of an unbounded sequence that counts as long."""
 
 _OCTET = 256
-"""An octet cannot count so many elements."""
+"""More elements than an octet can count."""
 
 _MOST_COMBINATIONS = 12
 
 
 def reading_of(option: str, readings: Readings) -> str:
-    """The value that ``option`` has. Raises ``KeyError`` for one nobody knows."""
+    """The value that ``option`` has. Raises ``KeyError`` for an unknown one."""
     if option in readings:
         return readings[option]
     return next(i.options[option][0] for i in load_interpretations() if option in i.options)

@@ -87,14 +87,14 @@ def _telling(load: Load) -> Datum:
 
 
 def _some(of: AnyType, values: tuple[Datum, ...]) -> tuple[Datum, ...]:
-    """Fewer of the values of a type that is made of others, from the first to the last: each stands for many messages."""
+    """A selection of the values of a composed type, from the first to the last: each value takes many messages."""
     if isinstance(of, SCALARS) or len(values) <= _MESSAGES:
         return values
     return tuple(values[index * (len(values) - 1) // (_MESSAGES - 1)] for index in range(_MESSAGES))
 
 
 def with_parts(loads: Iterable[Load]) -> list[Load]:
-    """``loads``, and before them what their values are made of, the smallest parts first."""
+    """``loads``, preceded by the parts of their values, the smallest first."""
     wholes = list(loads)
     found: dict[bytes, tuple[AnyType, dict[bytes, Datum]]] = {}
     for load in wholes:
@@ -133,7 +133,7 @@ def service_interface(of: AnyType) -> Interface:
 
 
 def services(loads: Sequence[Load]) -> Scenario:
-    """Clients that send all values, and servers that give values of their own and give back what they got."""
+    """Clients that send all values, and servers that return values of their own and return what they received."""
     plans = [_client_and_server(load) for load in loads]
     return _scenario(
         s.SERVICE_CONNECTOR,

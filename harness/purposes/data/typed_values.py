@@ -43,7 +43,7 @@ Choose = Callable[[int, int], int]
 """Gives an integer between two, both included."""
 
 _USUAL_STRING, _USUAL_SEQUENCE = 30, 6
-"""The greatest lengths that are drawn, unless longer ones are asked for."""
+"""The greatest lengths that are drawn by default."""
 
 _SURROGATES = range(0xD800, 0xE000)
 _FIRST_CHARACTERS = "abc "
@@ -51,7 +51,7 @@ _FIRST_CHARACTERS = "abc "
 
 @dataclass(frozen=True)
 class _Source:
-    """Where values come from: who chooses, within which readings, and how long strings and sequences get."""
+    """The source of values: the chooser, the readings, and the lengths of strings and sequences."""
 
     choose: Choose
     readings: Readings

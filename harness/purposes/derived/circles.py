@@ -33,7 +33,7 @@ def circle_purposes() -> list[TestPurpose]:
 
 
 def _circle(policy: Policy, size: int) -> Scenario:
-    """The first member is entered at ``in.api`` and calls on; who is called at ``back.api`` calls on, but for the first."""
+    """The first member is entered at ``in.api`` and calls on; a member that is called at ``back.api`` calls on, except the first."""
     names = [f"member {number}" for number in range(size)]
     call = s.CallMethod("out.api", "pass_on")
     answer = s.Answer("pass_on")

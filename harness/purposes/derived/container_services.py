@@ -54,7 +54,7 @@ _NUMBERS = message_interface(Integer("ULONG"))
 
 
 def container_service_purposes() -> list[TestPurpose]:
-    """All of them; some are only for vendors who declare certain readings."""
+    """All scenarios; some are only for vendors with certain readings."""
     return [*_message_purposes(), *_port_purposes()]
 
 
@@ -399,7 +399,7 @@ def _messages() -> Scenario:
 
 
 def _own_method() -> Scenario:
-    """What the log says of it is not looked at: adapters need not know it by its name."""
+    """The log entries about it are not compared: adapters need not know its name."""
     client = Declaration(
         ("in.api",),
         ("out.api",),

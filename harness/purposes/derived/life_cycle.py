@@ -18,7 +18,7 @@ from ucm_cts.reference_models.model.prediction import Prediction
 from ucm_cts.reference_models.model.runtime import Member
 
 WAYS_TO_A_ROW = 4
-"""Scenarios kept for each row, set of components and kind of instance it stands for; the shortest are taken."""
+"""How many scenarios are kept for each row, set of components and kind of instance: the shortest ones."""
 
 _DEEPEST = 9
 _SERVER = Declaration(provides=("in.api",), connectable=True)
@@ -92,7 +92,7 @@ def _explore(table: LifeCycleTable, cast: Cast) -> Iterator[tuple[str, int, Scen
 
 
 def _kind(now: Prediction, member: Member | None) -> tuple[bool, ...]:
-    """What makes instances in one row differ: are they connected, used by others, have they been started before?"""
+    """The kind of an instance within one row: connected, used by others, started before."""
     if member is None:
         return ()
     return bool(member.live_connections()), any(now.runtime.clients_of([member])), member.startups > 0
@@ -106,7 +106,7 @@ def _replay(table: LifeCycleTable, cast: Cast, path: tuple[ContainerCall, ...]) 
 
 
 def _afterwards(step: ContainerCall) -> tuple[Step, ...]:
-    """What shows whether the framework is still in order."""
+    """Steps that show whether the framework still works."""
     container = getattr(step, "container", s.MANAGER)
     if isinstance(step, s.Destroy) or container == s.NIL:
         return ()

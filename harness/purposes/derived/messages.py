@@ -21,11 +21,11 @@ _MOST = 3
 """Emitters, and receivers, of one connection."""
 
 _MESSAGES = 2
-"""That an emitter pushes one after the other, each time it is told to."""
+"""The numbers that an emitter pushes one after the other at each call."""
 
 _MANY = 50
 _BLOCK = 2**20
-"""The messages of one burst lie within a block of so many numbers."""
+"""The size of the block of numbers that one burst uses."""
 
 _NUMBER = Integer("ULONG")
 _NOTE = Structure("note", {"number": _NUMBER, "text": String("CHAR8"), "others": SequenceType(_NUMBER)})
@@ -63,7 +63,7 @@ class _Cast:
         self.steps.append(s.Attach(link, "receiver", name, "in.api", self.places[name]))
 
     def add_emitter(self, name: str, link: str, declaration: Declaration) -> None:
-        """An emitter of ``link``, told to push by a call of the reference of its name."""
+        """An emitter of ``link``; a call through the reference of its name makes it push."""
         self.add(name, declaration)
         self.steps.append(s.Attach(link, "emitter", name, "out.api", self.places[name]))
         self.steps.append(s.GetPortElement(name, "in.api", f"tell {name}", self.places[name]))
@@ -77,7 +77,7 @@ class _Cast:
 
 
 def message_purposes() -> list[TestPurpose]:
-    """Who gets what: numbers of emitters and receivers, several connections, restarts, stops, bursts."""
+    """Delivery: numbers of emitters and receivers, several connections, restarts, stops, bursts."""
     return [*_groups(), *_several_connections(), _stop_meanwhile(), *_bursts()]
 
 
@@ -124,7 +124,7 @@ def _group(emitters: int, receivers: int, is_spread: bool, at_once: bool) -> Sce
 
 
 def _told(names: Sequence[str], at_once: bool) -> list[Step]:
-    """Each emitter is told to push."""
+    """Make each emitter push."""
     if not at_once:
         return [s.Invoke(f"tell {name}", number + 1) for number, name in enumerate(names)]
     calls: list[Step] = [s.Invoke(f"tell {name}", n + 1, thread=_worker_of(name)) for n, name in enumerate(names)]
@@ -132,7 +132,7 @@ def _told(names: Sequence[str], at_once: bool) -> list[Step]:
 
 
 def _worker_of(emitter: str) -> str:
-    """Who tells it to push, if all are told at once."""
+    """The worker that makes it push, if all push at once."""
     return f"thread of {emitter}"
 
 
@@ -172,7 +172,7 @@ def _two_connections(second: str, count: int, is_spread: bool, at_once: bool) ->
         pushed = [_message(interface, first + k) for k in range(_MESSAGES)]
         cast.add_emitter(names[-1], link, emitter(pushed, interface))
     calls: list[Step] = [s.OpenGate("got left"), s.OpenGate("got right")]
-    for round_ in (1, 2):  # what went astray in the first is there when the second has arrived
+    for round_ in (1, 2):  # a late message of the first round has arrived by the end of the second
         due = round_ * count * count * _MESSAGES
         calls += [*_told(names, at_once), s.ReachGate("got left", total=due), s.ReachGate("got right", total=due)]
     return cast.scenario(calls)

@@ -23,10 +23,10 @@ _SERVICE = Interface({"serve": Method((Parameter("given", "IN", Integer("LONG"))
 _MESSAGE = message_interface(Integer("ULONG"))
 _CLAUSE = "10.1.3.2"
 _MOMENT = 20
-"""Milliseconds: whoever is not kept out, and nobody waits for, shows in them."""
+"""Milliseconds in which an execution that is not kept out shows itself."""
 
 _A_WHILE = 50
-"""Milliseconds that nobody runs after stop."""
+"""Milliseconds after stop in which no execution may run."""
 
 _INTERFACES = {"service": _SERVICE, "message": _MESSAGE}
 _INTERFACE_OF = {_SERVICE_PORT: "service", _MESSAGE_PORT: "message"}
@@ -62,7 +62,7 @@ _MESSAGE_WAY = _Way(_MESSAGE_PORT, "component")
 
 @dataclass(frozen=True)
 class _Kind:
-    """A server under test: its policies, and what overlap in it would break, by the ports of two callers."""
+    """A server under test: its policies, and the requirement that an overlap breaks, by the ports of two callers."""
 
     name: str
     policies: tuple[Policy, ...]

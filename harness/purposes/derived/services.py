@@ -52,7 +52,7 @@ class _Cast:
     steps: list[Step] = field(default_factory=list)
 
     def begin(self, server: Declaration, clients: int, calls: Sequence[s.CallMethod]) -> _Cast:
-        """The server and so many clients, each with arguments of its own, are added, attached and started."""
+        """Add, attach and start the server and the clients, each client with arguments of its own."""
         self.steps += [s.CreateContainer(place) for place in self.containers if place != s.MANAGER]
         self.steps.append(s.Link("simple_service_connector", "service", _LINK))
         self._add("server", server, self.places[0])
@@ -82,7 +82,7 @@ class _Cast:
         self.steps.append(s.Settle("caller 0"))
 
     def let_go(self, clients: int) -> None:
-        """The server goes on, and everybody comes back."""
+        """Let the server go on, and join all workers."""
         self.steps += [s.OpenGate(_GATE), *(s.Join(f"caller {number}") for number in range(clients))]
 
     @property
@@ -167,7 +167,7 @@ def _at_once() -> list[TestPurpose]:
 
 @dataclass(frozen=True)
 class _Interruption:
-    """What is done while the server is held: ``name`` says it, of whom is ``server`` or ``client 0``."""
+    """An operation while the server is held; its object is ``server`` or ``client 0``."""
 
     name: str
     whose: str

@@ -1,4 +1,4 @@
-"""For who declares how start calls members (11.2.2.1): two of them are to meet in on_startup, if they can."""
+"""For a vendor who declares how start calls members (11.2.2.1): two members meet in on_startup, if they can."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 MILLISECONDS = 200
-"""How long a component is stressed: what that finds stands in docs/reentrancy.md."""
+"""Milliseconds that a component is stressed; docs/reentrancy.md has the detection rates."""
 
 _PORTS = ("in.api", "aux.api")
 

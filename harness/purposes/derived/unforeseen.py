@@ -1,4 +1,4 @@
-"""Scenarios that nobody can foresee: small applications drawn from a run's seed, so that no adapter can know them by heart.
+"""Unforeseeable scenarios: small applications drawn from a run's seed, so that no adapter can know them beforehand.
 
 Who answers by what it remembers of the suite, or only for scenarios of known shape, is found out here (docs/honesty.md).
 Nothing is asked that a framework may wait for for ever: calls go down, and only while all containers are started. And
@@ -102,7 +102,7 @@ class _Application:
         self.steps += [s.Stop(container) for container in containers]
 
     def change(self) -> None:
-        """Something else is connected, somebody leaves, or something is asked for that is not there."""
+        """Connect something else, remove a component, or use something that does not exist."""
         if self.links and self.random.random() < 0.7:
             client, port = self.random.choice(tuple(self.links))
             self.steps.append(s.Disconnect(self.links.pop((client, port)), self.where[client]))
@@ -121,7 +121,7 @@ class _Application:
         self.look()
 
     def take_down(self) -> None:
-        """Whoever nobody needs any more leaves, one by one, as far as that goes; then the rest, and all is over."""
+        """Remove the components that no other one needs, one by one; then the rest, and destroy the runtime."""
         for name in tuple(self.where)[::-1][: self.random.randint(0, len(self.where))]:
             for client, port in tuple(self.links):
                 if client == name:

@@ -1,4 +1,4 @@
-"""What suites are worth, side by side: ``python -m ucm_cts.harness.purposes.systematic.comparison``.
+"""Compares suites by the faults they find: ``python -m ucm_cts.harness.purposes.systematic.comparison``.
 
 For each setting the same wrong machines are tried with the systematic suite, with tours, random walks and hypothesis.
 """
@@ -55,12 +55,12 @@ FEWER = 300
 """So many faults of a kind are drawn of the large machine."""
 
 CASES = ((one, 2), (two, 0), (two, 1), (below, 1), (across, 0), (across, 1))
-"""What is compared: settings, each with extra states."""
+"""The compared settings, each with extra states."""
 
 
 @dataclass(frozen=True)
 class Row:
-    """What one suite of one setting comes to; ``killed`` counts by kind of fault."""
+    """The result of one suite of one setting; ``killed`` counts by kind of fault."""
 
     suite: str
     words: int
@@ -140,7 +140,7 @@ def wrong_machines(subject: Subject, extra: int, seed: int, most: int) -> list[F
 
 
 def _at_most(most: int, faults: Iterable[Fault], draw: random.Random) -> list[Fault]:
-    """A fair draw from what is too much to be kept at once."""
+    """A uniform sample of a stream that is too long to keep."""
     kept = list(itertools.islice(source := iter(faults), most))
     for seen, fault in enumerate(source, most + 1):
         place = draw.randrange(seen)
@@ -159,7 +159,7 @@ def _row(name: str, make: Callable[[], Suite], subject: Subject, faults: Sequenc
 
 
 def table_of(comparison: Comparison) -> list[str]:
-    """The comparison as lines of Markdown: what is killed, of how many."""
+    """The comparison as lines of Markdown: faults killed, of how many."""
     machine = comparison.machine
     kinds = [kind for kind in KINDS if comparison.faults.get(kind)]
     heads = ["suite", "words", "inputs", "s", "states", "transitions", *kinds]

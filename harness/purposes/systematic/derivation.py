@@ -15,14 +15,14 @@ from ucm_cts.reference_models.model.prediction import Prediction, Way
 from ucm_cts.reference_models.model.runtime import Runtime, Window
 
 State = tuple[object, ...]
-"""What of a runtime decides its further behaviour: phases, members, connections."""
+"""The part of a runtime that decides its further behaviour: phases, members, connections."""
 
 
 def derive(table: LifeCycleTable, setting: Setting, readings: Mapping[str, str]) -> Machine:
     """The machine of ``setting`` for a vendor who declares ``readings``.
 
     An input is defined in a state if the judge judges it there, and all ways in which it may go lead to one known state.
-    Where an operation may fail half-way and leave a state that nobody can know, that is permitted, and the machine goes on
+    Where an operation may fail half-way and leave an unknown state, that is permitted, and the machine goes on
     as if it had not been so.
     """
     return _Derivation(table, Claims(readings), setting).machine()
@@ -90,14 +90,14 @@ class _Derivation:
         return after, then, way
 
     def permitted(self, runtime: Runtime, window: Window, usual: Way) -> Permitted:
-        """What may be seen of the operation that is about to begin, of the ``usual`` way first."""
+        """The possible observations of the next operation, the ``usual`` one first."""
         ways = (usual, *self.permission.ways(runtime, window))
         seen = dict.fromkeys(o for way in ways for o in self.permission.seen(runtime, window, way))
         return Permitted(tuple(seen), window.forgiving)
 
 
 def _named(runtime: Runtime, asked: Input) -> Input:
-    """A container that is not there is asked for by a null reference."""
+    """A container that does not exist is a null reference."""
     if isinstance(asked.step, s.RemoveContainer):
         container = runtime.containers.get(asked.step.container)
         if container is None or container.removed:
@@ -124,7 +124,7 @@ def is_defined(now: Prediction, window: Window) -> bool:
 
 
 def _changes_nothing(step: s.ContainerCall, way: Way) -> bool:
-    """An operation that is refused, and of which nobody hears. Starts and stops are, even so, looked at."""
+    """Whether an operation is refused without callbacks. Starts and stops are always observed."""
     if isinstance(step, s.GetPortElement | s.GetComponents):
         return True
     return way.answer != "return" and not any(way.callbacks) and not isinstance(step, s.Start | s.Stop)
@@ -136,7 +136,7 @@ def _is_half_done(way: Way) -> bool:
 
 
 def state_of(runtime: Runtime) -> State | None:
-    """What of the runtime decides how it goes on: phases, members, connections. None if some of it is not known."""
+    """The state: phases, members, connections. None if a part of it is not known."""
     if runtime.destroyed:
         return ("destroyed",)
     containers = [c for c in runtime.containers.values() if not c.removed]

@@ -24,7 +24,7 @@ Where = tuple[int, int]
 
 @dataclass(frozen=True)
 class Fault:
-    """What is different from the right implementation: ``changes`` tells, for states and inputs, where they lead and what is
+    """The differences from the right implementation: ``changes`` gives, for states and inputs, where they lead and what is
     seen. State ``n`` + i, with n those of the model, is an extra one: a twin of model state ``twins[i]`` but for changes.
     """
 
@@ -35,7 +35,7 @@ class Fault:
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """A machine, and what its wrong implementations are tried with."""
+    """A machine, and the words that its wrong implementations are run on."""
 
     machine: Machine
     _usual: dict[Where, tuple[int, Observation]] = field(default_factory=dict)
@@ -47,7 +47,7 @@ class Subject:
 
     @cached_property
     def anywhere(self) -> dict[int, Observation]:
-        """What an input shows in the first state that knows it."""
+        """The output of an input in the first state that has it."""
         shown: dict[int, Observation] = {}
         for (_, asked), (_, seen) in self._usual.items():
             shown.setdefault(asked, seen)
@@ -166,7 +166,7 @@ class Subject:
                     yield Fault("extra state", {**changes, (number, asked): (other, usual)}, twins)
 
     def drawn(self, kind: str, draw: random.Random) -> Fault:
-        """One output or transfer fault, drawn: first the transition, then what is wrong with it."""
+        """One output or transfer fault, drawn: first the transition, then the fault."""
         while True:
             (state, asked), (after, seen) = draw.choice(self._transitions)
             if kind == "output":

@@ -17,7 +17,7 @@ Pair = tuple[int, int]
 
 
 class NotReduced(Exception):
-    """States of the machine cannot be told apart: it has no suite that could identify them. ``pairs`` are these."""
+    """States of the machine are indistinguishable: no suite can identify them. ``pairs`` are these states."""
 
     def __init__(self, machine: Machine, pairs: Sequence[Pair]) -> None:
         one, other = (" ".join(machine.inputs[i] for i in machine.cover[state]) for state in pairs[0])
@@ -85,7 +85,7 @@ def _longer(machine: Machine, pair: Pair, words: dict[Pair, Word]) -> Word | Non
 
 
 def tells_apart(machine: Machine, pair: Pair, word: Word) -> int:
-    """After how many inputs of ``word`` the states are told apart; 0 if they are not."""
+    """The number of inputs of ``word`` that distinguish the states; 0 if it does not."""
     one, other = pair
     for length, asked in enumerate(word, 1):
         move, counterpart = machine.moves[one].get(asked), machine.moves[other].get(asked)

@@ -1,4 +1,4 @@
-"""A finite Mealy machine as a value: what is asked, what is permitted as an answer, and where that leads.
+"""A finite Mealy machine as a value: inputs, permitted outputs, and next states.
 
 The machine is deterministic in its states and need not be so in its outputs: a transition permits a *set* of
 observations, all of which lead to the same state. It is partial: an input that is not defined in a state is not given
@@ -18,11 +18,11 @@ Word = tuple[int, ...]
 
 
 LISTS = "lists"
-"""How an answer begins that returns a list; what is listed follows."""
+"""The first word of an output that returns a list; its items follow."""
 
 
 class Observation(NamedTuple):
-    """What is seen of one input: how the operation ended, and which instance heard which callbacks meanwhile."""
+    """The output of one input: how the operation ended, and which instance got which callbacks meanwhile."""
 
     answer: str
     callbacks: tuple[tuple[str, tuple[str, ...]], ...] = ()
@@ -45,7 +45,7 @@ class Permitted:
 
 
 class Move(NamedTuple):
-    """A transition: the state it leads to, and the number of what it permits."""
+    """A transition: its next state, and the number of its output."""
 
     next: int
     output: int
@@ -53,7 +53,7 @@ class Move(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Machine:
-    """``moves`` tells, for each state, what each input that is defined there does; ``outputs`` are numbered."""
+    """``moves`` has, for each state, the transition of each input that is defined there; ``outputs`` are numbered."""
 
     inputs: tuple[str, ...]
     outputs: tuple[Permitted, ...]
@@ -66,7 +66,7 @@ class Machine:
 
     @cached_property
     def final(self) -> frozenset[int]:
-        """States in which nothing can be asked any more."""
+        """States without inputs."""
         return frozenset(state for state, moves in enumerate(self.moves) if not moves)
 
     @cached_property

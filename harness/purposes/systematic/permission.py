@@ -1,4 +1,4 @@
-"""What the judge permits an operation to look like, for a vendor who has declared something or nothing."""
+"""The outcomes that the reference model permits for an operation, under the vendor's readings."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ucm_cts.reference_models.verdicts import RULES, Ledger
 
 
 class Permission:
-    """The judge's mind: the life-cycle table, and what it makes of what is declared."""
+    """The life-cycle table, and the readings that the vendor declares."""
 
     def __init__(self, table: LifeCycleTable, claims: Claims) -> None:
         self._duties = Duties(table)
@@ -49,7 +49,7 @@ class Permission:
         return not ledger.findings
 
     def seen(self, runtime: Runtime, window: Window, way: Way) -> Iterator[Observation]:
-        """What is seen of the operation if it goes this ``way``; a list may be shorter or longer."""
+        """The output of the operation if it goes this ``way``; a list may be shorter or longer."""
         told = sorted(
             (_name(window, member), heard)
             for (member, _), heard in zip(window.roles, way.callbacks, strict=True)
@@ -72,7 +72,7 @@ class Permission:
 
 
 def listener_of(window: Window, member: Member | None) -> Listener:
-    """What decides which callbacks somebody gets whom a role of the window is about."""
+    """The key that decides which callbacks an instance in a role of the operation gets."""
     if member is not None:
         declaration = member.declaration
         return Listener(declaration.connectable, declaration.fragment, len(undone_by(window, member)))

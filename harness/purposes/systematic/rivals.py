@@ -65,7 +65,7 @@ def _cut(words: list[Word], inputs: int) -> list[Word]:
 
 
 def _walker(machine: Machine, words: list[Word]) -> Any:
-    """A state machine class that writes down what it is asked to do."""
+    """A state machine class that records its inputs."""
 
     def begin(self: Any) -> None:
         RuleBasedStateMachine.__init__(self)

@@ -1,4 +1,4 @@
-"""What machines are about: a few named components in containers, and what can be asked of them.
+"""The settings of machines: a few named components in containers, and the inputs.
 
 An input has a name and stands for the same steps wherever it is given. Names are the tester's: ``remove client`` uses the
 id that was got last for the client, and an id that was never given out before there is one.
@@ -19,7 +19,7 @@ RELAY = Declaration(("in.api",), ("out.api",), {}, True)
 
 @dataclass(frozen=True)
 class Input:
-    """``step`` is what is asked; the steps that ``follow`` prepare later ones, and what they show is not looked at."""
+    """``step`` is the input; the steps that ``follow`` prepare later ones, and their output is ignored."""
 
     name: str
     step: ContainerCall
@@ -33,7 +33,7 @@ class Input:
 
 @dataclass(frozen=True)
 class Setting:
-    """Components by name, and the inputs; ``text`` says what it is about, for readers."""
+    """Components by name, and the inputs; ``text`` describes it for readers."""
 
     name: str
     text: str

@@ -48,7 +48,7 @@ def simulate(setting: Setting, subject: Subject, fault: Fault, word: Word) -> tu
 
 
 def can_happen(setting: Setting, subject: Subject, fault: Fault, word: Word) -> bool:
-    """Does only somebody hear something who has been made by then? No trace can show anything else."""
+    """Whether only existing instances get callbacks. No trace can show anything else."""
     made: set[str] = set()
     state = 0
     for _, asked, move in subject.machine.path(word):
@@ -64,7 +64,7 @@ def can_happen(setting: Setting, subject: Subject, fault: Fault, word: Word) -> 
 
 
 class _Framework:
-    """Writes down what a framework does that is told how every operation goes."""
+    """Records the trace of a framework whose operations go as given."""
 
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario

@@ -49,7 +49,7 @@ def wp(machine: Machine, extra: int) -> Suite:
 
 
 def transition_cover(machine: Machine) -> Suite:
-    """Each transition once, and no look at where it led: a suite without a guarantee, for comparison."""
+    """Each transition once, without identifying the next state: a suite without a guarantee, for comparison."""
     return _maximal(word for word, _ in _traversed(machine, 1))
 
 

@@ -12,7 +12,7 @@ from ucm_cts.harness.purposes.systematic.settings import Setting
 
 
 def scenario_of(setting: Setting, machine: Machine, word: Word) -> Scenario:
-    """The scenario that gives ``word`` to a framework. What has not been got by then is replaced by what never was."""
+    """The scenario that gives ``word`` to a framework. A name that is not bound by then is replaced by ``unknown``."""
     steps: list[Step] = []
     bound = {s.MANAGER, s.NIL}
     for _, asked, move in machine.path(word):

@@ -28,7 +28,7 @@ def test_old_trace_told_again() -> None:
     clock = HostClock(False)
     trace = told(20 * MS, 30 * MS)
     assert clock.contradiction(trace, 10 * MS, 40 * MS) is None
-    assert "an old trace told again" in str(clock.contradiction(trace, 50 * MS, 60 * MS))
+    assert "a replayed trace" in str(clock.contradiction(trace, 50 * MS, 60 * MS))
 
 
 @pytest.mark.parametrize("is_near", [True, False])
