@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import pytest
 from folders import ROOT
 
@@ -20,9 +21,10 @@ def test_what_no_observation_shows(cheat: Cheat) -> None:
     assert not examine_cheat(cheat).came_out
 
 
-def test_the_page_tells_of_each() -> None:
+def test_the_page_names_each() -> None:
     page = (ROOT / "docs" / "honesty.md").read_text()
     for cheat in CHEATS.values():
-        assert f"| `{cheat.name}`: {cheat.lie} | {', '.join(cheat.detected_by)} |" in page, cheat.name
+        (named,) = re.findall(rf"(?m)^\| {re.escape(', '.join(cheat.detected_by))} \| (.+) \|$", page)
+        assert f"`{cheat.name}`" in named.split(", "), cheat.name
     for cheat in UNSEEN.values():
         assert f"(`{cheat.name}`)" in page, cheat.name
