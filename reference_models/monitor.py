@@ -1,4 +1,4 @@
-"""The judge: every rule watches every trace. Pure and offline: the same trace gives the same findings, anywhere."""
+"""The monitor: reads a trace and checks every property against it. Pure and offline: the same trace gives the same findings."""
 
 from __future__ import annotations
 
@@ -27,17 +27,18 @@ from ucm_cts.adapters.contract.trace import (
     Stressed,
     Timeout,
 )
-from ucm_cts.reference_models.model.application import adopt
-from ucm_cts.reference_models.model.callback_history import Heard
+from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.executions import BusinessCall, Executions
-from ucm_cts.reference_models.model.expected_callbacks import Duties
-from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks
+from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.interactions import Interactions
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
-from ucm_cts.reference_models.model.row_selection import Situations
-from ucm_cts.reference_models.model.runtime import Member, Runtime, Window
-from ucm_cts.reference_models.properties.selection import Watch, followed_in
-from ucm_cts.reference_models.verdicts import Ledger, Where
+from ucm_cts.reference_models.model.operation_effects import apply
+from ucm_cts.reference_models.model.row_selection import RowSelection
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime
+from ucm_cts.reference_models.properties.declaration import Feature
+from ucm_cts.reference_models.properties.table import PropertyTable, features_of
+from ucm_cts.reference_models.verdicts import Verdicts
 
 _BUSINESS = frozenset(("exchange", "run", "method"))
 """Where bodies are entered that is no callback."""
@@ -47,33 +48,33 @@ _CONTAINER_CALLS = frozenset(get_args(s.ContainerCall))
 _CONNECTOR_CALLS = frozenset(get_args(s.ConnectorCall))
 
 
-class Judge:
-    """Judges traces against one life-cycle table and what the vendor claims. Holds no state between traces."""
+class Monitor:
+    """Judges traces against one life-cycle table and what the vendor claims. It holds no state between traces."""
 
-    def __init__(self, table: LifeCycleTable, claims: Claims | None = None) -> None:
-        self.claims = claims or Claims()
-        self.situations = Situations(table)
-        self.duties = Duties(table)
-        self._watches: dict[frozenset[Where], Watch] = {}
+    def __init__(self, table: LifeCycleTable, ics: Ics | None = None) -> None:
+        self.ics = ics or Ics()
+        self.row_selection = RowSelection(table)
+        self.expected = ExpectedCallbacks(table)
+        self._tables: dict[frozenset[Feature], PropertyTable] = {}
 
-    def judge(self, scenario: s.Scenario, trace: Iterable[Event]) -> Ledger:
-        """Everything the rules say about ``trace``, which may break off anywhere, and is read once, event by event.
+    def judge(self, scenario: s.Scenario, trace: Iterable[Event]) -> Verdicts:
+        """What the properties say about ``trace``, which may break off anywhere, and is read once, event by event.
 
         Where two operations overlap, because one of them took too long, reading ends: who did what cannot be told.
         """
-        followed = followed_in(scenario)
-        watch = self._watches.get(followed)
-        if watch is None:
-            watch = self._watches[followed] = Watch(followed)
-        reading = _Reading(self, watch, scenario, followed)
-        interactions = reading.interactions
+        features = features_of(scenario)
+        table = self._tables.get(features)
+        if table is None:
+            table = self._tables[features] = PropertyTable(features)
+        reader = _TraceReader(self, table, scenario, features)
+        interactions = reader.interactions
         for event in trace:
-            if _TAKE[type(event)](reading, event):
+            if _TAKE[type(event)](reader, event):
                 break
             if interactions is not None and type(event) not in _NOTHING_HAPPENS:
                 interactions.latest = event.t
-        reading.close()
-        return reading.ledger
+        reader.close()
+        return reader.verdicts
 
 
 class _Thread:
@@ -88,7 +89,7 @@ class _Thread:
         self.inside = inside
 
 
-class _Reading:
+class _TraceReader:
     """One trace being read: the model, the operation in progress, and who is inside whom on each thread.
 
     What takes an event in returns True where reading is to end, and else nothing.
@@ -98,28 +99,30 @@ class _Reading:
         "calls",
         "connecting",
         "executions",
-        "heard",
+        "histories",
         "interactions",
-        "judge",
-        "ledger",
+        "monitor",
+        "ongoing",
         "runtime",
         "steps",
+        "table",
         "threads",
-        "watch",
-        "window",
+        "verdicts",
     )
 
-    def __init__(self, judge: Judge, watch: Watch, scenario: s.Scenario, followed: frozenset[Where]) -> None:
-        self.judge = judge
-        self.watch = watch
-        self.ledger = Ledger(scenario, judge.duties, claims=judge.claims)
+    def __init__(
+        self, monitor: Monitor, table: PropertyTable, scenario: s.Scenario, features: frozenset[Feature]
+    ) -> None:
+        self.monitor = monitor
+        self.table = table
+        self.verdicts = Verdicts(scenario, monitor.expected, ics=monitor.ics)
         self.steps = scenario.steps
         self.runtime = Runtime(scenario)
-        self.window: Window | None = None
-        self.heard: dict[tuple[str, int], Heard] = {}
+        self.ongoing: OperationInProgress | None = None
+        self.histories: dict[tuple[str, int], CallbackHistory] = {}
         self.calls: list[list[BusinessCall]] = []
         self.threads: dict[int, _Thread] = {}
-        interacting = "interactions" in followed
+        interacting = "interactions" in features
         self.executions = Executions(self.runtime) if interacting else None
         self.interactions = Interactions(self.runtime) if interacting else None
         self.runtime.interactions = self.interactions
@@ -130,9 +133,9 @@ class _Reading:
         """The trace is over."""
         if self.interactions is not None:
             self.interactions.is_over, self.interactions.services = True, None
-            for check in self.watch.closed:
-                check(self.ledger, self.runtime)
-        self.ledger.close()
+            for check in self.table.closed:
+                check(self.verdicts, self.runtime)
+        self.verdicts.close()
 
     def thread(self, number: int) -> _Thread:
         """The thread of that number."""
@@ -146,12 +149,12 @@ class _Reading:
         step = self.steps[event.step]
         kind = type(step)
         is_operation = kind in _CONTAINER_CALLS
-        if is_operation and self.window is not None:
+        if is_operation and self.ongoing is not None:
             return True
         if self.interactions is not None:
             self.interactions.operate(step, event)
         if is_operation:
-            self.window = self.judge.situations.open(self.runtime, event.step, step, event.n)  # type: ignore[arg-type]
+            self.ongoing = self.monitor.row_selection.open(self.runtime, event.step, step, event.n)  # type: ignore[arg-type]
         elif isinstance(step, s.Invoke):
             thread = self.threads.get(event.thread) or self.thread(event.thread)
             self.begin(thread, BusinessCall(step.value, event.n, None, step))
@@ -160,17 +163,17 @@ class _Reading:
         return None
 
     def end(self, event: Return | Raise) -> None:
-        window, ledger, runtime = self.window, self.ledger, self.runtime
+        ongoing, verdicts, runtime = self.ongoing, self.verdicts, self.runtime
         if self.interactions is not None:
             self.interactions.operated(event)
-        if window is not None and window.step_number == event.step:
-            for check in self.watch.ended[window.operation]:
-                check(ledger, runtime, window, event)
-            adopt(runtime, window, event)
+        if ongoing is not None and ongoing.step_number == event.step:
+            for check in self.table.ended[ongoing.operation]:
+                check(verdicts, runtime, ongoing, event)
+            apply(runtime, ongoing, event)
             runtime.starting.clear()
             runtime.starting_up.clear()
             runtime.changed()
-            self.window = None
+            self.ongoing = None
             return
         step = self.steps[event.step]
         begin = self.connecting.pop(event.step, None) if self.connecting else None
@@ -181,8 +184,8 @@ class _Reading:
         calls = thread.calls if thread is not None else None
         if calls and type(step) is s.Invoke:
             call = calls.pop()
-            for check in self.watch.answered:
-                check(ledger, runtime, call, event)
+            for check in self.table.answered:
+                check(verdicts, runtime, call, event)
             if self.executions is not None:
                 self.come_back(call, event.n)
 
@@ -192,8 +195,8 @@ class _Reading:
         if type(step) in _CONNECTOR_CALLS:
             link = self.interactions.linked(step, begin, event)  # type: ignore[arg-type]
             self.runtime.changed()
-            for check in self.watch.linked:
-                check(self.ledger, self.runtime, link, step, event)
+            for check in self.table.linked:
+                check(self.verdicts, self.runtime, link, step, event)
         elif isinstance(event, Return):
             self.tell(event)
 
@@ -204,8 +207,8 @@ class _Reading:
     def tell(self, event: Return | Pushed | Counted | Paused | Stressed) -> None:
         if isinstance(event, Pushed) and self.interactions is not None:
             self.interactions.push(event)
-        for check in self.watch.told if self.interactions is not None else ():
-            check(self.ledger, self.runtime, event)
+        for check in self.table.told if self.interactions is not None else ():
+            check(self.verdicts, self.runtime, event)
 
     def paused(self, event: Paused) -> None:
         if self.interactions is not None:
@@ -213,8 +216,8 @@ class _Reading:
         self.tell(event)
 
     def create(self, event: Create) -> None:
-        if self.window is not None:
-            self.window.created.append((event.component, event.instance))
+        if self.ongoing is not None:
+            self.ongoing.created.append((event.component, event.instance))
 
     def enter(self, event: Enter) -> None:
         thread = self.threads.get(event.thread) or self.thread(event.thread)
@@ -227,30 +230,30 @@ class _Reading:
             self.enter_business(thread, event)
             return
         body = event.component, event.instance
-        heard = self.heard.get(body)
-        if heard is None:
-            heard = self.heard[body] = Heard()
-        window, ledger, runtime = self.window, self.ledger, self.runtime
-        for check in self.watch.entered[hook]:
-            check(ledger, runtime, window, event, heard)
-        heard.hear(hook, event.n)
+        history = self.histories.get(body)
+        if history is None:
+            history = self.histories[body] = CallbackHistory()
+        ongoing, verdicts, runtime = self.ongoing, self.verdicts, self.runtime
+        for check in self.table.entered[hook]:
+            check(verdicts, runtime, ongoing, event, history)
+        history.add(hook, event.n)
         if hook == "on_startup":
             runtime.startups[body] = event.n, event.thread
         member = runtime.bodies.get(body)
         if member is not None:
             self.changes(member, hook)
-            starts = window is not None and window.operation == "start" and window.container is member.container
+            starts = ongoing is not None and ongoing.operation == "start" and ongoing.container is member.container
             if hook == "on_startup" and starts:
                 runtime.starting_up[body] = event.thread
         runtime.changed()
-        if window is not None:
-            window.hear(event)
+        if ongoing is not None:
+            ongoing.hear(event)
 
     def changes(self, member: Member, hook: s.Hook) -> None:
         """What is so from now on, although the operation has not ended."""
         if hook == "on_startup":
             member.closing = False
-            known = self.window is None or self.window.operation != "connect"
+            known = self.ongoing is None or self.ongoing.operation != "connect"
             member.handed_over = tuple([c for c in member.connections if c.live is not False]) if known else None
         elif hook == "on_shutdown":
             member.closing = True
@@ -267,8 +270,8 @@ class _Reading:
         if call is not None:
             call.entries.append((event, None))
         runtime = self.runtime
-        for check in self.watch.called[call.by if call is not None else "nobody"]:
-            check(self.ledger, runtime, self.window, event, call)
+        for check in self.table.called[call.by if call is not None else "nobody"]:
+            check(self.verdicts, runtime, self.ongoing, event, call)
         member = runtime.bodies.get(body)
         if member is not None and member.operational:
             member.served = True
@@ -290,22 +293,22 @@ class _Reading:
         thread.served.append(call)
         body = event.component, event.instance
         thread.inside.append(body)
-        ledger, runtime = self.ledger, self.runtime
+        verdicts, runtime = self.verdicts, self.runtime
         if self.executions is not None:
             execution, met = self.executions.begin(event, call)
-            for check in self.watch.began:
-                check(ledger, runtime, execution, met)
+            for check in self.table.began:
+                check(verdicts, runtime, execution, met)
         if hook == "run":
             runtime.last_run[body] = event.n
             return
         if call is not None:
             call.entries.append((event, None))
         if delivery is not None:
-            for check in self.watch.delivered:
-                check(ledger, runtime, delivery)
+            for check in self.table.delivered:
+                check(verdicts, runtime, delivery)
         else:
-            for check in self.watch.called[call.by if call is not None else "nobody"]:
-                check(ledger, runtime, self.window, event, call)
+            for check in self.table.called[call.by if call is not None else "nobody"]:
+                check(verdicts, runtime, self.ongoing, event, call)
         member = runtime.bodies.get(body)
         if member is not None and member.operational:
             member.served = True
@@ -330,8 +333,8 @@ class _Reading:
             return
         execution = self.executions.end(event)
         if execution is not None:
-            for check in self.watch.over:
-                check(self.ledger, self.runtime, execution, event.n)
+            for check in self.table.over:
+                check(self.verdicts, self.runtime, execution, event.n)
 
     def call_behind(self, event: Enter, own: BusinessCall | None) -> BusinessCall | None:
         """The call of another thread that seems to have led to this entry, else this thread's ``own``."""
@@ -363,20 +366,20 @@ class _Reading:
             return
         call = calls.pop()
         if call.request is None or call.request.method is None:
-            for check in self.watch.replied:
-                check(self.ledger, self.runtime, call, event)
+            for check in self.table.replied:
+                check(self.verdicts, self.runtime, call, event)
         elif self.interactions is not None:
             completed = self.interactions.reply(event)
             if completed is not None:
-                for check in self.watch.completed:
-                    check(self.ledger, self.runtime, completed)
+                for check in self.table.completed:
+                    check(self.verdicts, self.runtime, completed)
         if self.executions is not None:
             self.come_back(call, event.n)
 
     def come_back(self, call: BusinessCall, end: int) -> None:
         waited = self.executions.answered(call) if self.executions is not None else None
-        for check in self.watch.served if waited is not None else ():
-            check(self.ledger, self.runtime, call, waited, end)
+        for check in self.table.served if waited is not None else ():
+            check(self.verdicts, self.runtime, call, waited, end)
 
     def held(self, event: Held) -> None:
         if self.executions is not None:
@@ -406,36 +409,36 @@ class _Reading:
             return
         if self.interactions is not None:
             self.interactions.wait(event)
-        for check in self.watch.waited:
-            check(self.ledger, self.runtime, event)
+        for check in self.table.waited:
+            check(self.verdicts, self.runtime, event)
         if self.executions is not None and isinstance(step, s.Join):
             for call, waited in self.executions.lost():
-                for check in self.watch.served:
-                    check(self.ledger, self.runtime, call, waited, 0)
+                for check in self.table.served:
+                    check(self.verdicts, self.runtime, call, waited, 0)
 
     def siblings(self, event: Siblings) -> None:
-        for check in self.watch.noted:
-            check(self.ledger, self.runtime, self.window, event)
+        for check in self.table.noted:
+            check(self.verdicts, self.runtime, self.ongoing, event)
 
 
-_TAKE: dict[type[Any], Callable[[_Reading, Any], bool | None]] = {
-    Call: _Reading.call,
-    Return: _Reading.end,
-    Raise: _Reading.end,
-    Skip: _Reading.skip,
-    Create: _Reading.create,
-    Enter: _Reading.enter,
-    Exit: _Reading.exit,
-    Request: _Reading.request,
-    Reply: _Reading.reply,
-    Siblings: _Reading.siblings,
-    Held: _Reading.held,
-    Opened: _Reading.opened,
-    Settled: _Reading.settled,
-    Timeout: _Reading.timeout,
-    Pushed: _Reading.tell,
-    Counted: _Reading.tell,
-    Paused: _Reading.paused,
-    Stressed: _Reading.tell,
+_TAKE: dict[type[Any], Callable[[_TraceReader, Any], bool | None]] = {
+    Call: _TraceReader.call,
+    Return: _TraceReader.end,
+    Raise: _TraceReader.end,
+    Skip: _TraceReader.skip,
+    Create: _TraceReader.create,
+    Enter: _TraceReader.enter,
+    Exit: _TraceReader.exit,
+    Request: _TraceReader.request,
+    Reply: _TraceReader.reply,
+    Siblings: _TraceReader.siblings,
+    Held: _TraceReader.held,
+    Opened: _TraceReader.opened,
+    Settled: _TraceReader.settled,
+    Timeout: _TraceReader.timeout,
+    Pushed: _TraceReader.tell,
+    Counted: _TraceReader.tell,
+    Paused: _TraceReader.paused,
+    Stressed: _TraceReader.tell,
 }
 """What to do with each kind of event."""

@@ -1,95 +1,14 @@
-"""Where rules write down what they saw: requirements exercised, violations found, rows of the table visited."""
+"""What a monitor makes of one trace: requirements exercised, violations found, rows of the table visited."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import Literal
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.model.expected_callbacks import Duties, Fit
-from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks, Fit
+from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import Row
-
-Moment = Literal[
-    "ended",
-    "entered",
-    "called",
-    "answered",
-    "replied",
-    "noted",
-    "began",
-    "over",
-    "served",
-    "waited",
-    "linked",
-    "delivered",
-    "completed",
-    "told",
-    "closed",
-]
-"""When a rule looks: an operation ended; a body was entered by a callback, or by a business call; a stimulus of the test
-came back; a body's own call came back; a fragment's query came back. Where components have policies: an execution began,
-or was over; a call that had to wait came back, or never did; a wait of the scenario ran out of patience. Where port
-elements have interfaces or policies (interactions.py): a step for connectors ended; a method of a body was entered; a
-body's call of a method came back; something was counted, measured or read back; the trace is over."""
-
-
-Where = Literal["", "policies", "interactions", "fragments", "attributes"]
-"""In which scenarios a rule has something to look at: in all; where components have policies; where interactions are
-followed, because port elements have interfaces or components policies; where components are fragments, or have attributes.
-"""
-
-
-@dataclass(frozen=True)
-class Rule:
-    """A named check and the requirements it stands for; ``check`` takes what the judge offers at ``moment``.
-
-    ``at`` names the operations, for ``entered`` the hooks, for ``called`` who called, that it looks at; empty stands for all. What a ``timed`` rule
-    finds depends on how long something took, so that a machine that stood still may be to blame. With ``where`` it has
-    nothing to look at in other scenarios than those in which that is followed.
-    """
-
-    name: str
-    moment: Moment
-    stands_for: tuple[str, ...]
-    at: tuple[str, ...]
-    check: Callable[..., None]
-    timed: bool = False
-    where: Where = ""
-
-
-RULES: dict[str, Rule] = {}
-"""All rules by name, filled as the rule modules are imported."""
-
-
-def rule(
-    moment: Moment, *stands_for: str, at: tuple[str, ...] = (), timed: bool = False, where: Where = ""
-) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Register the decorated function, under its own name, as a rule that looks at ``moment``."""
-
-    def register(check: Callable[..., None]) -> Callable[..., None]:
-        RULES[check.__name__] = Rule(check.__name__, moment, stands_for, at, check, timed, where)
-        return check
-
-    return register
-
-
-def in_order_of(modules: Iterable[str]) -> None:
-    """Put the rules into the order of the ``modules`` that have them, whichever was imported first."""
-    place = {module: number for number, module in enumerate(modules)}
-    for name in sorted(RULES, key=lambda name: place.get(RULES[name].check.__module__, len(place))):
-        RULES[name] = RULES.pop(name)
-
-
-def checks(moment: Moment, at: str = "", followed: frozenset[Where] = frozenset()) -> tuple[Callable[..., None], ...]:
-    """The checks of all rules that look at this operation or hook at ``moment``, where so much is ``followed``."""
-    return tuple(
-        r.check
-        for r in RULES.values()
-        if r.moment == moment and (not r.at or at in r.at) and (not r.where or r.where in followed)
-    )
 
 
 @dataclass(slots=True)
@@ -102,16 +21,16 @@ class RowTally:
 
 
 @dataclass(slots=True)
-class Ledger:
+class Verdicts:
     """The judgement of one trace in the making."""
 
     scenario: Scenario
-    duties: Duties
+    expected: ExpectedCallbacks
     exercises: dict[str, int] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     tallies: dict[int, tuple[Row, RowTally]] = field(default_factory=dict)
     fits: dict[Fit, int] = field(default_factory=dict)
-    claims: Claims = field(default_factory=Claims)
+    ics: Ics = field(default_factory=Ics)
     readings: dict[str, set[str]] = field(default_factory=dict)
     measures: dict[str, int] = field(default_factory=dict)
 
@@ -122,7 +41,7 @@ class Ledger:
     def observed(self, option: str, value: str) -> bool:
         """The framework took reading ``value`` of ``option``; False if its vendor declared another one."""
         self.readings.setdefault(option, set()).add(value)
-        return self.claims.permits(option, value)
+        return self.ics.permits(option, value)
 
     def exercised(self, *requirements: str) -> None:
         """The requirements' condition really arose, and they were kept."""

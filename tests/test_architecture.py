@@ -62,8 +62,8 @@ def test_the_reference_framework_does_not_know_the_sdk() -> None:
         }
 
 
-def test_rules_look_in_their_order_whichever_module_is_imported_first() -> None:
-    told = "from ucm_cts.reference_models.verdicts import RULES; print(*RULES)"
+def test_properties_have_one_order_whichever_module_is_imported_first() -> None:
+    told = "from ucm_cts.reference_models.properties.table import PROPERTIES; print(*PROPERTIES)"
     orders = {
         subprocess.run(
             [sys.executable, "-c", f"{first}; import ucm_cts.reference_models.monitor; {told}"],

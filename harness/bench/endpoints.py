@@ -35,7 +35,7 @@ from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.values import Incident
 from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, examine_mutant
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 BATCH = 400
 
@@ -200,7 +200,7 @@ def _direct(module: Any) -> None:
     runtime.remove_component(server)
 
 
-_JUDGE = Judge(load_life_cycle())
+_MONITOR = Monitor(load_life_cycle())
 
 
 def _traced(answer: Callable[[bytes], bytes]) -> Traced:
@@ -210,14 +210,14 @@ def _traced(answer: Callable[[bytes], bytes]) -> Traced:
 
 
 def _judged(answer: Callable[[bytes], bytes]) -> None:
-    assert not _JUDGE.judge(LIFE_CYCLE, _traced(answer).events).findings
+    assert not _MONITOR.judge(LIFE_CYCLE, _traced(answer).events).findings
 
 
 def _wire(hosts: Hosts, window: int, judged: bool) -> None:
     for answer in hosts.run((Run(number, LIFE_CYCLE) for number in range(BATCH)), window):
         assert isinstance(answer.reply, Traced)
         if judged:
-            assert not _JUDGE.judge(LIFE_CYCLE, answer.reply.events).findings
+            assert not _MONITOR.judge(LIFE_CYCLE, answer.reply.events).findings
 
 
 ONE_CALL = s.Scenario({}, (s.GetComponents(),))

@@ -25,7 +25,7 @@ from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 CALLS = 100
 """Calls of the test between two reconnections of the long life; the client passes each one on."""
@@ -38,7 +38,7 @@ _ROUNDS = 3
 _TIMED = s.Pause | s.Stress | s.AwaitMessages
 
 _decoder = msgspec.json.Decoder(Event)
-_judge = Judge(load_life_cycle())
+_monitor = Monitor(load_life_cycle())
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def of_a_long_life(events: int) -> Costs:
             file.writelines(msgspec.json.encode(event) + b"\n" for event in life.events())
 
         def judge() -> None:
-            assert not _judge.judge(scenario, _decoded(path)).findings
+            assert not _monitor.judge(scenario, _decoded(path)).findings
 
         def believe() -> None:
             assert contradiction(scenario, _decoded(path)) is None
@@ -104,7 +104,7 @@ def of_the_suite(profile: str) -> Costs:
 
     def judge() -> None:
         for scenario, trace, _ in traced:
-            _judge.judge(scenario, trace)
+            _monitor.judge(scenario, trace)
 
     def believe() -> None:
         for scenario, trace, _ in traced:

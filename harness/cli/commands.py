@@ -55,7 +55,7 @@ from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import check_subject, stated_by
 from ucm_cts.harness.statement.writing import write_statement, write_toolchain_statement
 from ucm_cts.harness.toolchains.description import read_toolchain
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"]})
@@ -164,7 +164,7 @@ def run(
                     raise
                 cut_short = f"{which} could not begin: {problem}"
         try:
-            report = repeated(reports, looking(endpoint, limits, statement.claims))
+            report = repeated(reports, looking(endpoint, limits, statement.ics))
         except (HostUnavailable, KeyboardInterrupt) as problem:
             interrupted = interrupted or isinstance(problem, KeyboardInterrupt)
             report = repeated(reports, lambda failed, seed: None)
@@ -285,7 +285,7 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
             f"{file} is a model and no scenario; the report shows the command that gives it to the tool chain again"
         )
     scripts = read_scripts(file)
-    judge = Judge(load_life_cycle(), stated_by(ics, adapter).claims)
+    monitor = Monitor(load_life_cycle(), stated_by(ics, adapter).ics)
     console = Output()
     failed = False
     with ends_like_interrupts(), Driver(locate(adapter, in_process), seed or 0, Limits(timeout)) as driver:
@@ -299,7 +299,7 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
                 told = f"{clean(execution.incident.detail)}\n{clean(execution.incident.stacks, LONGEST_STACKS)}"
                 console.out(f"\n{execution.incident.kind}: {told}", highlight=False)
                 continue
-            findings = [driver.reveal(f) for f in judge.judge(answer.disguised, answer.trace).findings]
+            findings = [driver.reveal(f) for f in monitor.judge(answer.disguised, answer.trace).findings]
             for finding in findings:
                 console.out("\n" + failure_text(finding, execution), highlight=False)
             failed = failed or bool(findings)

@@ -21,7 +21,7 @@ from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.examinations import TOOLCHAIN_CHECKS
-from ucm_cts.reference_models.verdicts import RULES
+from ucm_cts.reference_models.properties.table import PROPERTIES
 
 
 def explanation(identifier: str) -> RenderableType:
@@ -49,7 +49,7 @@ def explanation(identifier: str) -> RenderableType:
         lines += [Text(), Text("Applies where the vendor states: ", style="bold") + Text(_needed(need))]
     checks = CHECKS | TOOLCHAIN_CHECKS
     for rule in requirement.rules:
-        doc = checks[rule] if rule in checks else (RULES[rule].check.__doc__ or "").strip().splitlines()[0]
+        doc = checks[rule] if rule in checks else (PROPERTIES[rule].check.__doc__ or "").strip().splitlines()[0]
         lines += [Text(), Text(f"Rule {rule}: ", style="bold") + Text(doc)]
     offered = load_purposes(requirement.profile) if requirement.profile in FRAMEWORK_PROFILES else ()
     purposes = [p for p in offered if requirement.id in p.requirements]

@@ -23,8 +23,8 @@ from ucm_cts.harness.results.tally import Cause, Tally, overall
 from ucm_cts.harness.results.values import Effort, Execution, Report
 from ucm_cts.harness.statement.checks import check_statement
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.monitor import Judge
-from ucm_cts.reference_models.verdicts import Ledger
+from ucm_cts.reference_models.monitor import Monitor
+from ucm_cts.reference_models.verdicts import Verdicts
 
 SECONDS_FOR_CONFIRMATION = 60
 """How long all further runs may take; what was not run again by then stands as it was seen."""
@@ -51,7 +51,7 @@ class Campaign:
         profile: str,
         known_failures: Sequence[KnownFailure] = (),
         statement: Statement | None = None,
-        watch: Callable[[Answer, Ledger], None] | None = None,
+        watch: Callable[[Answer, Verdicts], None] | None = None,
         distinct_incidents: bool = False,
     ) -> None:
         """``watch`` gets each answer with a trace, and the verdicts on it. Of ``distinct_incidents`` the
@@ -63,11 +63,11 @@ class Campaign:
         self.known = known_failures
         self.statement = statement or default_statement()
         self.checked: list[TestPurpose] = []
-        self._judge = Judge(load_life_cycle(), self.statement.claims)
+        self._monitor = Monitor(load_life_cycle(), self.statement.ics)
         self._requirements = [r for r in load_requirements() if r.profile in PARTS[profile]]
         self._tally = Tally(distinct_incidents)
         check_statement(self.statement, profile, self._requirements, self._tally)
-        self._confirmation = Confirmation(driver, self._judge, driver.gaps)
+        self._confirmation = Confirmation(driver, self._monitor, driver.gaps)
         self._payloads = Payloads(driver.seed)
         self._timed: dict[str, tuple[str, Scenario]] = {}
         self._spent: dict[str, float] = {}
@@ -102,7 +102,7 @@ class Campaign:
 
     def _scenarios_of(self, purpose: TestPurpose) -> tuple[tuple[str, Scenario], ...]:
         """Its scenarios; where values are drawn, within what the vendor says of them."""
-        return purpose.draw(self._driver.seed, self.statement.claims.readings) if purpose.draw else purpose.scenarios
+        return purpose.draw(self._driver.seed, self.statement.ics.readings) if purpose.draw else purpose.scenarios
 
     def _take(self, answer: Answer, purpose: TestPurpose) -> Iterator[tuple[Finding | None, Execution]]:
         if answer.incident is not None:
@@ -112,25 +112,25 @@ class Campaign:
             if answer.is_whole:
                 yield from self._judge_hang(answer, execution)
             return
-        ledger = self._judge.judge(answer.disguised, answer.trace)
+        verdicts = self._monitor.judge(answer.disguised, answer.trace)
         if self._watch is not None:
-            self._watch(answer, ledger)
-        if not ledger.findings:
-            self._tally.add(Execution(answer.name, answer.scenario, answer.trace), ledger, ())
-            for requirement in timed_requirements().intersection(ledger.exercises).difference(self._timed):
+            self._watch(answer, verdicts)
+        if not verdicts.findings:
+            self._tally.add(Execution(answer.name, answer.scenario, answer.trace), verdicts, ())
+            for requirement in timed_requirements().intersection(verdicts.exercises).difference(self._timed):
                 self._timed[requirement] = answer.name, answer.scenario
             return
         execution = self._driver.revealed(answer)
-        confirmed, unconfirmed = self._confirmation.separate(answer, ledger.findings)
+        confirmed, unconfirmed = self._confirmation.separate(answer, verdicts.findings)
         findings = [self._driver.reveal(finding) for finding in confirmed]
-        self._tally.add(execution, ledger, findings)
+        self._tally.add(execution, verdicts, findings)
         self._mark_unstable(execution, unconfirmed)
         for finding in findings:
             yield finding, execution
 
     def _judge_hang(self, answer: Answer, execution: Execution) -> Iterator[tuple[Finding, Execution]]:
         """Judge the trace of a scenario whose threads never came back: a property may forbid that."""
-        findings = self._judge.judge(answer.disguised, answer.trace).findings
+        findings = self._monitor.judge(answer.disguised, answer.trace).findings
         confirmed, unconfirmed = self._confirmation.separate(answer, findings)
         for finding in map(self._driver.reveal, confirmed):
             self._tally.exercised[finding.requirement] += 1
@@ -180,7 +180,7 @@ class Campaign:
 
     def shorten(self) -> Iterator[Cause]:
         """Look for the shortest scenario of each failure; yields each cause when it is done."""
-        yield from Shortening(self._driver, self._judge, self._confirmation, self._tally).of_all()
+        yield from Shortening(self._driver, self._monitor, self._confirmation, self._tally).of_all()
 
     def report(self) -> Report:
         """All verdicts of the run so far."""

@@ -19,8 +19,8 @@ from ucm_cts.harness.execution.driver import Answer, Circumstances, Driver
 from ucm_cts.harness.results.tally import Cause, cause_of
 from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.monitor import Judge
-from ucm_cts.reference_models.verdicts import RULES
+from ucm_cts.reference_models.monitor import Monitor
+from ucm_cts.reference_models.properties.table import PROPERTIES
 
 PATIENT = Circumstances(patience=5)
 """The circumstances in which a finding of a timed property is confirmed."""
@@ -38,12 +38,12 @@ MOST_ATTEMPTS = 3
 @functools.cache
 def timed_requirements() -> frozenset[str]:
     """The requirements that depend on how long something takes."""
-    return frozenset(requirement for rule in RULES.values() if rule.timed for requirement in rule.stands_for)
+    return frozenset(requirement for one in PROPERTIES.values() if one.timed for requirement in one.stands_for)
 
 
 def is_timed(finding: Finding) -> bool:
     """Whether ``finding`` depends on how long something took."""
-    known = RULES.get(finding.rule)
+    known = PROPERTIES.get(finding.rule)
     return known is not None and known.timed
 
 
@@ -64,9 +64,9 @@ class Unconfirmed:
 class Confirmation:
     """Confirms the findings of one run. ``gaps`` knows when the machine stood still."""
 
-    def __init__(self, driver: Driver, judge: Judge, gaps: ClockGaps) -> None:
+    def __init__(self, driver: Driver, monitor: Monitor, gaps: ClockGaps) -> None:
         self._driver = driver
-        self._judge = judge
+        self._monitor = monitor
         self._gaps = gaps
         self._confirmed: set[Cause] = set()
         self._attempts: Counter[Cause] = Counter()
@@ -138,7 +138,7 @@ class Confirmation:
         return _gap_reason(max(gap, second_gap)) or f"unstable: seen once, and {again}", second
 
     def _findings(self, answer: Answer) -> list[Finding]:
-        return self._judge.judge(answer.disguised, answer.trace).findings if answer.trace else []
+        return self._monitor.judge(answer.disguised, answer.trace).findings if answer.trace else []
 
 
 def _gap_reason(gap: int) -> str:

@@ -19,8 +19,8 @@ from ucm_cts.harness.results.values import (
     RequirementResult,
     TransitionResult,
 )
-from ucm_cts.reference_models.model.ics import Claims
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
 
 SEEDS = 3
 """The scenario of a failure is run again for up to this many runs that did not show it, until one does not show it."""
@@ -29,16 +29,16 @@ Steady = Callable[[FailedExecution, int], Execution | None]
 """Runs the scenario of a failure with the seed of another run; the execution, unless that one shows the failure, too."""
 
 
-def looking(endpoint: Endpoint, limits: Limits, claims: Claims) -> Steady:
+def looking(endpoint: Endpoint, limits: Limits, ics: Ics) -> Steady:
     """Looks for a steady execution on hosts behind ``endpoint``."""
-    judge = Judge(load_life_cycle(), claims)
+    monitor = Monitor(load_life_cycle(), ics)
 
     def steady(failed: FailedExecution, seed: int) -> Execution | None:
         if failed.execution is None:
             return None
         with Driver(endpoint, seed, limits) as driver:
             answer = driver.again(failed.execution.name, failed.execution.scenario, Circumstances())
-            findings = judge.judge(answer.disguised, answer.trace).findings
+            findings = monitor.judge(answer.disguised, answer.trace).findings
             shown = not answer.trace or any(f.requirement == failed.finding.requirement for f in findings)
             return None if shown else driver.revealed(answer)
 

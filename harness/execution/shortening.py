@@ -13,7 +13,7 @@ from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.tally import Cause, Tally, cause_of
 from ucm_cts.harness.results.values import Execution, IncidentKind
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 _QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
 """Incidents whose scenarios are shortened; each try of another one would cost its whole deadline."""
@@ -34,9 +34,9 @@ SECONDS_FOR_SMALLER_VALUES = 5
 class Shortening:
     """Shortens the failures of ``tally`` and replaces them there."""
 
-    def __init__(self, driver: Driver, judge: Judge, confirmation: Confirmation, tally: Tally) -> None:
+    def __init__(self, driver: Driver, monitor: Monitor, confirmation: Confirmation, tally: Tally) -> None:
         self._driver = driver
-        self._judge = judge
+        self._monitor = monitor
         self._confirmation = confirmation
         self._tally = tally
 
@@ -98,5 +98,5 @@ class Shortening:
         if answer.incident is not None:
             finding = finding_of_incident(execution)
             return [finding] if finding is not None else []
-        findings = self._judge.judge(answer.disguised, answer.trace).findings
+        findings = self._monitor.judge(answer.disguised, answer.trace).findings
         return [self._driver.reveal(finding) for finding in self._confirmation.outside_gaps(answer, findings)]

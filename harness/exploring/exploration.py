@@ -30,7 +30,7 @@ from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import Cause, cause_of
 from ucm_cts.harness.results.values import Report
 from ucm_cts.harness.statement.applicability import fitting
-from ucm_cts.reference_models.verdicts import Ledger
+from ucm_cts.reference_models.verdicts import Verdicts
 
 CANDIDATES = 4
 """So many scenarios are compared for one that is sent."""
@@ -168,8 +168,8 @@ class Exploration:
                 return drawn[0][1]
         return self._draw(())
 
-    def _watch(self, answer: Answer, ledger: Ledger) -> None:
-        self._rows |= ledger.rows.keys()
+    def _watch(self, answer: Answer, verdicts: Verdicts) -> None:
+        self._rows |= verdicts.rows.keys()
         if self._events.are_new(answer.disguised, answer.trace) and not answer.scenario.interfaces:
             self._new.append((self._run, answer.scenario))
 

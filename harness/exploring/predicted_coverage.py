@@ -27,9 +27,9 @@ def transitions(table: LifeCycleTable, scenario: Scenario) -> frozenset[Transiti
     for step in scenario.steps:
         if not isinstance(step, _CALLS):
             continue
-        window = prediction.perform(step)
-        found.add(("together", *sorted({row.id for _, row in window.roles})))
-        for member, row in window.roles:
+        ongoing = prediction.perform(step)
+        found.add(("together", *sorted({row.id for _, row in ongoing.roles})))
+        for member, row in ongoing.roles:
             found.add(("then", latest.get(id(member), ""), row.id))
             if member is not None:
                 latest[id(member)] = row.id

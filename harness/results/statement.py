@@ -13,7 +13,7 @@ from pathlib import Path
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_capabilities, load_options
-from ucm_cts.reference_models.model.ics import TOLERANCES, Claims
+from ucm_cts.reference_models.model.ics import TOLERANCES, Ics
 
 HOOKS = ("transport-fault", "connector-fault", "trace-sink")
 """Options by which a vendor claims what the adapter offers for tests only; without it something stays undecided."""
@@ -71,9 +71,9 @@ class Statement(Value, frozen=True):
     folder: str = "."
 
     @property
-    def claims(self) -> Claims:
+    def ics(self) -> Ics:
         """The part that properties need."""
-        return Claims(self.readings, {name: value for name, value in self.ixit.items() if name in TOLERANCES})
+        return Ics(self.readings, {name: value for name, value in self.ixit.items() if name in TOLERANCES})
 
     @property
     def model_paths(self) -> tuple[Path, ...]:

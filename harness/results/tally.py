@@ -27,7 +27,7 @@ from ucm_cts.harness.results.values import (
 )
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
-from ucm_cts.reference_models.verdicts import Ledger, RowTally
+from ucm_cts.reference_models.verdicts import RowTally, Verdicts
 
 Cause = tuple[str, str, str]
 """Requirement, rule and cause: findings that agree in these are one failure."""
@@ -58,14 +58,14 @@ class Tally:
         self._settled: dict[str, tuple[Verdict, str]] = {}
         self._reasons: dict[str, str] = {}
 
-    def add(self, execution: Execution, ledger: Ledger, findings: Sequence[Finding]) -> None:
+    def add(self, execution: Execution, verdicts: Verdicts, findings: Sequence[Finding]) -> None:
         """Add one execution, the verdicts on it, and its findings in the scenario's names."""
         self.scenarios += 1
         self.events += len(execution.trace)
-        self.exercised.update(ledger.exercises)
-        self.measures.update(ledger.measures)
-        self._observe(ledger.readings)
-        for row, tally in ledger.rows.items():
+        self.exercised.update(verdicts.exercises)
+        self.measures.update(verdicts.measures)
+        self._observe(verdicts.readings)
+        for row, tally in verdicts.rows.items():
             total = self.rows.setdefault(row, RowTally())
             total.exercised += tally.exercised
             total.violated += tally.violated

@@ -23,11 +23,11 @@ from ucm_cts.harness.selftest.killing import (
 from ucm_cts.harness.selftest.matrix import CheatResult, Matrix, MutantResult, VariantResult
 from ucm_cts.harness.selftest.models_killing import examine_models
 from ucm_cts.harness.selftest.toolchains import ToolChainSubject, examine_toolchain, testable_of_toolchains
-from ucm_cts.reference_models.verdicts import RULES
+from ucm_cts.reference_models.properties.table import PROPERTIES
 
 Result = MutantResult | VariantResult | CheatResult
 
-ALL_CHECKS = RULES.keys() | CHECKS.keys()
+ALL_CHECKS = PROPERTIES.keys() | CHECKS.keys()
 """Rules, which watch traces, and checks of core models."""
 
 

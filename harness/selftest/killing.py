@@ -30,7 +30,7 @@ from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import stated_by
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 PATIENCE = 500
 """Milliseconds, as a vendor would declare them: mutants often never do what is waited for, and their machine is this one."""
@@ -223,7 +223,7 @@ def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: E
     right = _right_traces(subject.model, seed).of(execution.scenario)
     parted = divergence(execution.scenario, right, execution.trace)
     if not parted.steps and subject.readings:  # it lies in its statement: under its model's the finding must vanish
-        usual = Judge(load_life_cycle(), stated_by(None, subject.reference).claims)
+        usual = Monitor(load_life_cycle(), stated_by(None, subject.reference).ics)
         found = usual.judge(execution.scenario, execution.trace).findings
         return all(other.requirement != finding.requirement for other in found)
     return parted.explains(finding)

@@ -1,4 +1,4 @@
-"""What a body has heard so far: its callbacks, as far as rules ask for them, however many they are."""
+"""The callbacks that a body has received so far, as far as properties ask for them, however many they are."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ _REMEMBERED = 50
 """So many phases are told of one by one."""
 
 
-class Heard:
+class CallbackHistory:
     """The callbacks of one body. ``first`` is the first of all, ``first_at`` its ``n``; ``interfaces`` counts
     set_container_interface.
 
@@ -28,7 +28,7 @@ class Heard:
         self.interfaces = 0
         self.phases: list[str] = []
 
-    def hear(self, hook: Hook, n: int) -> None:
+    def add(self, hook: Hook, n: int) -> None:
         """One more callback has come, with the event ``n``."""
         if not self.first:
             self.first, self.first_at = hook, n

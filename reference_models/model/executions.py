@@ -13,7 +13,7 @@ from typing import Literal
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Enter, Exit, Held, Opened, Request, Settled
-from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.runtime import Behind, Connection, Member, Runtime
 
 Protection = Literal["", "self-executing", "active", "passive", "unprotected"]
@@ -259,17 +259,17 @@ def managed_ports(declaration: Declaration) -> set[str]:
     return set(declaration.provides) if None in ports else {port for port in ports if port is not None}
 
 
-def exclusion(declaration: Declaration, claims: Claims, one: str, other: str) -> str:
+def exclusion(declaration: Declaration, ics: Ics, one: str, other: str) -> str:
     """The requirement that keeps two ways into a component apart; empty if none does, or if the vendor reads it so."""
     protection = protection_of(declaration)
     if protection == "self-executing":
         if one == other == "run":
             return "R-10.1.3.2-05"
-        return "" if claims.reading("self-exec-mutex") == "run-only" else "R-10.1.3.2-06"
+        return "" if ics.reading("self-exec-mutex") == "run-only" else "R-10.1.3.2-06"
     if protection == "active":
         if {one, other} <= managed_ports(declaration):
             return "R-10.1.3.2-09"
-        return "" if claims.reading("active-unmanaged") == "unprotected" else "R-10.1.3.2-10"
+        return "" if ics.reading("active-unmanaged") == "unprotected" else "R-10.1.3.2-10"
     if protection == "passive":
         return "R-10.1.3.2-13" if one == other else "R-10.1.3.2-16"
     return ""

@@ -1,4 +1,4 @@
-"""What an instance must hear: the callback patterns of the life-cycle table, and which requirement a deviation breaks."""
+"""What an instance must receive: the callback patterns of the life-cycle table, and which requirement a deviation breaks."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Fit:
 
 @dataclass(frozen=True)
 class Deviation:
-    """What was heard instead: the callback at fault (none if only the order is), and the pattern that comes nearest."""
+    """What was received instead: the callback at fault (none if only the order is), and the pattern that comes nearest."""
 
     requirement: str
     hook: str
@@ -48,7 +48,7 @@ class Deviation:
     wanted: tuple[str, ...]
 
 
-class Duties:
+class ExpectedCallbacks:
     """The life-cycle table as far as callbacks go. What it has worked out once it remembers."""
 
     def __init__(self, table: LifeCycleTable) -> None:
@@ -82,45 +82,45 @@ class Duties:
             self._calls[id(row), hook] = known
         return known
 
-    def fit(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> Fit | None:
-        """How ``heard`` fits an outcome of ``row`` with this ``answer``; None if it does not."""
-        key = (id(row), answer, listener, heard)
+    def fit(self, row: Row, answer: str, listener: Listener, hooks: tuple[str, ...]) -> Fit | None:
+        """How ``hooks`` fits an outcome of ``row`` with this ``answer``; None if it does not."""
+        key = (id(row), answer, listener, hooks)
         if key in self._fits:
             return self._fits[key]
-        fit = self._fit(row, answer, listener, heard)
+        fit = self._fit(row, answer, listener, hooks)
         if len(self._fits) < _MOST_REMEMBERED:
             self._fits[key] = fit
         return fit
 
-    def _fit(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> Fit | None:
-        fitting = [o for o in row.outcomes if answer in o.answer and fits(pattern(o, listener), heard)]
+    def _fit(self, row: Row, answer: str, listener: Listener, hooks: tuple[str, ...]) -> Fit | None:
+        fitting = [o for o in row.outcomes if answer in o.answer and fits(pattern(o, listener), hooks)]
         if not fitting:
             return None
         readings = tuple(dict.fromkeys(o.reading for o in fitting))
-        return Fit(row, () if "" in readings else readings, tuple(self._exercised(row, answer, listener, heard)))
+        return Fit(row, () if "" in readings else readings, tuple(self._exercised(row, answer, listener, hooks)))
 
-    def _exercised(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> list[str]:
+    def _exercised(self, row: Row, answer: str, listener: Listener, hooks: tuple[str, ...]) -> list[str]:
         exercised = []
-        for hook in dict.fromkeys(heard):
+        for hook in dict.fromkeys(hooks):
             exercised.append(self.of(hook, row.operation).missing)
             if listener.fragment and hook in ("on_init", "on_startup"):
                 exercised.append(self._table.fragments)
-        if len(heard) > 1 and "on_remove" in heard and answer == "return":
+        if len(hooks) > 1 and "on_remove" in hooks and answer == "return":
             exercised.append(self._table.order)
-        if row.operation == "connect" and listener.connectable and not heard:
+        if row.operation == "connect" and listener.connectable and not hooks:
             exercised.append(self.of("on_connect", "connect").unexpected)
         if row.state != "absent":
             for hook in _UNSOLICITED:
                 duty = self.of(hook, row.operation)
-                if hook not in heard and duty.missing != duty.unexpected:
+                if hook not in hooks and duty.missing != duty.unexpected:
                     exercised.append(duty.unexpected)
         return exercised
 
-    def deviation(self, row: Row, answer: str, listener: Listener, heard: tuple[str, ...]) -> Deviation:
-        """What is wrong with ``heard``, which fits no outcome of ``row`` with this ``answer``."""
+    def deviation(self, row: Row, answer: str, listener: Listener, hooks: tuple[str, ...]) -> Deviation:
+        """What is wrong with ``hooks``, which fits no outcome of ``row`` with this ``answer``."""
         patterns = [pattern(o, listener) for o in row.outcomes if answer in o.answer]
-        nearest = min(patterns, key=lambda tokens: sum(map(Counter.total, _difference(tokens, heard))))
-        missing, surplus = _difference(nearest, heard)
+        nearest = min(patterns, key=lambda tokens: sum(map(Counter.total, _difference(tokens, hooks))))
+        missing, surplus = _difference(nearest, hooks)
         wanted = tuple(hook for hook, optional in nearest if not optional)
         if missing:
             hook = next(h for h in wanted if h in missing)
@@ -129,7 +129,7 @@ class Duties:
                 requirement = self._table.fragments
             return Deviation(requirement, hook, True, wanted)
         if surplus:
-            hook = next(h for h in heard if h in surplus)
+            hook = next(h for h in hooks if h in surplus)
             return Deviation(self.of(hook, row.operation).unexpected, hook, False, wanted)
         return Deviation(self._table.order, "", False, wanted)
 
@@ -144,19 +144,19 @@ def pattern(outcome: Outcome, listener: Listener) -> list[Token]:
     return tokens
 
 
-def fits(tokens: Sequence[Token], heard: Sequence[str]) -> bool:
-    """Is ``heard`` a sequence that ``tokens`` permits?"""
+def fits(tokens: Sequence[Token], hooks: Sequence[str]) -> bool:
+    """Is ``hooks`` a sequence that ``tokens`` permits?"""
     if not tokens:
-        return not heard
+        return not hooks
     hook, optional = tokens[0]
-    if heard and heard[0] == hook and fits(tokens[1:], heard[1:]):
+    if hooks and hooks[0] == hook and fits(tokens[1:], hooks[1:]):
         return True
-    return optional and fits(tokens[1:], heard)
+    return optional and fits(tokens[1:], hooks)
 
 
-def _difference(tokens: Sequence[Token], heard: Sequence[str]) -> tuple[Counter[str], Counter[str]]:
+def _difference(tokens: Sequence[Token], hooks: Sequence[str]) -> tuple[Counter[str], Counter[str]]:
     """Callbacks that should be there and are not, and those that are there and should not."""
     required = Counter(hook for hook, optional in tokens if not optional)
     permitted = Counter(hook for hook, _ in tokens)
-    seen = Counter(heard)
+    seen = Counter(hooks)
     return required - seen, seen - permitted

@@ -1,4 +1,4 @@
-"""What the vendor states of the framework, as far as rules need it: readings of unclear places, times and tolerances."""
+"""What the vendor states of the framework, as far as properties need it: readings of unclear places, times and tolerances."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ OBSERVED = "observed"
 
 
 @dataclass(frozen=True)
-class Claims:
+class Ics:
     """``readings`` are the values declared of options of the interpretations, ``tolerances`` those of the IXIT.
 
     An option that is not declared has its first value, which the harness fills in.

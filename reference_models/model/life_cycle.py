@@ -1,6 +1,6 @@
 """The life-cycle table as types: state × operation × condition → permitted outcomes and callbacks (11.2.3, 12.10).
 
-The table itself is data, ``suite/life_cycle.yaml``; the harness loads it and hands it to the model, the rules, the
+The table itself is data, ``suite/life_cycle.yaml``; the harness loads it and hands it to the model, the properties, the
 scenario generator, the documentation and the report.
 """
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Policy
 from ucm_cts.adapters.contract.trace import Call, LogRecord, Return
-from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.interactions import Interactions, MethodCall
 from ucm_cts.reference_models.model.service_policies import policy_elements, port_traces
 
@@ -36,11 +36,9 @@ class Threshold:
     least: str
 
     @classmethod
-    def declared(cls, claims: Claims) -> Threshold:
+    def declared(cls, ics: Ics) -> Threshold:
         """What the vendor declares; without a threshold every severity is recorded."""
-        return cls(
-            _SEVERITIES.get(claims.reading("log-severity-set"), COMMON_SEVERITIES), claims.reading("log-threshold")
-        )
+        return cls(_SEVERITIES.get(ics.reading("log-severity-set"), COMMON_SEVERITIES), ics.reading("log-threshold"))
 
     def knows(self, severity: str) -> bool:
         """Is it certain that there is such a severity?"""
@@ -150,10 +148,10 @@ def log_readings(interactions: Interactions) -> list[LogReading]:
 
 
 def contents_of(
-    reading: LogReading, interactions: Interactions, components: dict[str, Declaration], claims: Claims
+    reading: LogReading, interactions: Interactions, components: dict[str, Declaration], ics: Ics
 ) -> Contents:
     """What ``reading`` found, and what it was to find."""
-    threshold = Threshold.declared(claims)
+    threshold = Threshold.declared(ics)
     contents = Contents(
         reading,
         list(_messages(reading, interactions, components, threshold)),

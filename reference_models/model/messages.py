@@ -9,7 +9,7 @@ from ucm_cts.adapters.contract.trace import Timeout
 from ucm_cts.reference_models.model.interactions import Delivery, Interactions, MethodCall
 from ucm_cts.reference_models.model.links import End
 from ucm_cts.reference_models.model.runtime import Member, Runtime
-from ucm_cts.reference_models.verdicts import Ledger
+from ucm_cts.reference_models.verdicts import Verdicts
 
 OK, INTERNAL_ERROR, COMM_ERROR = "ok", "internal_error", "comm_error"
 CODES = (OK, INTERNAL_ERROR, COMM_ERROR)
@@ -58,12 +58,12 @@ def counts(member: Member) -> bool:
     return any(isinstance(a, s.CountMessages) for a in member.declaration.plan.get("method", ()))
 
 
-def settling_time(ledger: Ledger) -> float:
+def settling_time(verdicts: Verdicts) -> float:
     """Nanoseconds that a connector may take to learn that it was broken or mended."""
-    return ledger.claims.tolerance("error-known-within") * _NANOSECONDS
+    return verdicts.ics.tolerance("error-known-within") * _NANOSECONDS
 
 
-def is_whole(ledger: Ledger, runtime: Runtime, call: MethodCall) -> bool:
+def is_whole(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> bool:
     """Has nothing been broken when it was pushed, nor since, nor mended so lately that the connector need not know?
 
     Connections may share what is broken.
@@ -72,7 +72,7 @@ def is_whole(ledger: Ledger, runtime: Runtime, call: MethodCall) -> bool:
     if call.link is None or any(link.broken or link.broken_at > call.request.t for link in links):
         return False
     mended_at = max(link.mended_at for link in links)
-    return not mended_at or call.request.t - mended_at >= settling_time(ledger)
+    return not mended_at or call.request.t - mended_at >= settling_time(verdicts)
 
 
 def lasting(runtime: Runtime, call: MethodCall) -> list[End]:
@@ -128,10 +128,10 @@ def waited_for(runtime: Runtime, timeout: Timeout, since: int) -> bool:
     return not interactions.held and timeout.t - max(since, interactions.released_at) >= patience
 
 
-def overdue(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> Iterator[tuple[MethodCall, list[End]]]:
+def overdue(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> Iterator[tuple[MethodCall, list[End]]]:
     """Answered messages, and the receivers that are well and operational all the while and were waited for in vain."""
     for call in messages(runtime):
-        if call.reply is None or not is_whole(ledger, runtime, call):
+        if call.reply is None or not is_whole(verdicts, runtime, call):
             continue
         if not waited_for(runtime, timeout, call.reply.t):
             continue

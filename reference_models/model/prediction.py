@@ -11,15 +11,15 @@ from typing import NamedTuple, get_args
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import DeclaredError, Enter, Raise, Reference, Return
-from ucm_cts.reference_models.model.application import adopt
 from ucm_cts.reference_models.model.expected_callbacks import Listener, pattern
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
-from ucm_cts.reference_models.model.row_selection import Situations, undone_by
-from ucm_cts.reference_models.model.runtime import Connection, Container, Member, Runtime, Window
+from ucm_cts.reference_models.model.operation_effects import apply
+from ucm_cts.reference_models.model.row_selection import RowSelection, undone_by
+from ucm_cts.reference_models.model.runtime import Connection, Container, Member, OperationInProgress, Runtime
 
 
 class Way(NamedTuple):
-    """How an operation goes: its answer, and the callbacks for each role of its window."""
+    """How an operation goes: its answer, and the callbacks for each role of its operation."""
 
     answer: str
     callbacks: tuple[tuple[str, ...], ...]
@@ -29,7 +29,7 @@ class Prediction:
     """A runtime of the model that carries out steps itself."""
 
     def __init__(self, table: LifeCycleTable, components: dict[str, s.Declaration]) -> None:
-        self._situations = Situations(table)
+        self._situations = RowSelection(table)
         self.runtime = Runtime(s.Scenario(components, ()))
         self._next_id = 0
         self._made: dict[str, int] = {}
@@ -41,53 +41,55 @@ class Prediction:
         other.runtime = _copied(self.runtime)
         return other
 
-    def look(self, step: s.ContainerCall) -> Window:
-        """The window ``step`` would open now; nothing changes."""
+    def look(self, step: s.ContainerCall) -> OperationInProgress:
+        """The operation in progress that ``step`` would begin now; nothing changes."""
         return self._situations.open(self.runtime, 0, step)
 
-    def perform(self, step: s.ContainerCall) -> Window:
+    def perform(self, step: s.ContainerCall) -> OperationInProgress:
         """Carry ``step`` out in the first way that suits every instance concerned."""
         return self.carry_out(step, next(self.ways(self.look(step))))
 
-    def ways(self, window: Window) -> Iterator[Way]:
+    def ways(self, ongoing: OperationInProgress) -> Iterator[Way]:
         """Ways to go that the table permits, the first one first: with each answer, each instance does each thing that it
         may do while the others do the first; what may be left out is left out by one way and not by another.
         """
-        answers = [a for o in window.roles[0][1].outcomes for a in o.answer] if window.roles else ["return"]
-        suiting = [a for a in answers if all(any(a in o.answer for o in row.outcomes) for _, row in window.roles)]
+        answers = [a for o in ongoing.roles[0][1].outcomes for a in o.answer] if ongoing.roles else ["return"]
+        suiting = [a for a in answers if all(any(a in o.answer for o in row.outcomes) for _, row in ongoing.roles)]
         for answer in dict.fromkeys(suiting or answers[:1]):
-            choices = [self._choices(window, member, row, answer) for member, row in window.roles]
+            choices = [self._choices(ongoing, member, row, answer) for member, row in ongoing.roles]
             first = tuple(choice[0] for choice in choices)
             yield Way(answer, first)
             for index, choice in enumerate(choices):
                 yield from (Way(answer, (*first[:index], other, *first[index + 1 :])) for other in choice[1:])
 
-    def _choices(self, window: Window, member: Member | None, row: Row, answer: str) -> list[tuple[str, ...]]:
-        connectable = member.declaration.connectable if member else self._declares_connectable(window.step)
-        listener = Listener(connectable, False, len(undone_by(window, member)) if member else 0)
+    def _choices(
+        self, ongoing: OperationInProgress, member: Member | None, row: Row, answer: str
+    ) -> list[tuple[str, ...]]:
+        connectable = member.declaration.connectable if member else self._declares_connectable(ongoing.step)
+        listener = Listener(connectable, False, len(undone_by(ongoing, member)) if member else 0)
         outcomes = [o for o in row.outcomes if answer in o.answer] or row.outcomes[:1]
         patterns = [pattern(outcome, listener) for outcome in outcomes]
         least = [tuple(hook for hook, optional in tokens if not optional) for tokens in patterns]
         return list(dict.fromkeys((*least, *(tuple(hook for hook, _ in tokens) for tokens in patterns))))
 
-    def carry_out(self, step: s.ContainerCall, way: Way) -> Window:
+    def carry_out(self, step: s.ContainerCall, way: Way) -> OperationInProgress:
         """Carry ``step`` out in that ``way``, one of ``ways``."""
-        window = self.look(step)
-        for (member, _), hooks in zip(window.roles, way.callbacks, strict=True):
+        ongoing = self.look(step)
+        for (member, _), hooks in zip(ongoing.roles, way.callbacks, strict=True):
             component, instance = self._body(step, member)
             for hook in hooks if component else ():
-                window.hear(Enter(0, 0, 0, component, instance, hook))  # type: ignore[arg-type]
-        adopt(self.runtime, window, self._end(step, window, way.answer))
-        return window
+                ongoing.hear(Enter(0, 0, 0, component, instance, hook))  # type: ignore[arg-type]
+        apply(self.runtime, ongoing, self._end(step, ongoing, way.answer))
+        return ongoing
 
-    def _end(self, step: s.ContainerCall, window: Window, answer: str) -> Return | Raise:
+    def _end(self, step: s.ContainerCall, ongoing: OperationInProgress, answer: str) -> Return | Raise:
         if answer in get_args(DeclaredError):
             return Raise(0, 0, 0, 0, answer)  # type: ignore[arg-type]
         if isinstance(step, s.AddComponent | s.Connect):
             self._next_id += 1
             return Return(0, 0, 0, 0, self._next_id)
-        if isinstance(step, s.GetPortElement) and window.subject is not None:
-            member: Member = window.subject
+        if isinstance(step, s.GetPortElement) and ongoing.subject is not None:
+            member: Member = ongoing.subject
             return Return(0, 0, 0, 0, Reference(member.component, member.instance or 1, step.port))
         return Return(0, 0, 0, 0)
 

@@ -8,7 +8,7 @@ from typing import Any
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.executions import is_contradictory
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row, State
-from ucm_cts.reference_models.model.runtime import Connection, Container, Member, Runtime, Window, raises
+from ucm_cts.reference_models.model.runtime import Connection, Container, Member, OperationInProgress, Runtime, raises
 from ucm_cts.reference_models.model.service_policies import has_several_clocks
 
 _FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")
@@ -21,12 +21,12 @@ class MissingRow(Exception):
     """The life-cycle table has no row for a situation: an error of this suite, never of a framework."""
 
 
-class Situations:
+class RowSelection:
     """Looks up rows for each operation. Holds the table; all state lives in the ``Runtime``."""
 
     def __init__(self, table: LifeCycleTable) -> None:
         self._rows = {(r.state, r.operation, r.condition): r for r in table.rows}
-        self._looks: dict[str, Callable[[Runtime, Window, Any], None]] = {
+        self._looks: dict[str, Callable[[Runtime, OperationInProgress, Any], None]] = {
             "add_component": self._add,
             "remove_component": self._remove,
             "get_port_element": self._get_port_element,
@@ -34,57 +34,59 @@ class Situations:
             "disconnect": self._disconnect,
             "start": self._start,
             "stop": self._stop,
-            "get_components": lambda runtime, window, step: self._role(window, None, "absent", ""),
+            "get_components": lambda runtime, ongoing, step: self._role(ongoing, None, "absent", ""),
             "create_container": self._create_container,
             "remove_container": self._remove_container,
             "destroy": self._destroy,
         }
 
-    def open(self, runtime: Runtime, number: int, step: s.ContainerCall, call: int = 0) -> Window:
-        """The window of scenario step ``number``, with the rows that apply; ``call`` is the event that opens it."""
+    def open(self, runtime: Runtime, number: int, step: s.ContainerCall, call: int = 0) -> OperationInProgress:
+        """The operation of scenario step ``number``, with the rows that apply; ``call`` is the event that begins it."""
         operation = s.operation(step)
         name = s.MANAGER if operation in _OF_THE_MANAGER else step.container  # type: ignore[union-attr]
         container = runtime.containers.get(name) or Container(name, removed=True)
-        window = Window(number, step, operation, container, call)
+        ongoing = OperationInProgress(number, step, operation, container, call)
         if runtime.destroyed or container.doubtful or (container.removed and operation != "remove_container"):
-            window.judged = False
-            return window
-        self._looks[operation](runtime, window, step)
-        if window.subject is not None and window.subject.container is not container:
-            window.judged = False
+            ongoing.judged = False
+            return ongoing
+        self._looks[operation](runtime, ongoing, step)
+        if ongoing.subject is not None and ongoing.subject.container is not container:
+            ongoing.judged = False
         if len(runtime.containers) > 1:
-            self._other_phases(runtime, window)
-        for member, _ in window.roles:
+            self._other_phases(runtime, ongoing)
+        for member, _ in ongoing.roles:
             if member is not None and member.suspended:
-                window.judged = False
-        return window
+                ongoing.judged = False
+        return ongoing
 
-    def _other_phases(self, runtime: Runtime, window: Window) -> None:
+    def _other_phases(self, runtime: Runtime, ongoing: OperationInProgress) -> None:
         """Where phases are the whole application's, what another container is in may be a reason to refuse."""
-        others = [c for c in runtime.containers.values() if c is not window.container and not c.removed]
-        if window.operation in _CONFIGURING:
-            window.forgiving = window.forgiving or any(c.started is not False for c in others)
-        elif window.operation == "start":
+        others = [c for c in runtime.containers.values() if c is not ongoing.container and not c.removed]
+        if ongoing.operation in _CONFIGURING:
+            ongoing.forgiving = ongoing.forgiving or any(c.started is not False for c in others)
+        elif ongoing.operation == "start":
             unready = any(not m.connected or m.suspended for c in others for m in c.live_members())
-            window.forgiving = window.forgiving or unready
+            ongoing.forgiving = ongoing.forgiving or unready
 
-    def _role(self, window: Window, member: Member | None, state: State, condition: str, operation: str = "") -> None:
-        key = (state, operation or window.operation, condition)
+    def _role(
+        self, ongoing: OperationInProgress, member: Member | None, state: State, condition: str, operation: str = ""
+    ) -> None:
+        key = (state, operation or ongoing.operation, condition)
         row = self._rows.get(key)
         if row is None:
             raise MissingRow("/".join(key))
-        window.roles.append((member, row))
+        ongoing.roles.append((member, row))
 
-    def _member_role(self, window: Window, member: Member, condition: str, operation: str = "") -> None:
-        self._role(window, member, member.state, condition, operation)
+    def _member_role(self, ongoing: OperationInProgress, member: Member, condition: str, operation: str = "") -> None:
+        self._role(ongoing, member, member.state, condition, operation)
 
-    def _add(self, runtime: Runtime, window: Window, step: s.AddComponent) -> None:
+    def _add(self, runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent) -> None:
         declaration = runtime.scenario.components.get(step.component)
-        container = window.container
+        container = ongoing.container
         late = container.started is not False
         if declaration is None:
             condition = "unknown implementation"
-            window.judged = container.started is not None
+            ongoing.judged = container.started is not None
         elif raises(declaration, "on_init"):
             condition = "on_init fails, container started" if late else "on_init fails"
         else:
@@ -96,82 +98,82 @@ class Situations:
             ("set_container_interface", "on_startup") if late else ("set_container_interface",)
         )
         if container.started is None or (declaration is not None and raises(declaration, *unforeseen)):
-            window.judged = False
+            ongoing.judged = False
         if declaration is not None and (is_contradictory(declaration) or has_several_clocks(declaration)):
-            window.judged = False
+            ongoing.judged = False
         if declaration is not None and declaration.policies:
-            window.forgiving = True  # whether the policy is supported is policy_supported's matter
-        self._role(window, None, "absent", condition)
+            ongoing.forgiving = True  # whether the policy is supported is policy_supported's matter
+        self._role(ongoing, None, "absent", condition)
 
-    def _remove(self, runtime: Runtime, window: Window, step: s.RemoveComponent) -> None:
-        member, why = runtime.find_member(window.container, step.id)
-        window.subject = member
+    def _remove(self, runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveComponent) -> None:
+        member, why = runtime.find_member(ongoing.container, step.id)
+        ongoing.subject = member
         if member is None:
-            self._role(window, None, "absent", why + _late(window))
+            self._role(ongoing, None, "absent", why + _late(ongoing))
             return
         clients = list(runtime.clients_of([member]))
         failing = member.raises(*_FAILING_END)
         if member.state == "ready":
-            window.judged = not failing
-            self._member_role(window, member, "")
+            ongoing.judged = not failing
+            self._member_role(ongoing, member, "")
         elif failing:
-            window.judged = not clients and not member.live_connections() and not member.raises("on_shutdown")
-            self._member_role(window, member, "on_remove fails" if window.judged else "not connected")
+            ongoing.judged = not clients and not member.live_connections() and not member.raises("on_shutdown")
+            self._member_role(ongoing, member, "on_remove fails" if ongoing.judged else "not connected")
         elif clients:
-            self._member_role(window, member, "provider in use")
+            self._member_role(ongoing, member, "provider in use")
         else:
-            self._member_role(window, member, "connected" if member.live_connections() else "not connected")
+            self._member_role(ongoing, member, "connected" if member.live_connections() else "not connected")
         doubtful = [c for c in runtime.all_connections() if c.live is None or c.ambiguous]
         if any(member is c.provider or member is c.client for c in doubtful):
-            window.judged = False
+            ongoing.judged = False
         for client, _ in clients:
-            self._member_role(window, client, "", "remove_provider")
+            self._member_role(ongoing, client, "", "remove_provider")
             if _raises_when_disconnected(client):
-                window.judged = False
+                ongoing.judged = False
 
-    def _get_port_element(self, runtime: Runtime, window: Window, step: s.GetPortElement) -> None:
-        member, why = runtime.find_member(window.container, step.id)
-        window.subject = member
+    def _get_port_element(self, runtime: Runtime, ongoing: OperationInProgress, step: s.GetPortElement) -> None:
+        member, why = runtime.find_member(ongoing.container, step.id)
+        ongoing.subject = member
         if member is None:
-            self._role(window, None, "absent", why)
+            self._role(ongoing, None, "absent", why)
         elif step.port in member.declaration.provides:
-            self._member_role(window, member, "provided")
+            self._member_role(ongoing, member, "provided")
         else:
             self._member_role(
-                window, member, "required" if step.port in member.declaration.requires else "unknown name"
+                ongoing, member, "required" if step.port in member.declaration.requires else "unknown name"
             )
 
-    def _connect(self, runtime: Runtime, window: Window, step: s.Connect) -> None:
-        member, why = runtime.find_member(window.container, step.id)
-        window.subject = member
+    def _connect(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Connect) -> None:
+        member, why = runtime.find_member(ongoing.container, step.id)
+        ongoing.subject = member
         _, provider = runtime.reference(step.to)
         unusable = step.to == s.NIL or (provider is not None and provider.gone)
         if member is None:
-            self._role(window, None, "absent", why + _late(window))
-            window.judged = not unusable  # two things are wrong, and nobody says which is told
+            self._role(ongoing, None, "absent", why + _late(ongoing))
+            ongoing.judged = not unusable  # two things are wrong, and nobody says which is told
             return
         wrong = ""
         if step.port not in member.declaration.requires:
             wrong = "provided name" if step.port in member.declaration.provides else "unknown name"
         elif step.to == s.NIL:
             wrong = "null reference"
-        late = window.container.started is not False
+        late = ongoing.container.started is not False
         if member.state == "ready":
-            self._member_role(window, member, "wrong argument" if wrong else "")
+            self._member_role(ongoing, member, "wrong argument" if wrong else "")
         elif wrong:
-            window.judged = not late and provider is not member
-            self._member_role(window, member, wrong)
+            ongoing.judged = not late and provider is not member
+            self._member_role(ongoing, member, wrong)
         elif late:
-            window.judged = window.container.started is not None
-            self._member_role(window, member, "container started")
+            ongoing.judged = ongoing.container.started is not None
+            self._member_role(ongoing, member, "container started")
         else:
-            self._member_role(window, member, self._kind_of_connection(member, step, provider))
+            self._member_role(ongoing, member, self._kind_of_connection(member, step, provider))
         if member.raises("on_connect", "on_disconnect") or (late and member.raises("on_startup", "on_shutdown")):
-            window.judged = False
-        if provider is not None and provider.gone and window.roles[-1][1].condition != "provider already removed":
-            window.judged = False
+            ongoing.judged = False
+        if provider is not None and provider.gone and ongoing.roles[-1][1].condition != "provider already removed":
+            ongoing.judged = False
         if provider is not None and provider.doubtful:
-            window.judged = False
+            ongoing.judged = False
 
     def _kind_of_connection(self, member: Member, step: s.Connect, provider: Member | None) -> str:
         if member.live_connections(step.port):
@@ -192,46 +194,46 @@ class Situations:
             return "last port, again"
         return "last port" if member.declaration.connectable else "last port, not Connectable"
 
-    def _disconnect(self, runtime: Runtime, window: Window, step: s.Disconnect) -> None:
-        connection, why = runtime.find_connection(window.container, step.connection)
+    def _disconnect(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Disconnect) -> None:
+        connection, why = runtime.find_connection(ongoing.container, step.connection)
         if connection is None:
-            self._role(window, None, "absent", why + _late(window))
+            self._role(ongoing, None, "absent", why + _late(ongoing))
             return
-        window.connection = connection
-        member = window.subject = connection.client
+        ongoing.connection = connection
+        member = ongoing.subject = connection.client
         if _raises_when_disconnected(member) or connection.live is None or connection.ambiguous:
-            window.judged = False
+            ongoing.judged = False
         if member.state == "ready":
             condition = ""
-        elif window.container.started is not False:
+        elif ongoing.container.started is not False:
             condition = "container started"
-            window.judged = window.judged and window.container.started is not None
+            ongoing.judged = ongoing.judged and ongoing.container.started is not None
         elif member.state == "configured" and len(member.live_connections(connection.port)) > 1:
             condition = "another connection remains"
         else:
             condition = ""
-        self._member_role(window, member, condition)
+        self._member_role(ongoing, member, condition)
 
-    def _start(self, runtime: Runtime, window: Window, step: s.Start) -> None:
-        container = window.container
+    def _start(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Start) -> None:
+        container = ongoing.container
         cascades = container.name == s.MANAGER
         members = container.live_members()
         started = container.started
         if runtime.interactions is not None and runtime.interactions.improper(None if cascades else container):
-            window.forgiving = True
+            ongoing.forgiving = True
         if started is None or any(m.suspended for m in members):
-            window.judged = False
+            ongoing.judged = False
         if not members:
-            self._role(window, None, "absent", "no members, already started" if started else "no members")
+            self._role(ongoing, None, "absent", "no members, already started" if started else "no members")
         unready = [m for m in members if m.state == "initialized"]
         failing = [m for m in members if m.raises("on_startup")]
         if (unready and failing and not started) or (started and any(not m.operational for m in failing)):
-            window.judged = False
+            ongoing.judged = False
         for member in members:
             if started is not False:
                 condition = "already started" if member.operational else "added later"
             elif member.operational:
-                window.judged = False
+                ongoing.judged = False
                 condition = "already started"
             elif unready:
                 condition = "unconfigured" if member in unready else "a peer is unconfigured"
@@ -243,106 +245,106 @@ class Situations:
                 condition = "all configured after reconnecting"
             else:
                 condition = "all configured"
-            self._member_role(window, member, condition)
-        self._reach_below(runtime, window)
+            self._member_role(ongoing, member, condition)
+        self._reach_below(runtime, ongoing)
 
-    def _stop(self, runtime: Runtime, window: Window, step: s.Stop) -> None:
-        container = window.container
+    def _stop(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Stop) -> None:
+        container = ongoing.container
         members = container.live_members()
         if container.started is None or any(m.suspended for m in members):
-            window.judged = False
+            ongoing.judged = False
         if not members:
-            self._role(window, None, "absent", "no members")
+            self._role(ongoing, None, "absent", "no members")
         failing = [m for m in members if m.raises("on_shutdown") and m.operational]
         for member in members:
             if not member.operational:
-                self._member_role(window, member, "not started")
+                self._member_role(ongoing, member, "not started")
             elif failing:
                 alone = failing == [member]  # of several that fail, each may be the first, and the last told
-                self._member_role(window, member, "on_shutdown fails" if alone else "a peer's on_shutdown fails")
+                self._member_role(ongoing, member, "on_shutdown fails" if alone else "a peer's on_shutdown fails")
             else:
-                self._member_role(window, member, "")
-        self._reach_below(runtime, window)
+                self._member_role(ongoing, member, "")
+        self._reach_below(runtime, ongoing)
 
-    def _reach_below(self, runtime: Runtime, window: Window) -> None:
+    def _reach_below(self, runtime: Runtime, ongoing: OperationInProgress) -> None:
         """The manager's start and stop may reach into sub-containers, and fail for what they find there."""
-        if window.container.name != s.MANAGER:
+        if ongoing.container.name != s.MANAGER:
             return
         for container in runtime.containers.values():
-            if container is window.container or container.removed:
+            if container is ongoing.container or container.removed:
                 continue
             for member in container.live_members():
                 if member.suspended:
-                    window.forgiving = True
+                    ongoing.forgiving = True
                     continue
-                self._member_role(window, member, "the manager's")
+                self._member_role(ongoing, member, "the manager's")
                 if member.state != "configured" or member.raises("on_startup", "on_shutdown"):
-                    window.forgiving = True
+                    ongoing.forgiving = True
 
-    def _create_container(self, runtime: Runtime, window: Window, step: s.CreateContainer) -> None:
-        if window.container.started is not False:
+    def _create_container(self, runtime: Runtime, ongoing: OperationInProgress, step: s.CreateContainer) -> None:
+        if ongoing.container.started is not False:
             condition = "manager started"
         else:
             condition = "first" if len(runtime.containers) == 1 else "another"
-        self._role(window, None, "absent", condition)
+        self._role(ongoing, None, "absent", condition)
 
-    def _destroy(self, runtime: Runtime, window: Window, step: s.Destroy) -> None:
-        self._removal_of_all(window, [m for c in runtime.containers.values() for m in c.live_members()])
+    def _destroy(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Destroy) -> None:
+        self._removal_of_all(ongoing, [m for c in runtime.containers.values() for m in c.live_members()])
 
-    def _remove_container(self, runtime: Runtime, window: Window, step: s.RemoveContainer) -> None:
+    def _remove_container(self, runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveContainer) -> None:
         if step.container == s.NIL:
-            self._role(window, None, "absent", "null reference")
+            self._role(ongoing, None, "absent", "null reference")
             return
         container = runtime.containers.get(step.container)
         if container is None or container.name == s.MANAGER:
-            window.judged = False
+            ongoing.judged = False
             return
         if container.doubtful:
-            window.judged = False
+            ongoing.judged = False
             return
         if container.removed:
-            self._role(window, None, "absent", "already removed")
+            self._role(ongoing, None, "absent", "already removed")
             return
-        window.container = container
+        ongoing.container = container
         members = container.live_members()
-        self._removal_of_all(window, members)
+        self._removal_of_all(ongoing, members)
         if any(c.live is None and c.provider in members for c in runtime.all_connections()):
-            window.judged = False
+            ongoing.judged = False
         for client, _ in runtime.clients_of(members):
             if client.container is not container:
-                self._member_role(window, client, "", "remove_provider")
+                self._member_role(ongoing, client, "", "remove_provider")
                 if _raises_when_disconnected(client):
-                    window.judged = False
+                    ongoing.judged = False
 
-    def _removal_of_all(self, window: Window, members: Sequence[Member]) -> None:
+    def _removal_of_all(self, ongoing: OperationInProgress, members: Sequence[Member]) -> None:
         if not members:
-            self._role(window, None, "absent", "no members")
+            self._role(ongoing, None, "absent", "no members")
         for member in members:
-            self._member_role(window, member, "")
+            self._member_role(ongoing, member, "")
             if member.raises(*_FAILING_END) or any(c.live is None for c in member.connections):
-                window.judged = False
+                ongoing.judged = False
 
 
-def _late(window: Window) -> str:
-    return ", container started" if window.container.started is not False else ""
+def _late(ongoing: OperationInProgress) -> str:
+    return ", container started" if ongoing.container.started is not False else ""
 
 
 def _raises_when_disconnected(member: Member) -> bool:
     return member.raises("on_disconnect") or (member.operational and member.raises("on_shutdown"))
 
 
-def undone_by(window: Window, member: Member) -> list[Connection]:
-    """The connections of ``member`` that the window's operation undoes if it succeeds."""
-    if window.connection is not None:
-        return [window.connection]
+def undone_by(ongoing: OperationInProgress, member: Member) -> list[Connection]:
+    """The connections of ``member`` that the operation undoes if it succeeds."""
+    if ongoing.connection is not None:
+        return [ongoing.connection]
     live = member.live_connections()
-    if window.operation in ("remove_component", "remove_container") and member is not window.subject:
-        removed = [window.subject] if window.operation == "remove_component" else window.container.live_members()
+    if ongoing.operation in ("remove_component", "remove_container") and member is not ongoing.subject:
+        removed = [ongoing.subject] if ongoing.operation == "remove_component" else ongoing.container.live_members()
         if member not in removed:
             return [c for c in live if c.provider in removed]
     return live
 
 
-def row_of(window: Window, member: Member | None) -> Row | None:
-    """The row that stands for ``member`` in ``window``."""
-    return next((row for m, row in window.roles if m is member), None)
+def row_of(ongoing: OperationInProgress, member: Member | None) -> Row | None:
+    """The row that stands for ``member`` in ``ongoing``."""
+    return next((row for m, row in ongoing.roles if m is member), None)

@@ -2,7 +2,7 @@
 
 The model is an observer. It predicts by looking up the life-cycle table and then takes over what really happened.
 Where it can no longer know (after a violation, or where the text leaves the outcome open) it *suspends* the instance:
-rules stay silent about it until a start or stop that succeeds tells the state again.
+properties stay silent about it until a start or stop that succeeds tells the state again.
 """
 
 from __future__ import annotations
@@ -179,14 +179,14 @@ class Container:
             member.suspended = True
 
 
-class Window:
+class OperationInProgress:
     """One operation of Container or ContainerManager, from call to return.
 
     ``roles`` pairs each instance concerned with the row of the life-cycle table that stands for it (the instance is
     None where the row is about one that does not exist). ``judged`` is False where the model cannot predict.
-    After a ``lost`` window nobody can say what state it left. ``created`` are the bodies made meanwhile,
+    After a ``lost`` operation nobody can say what state it left. ``created`` are the bodies made meanwhile,
     ``fitted`` the roles whose instances went a way that their rows permit.
-    ``forgiving`` windows may end in UCM_ERROR for a reason the rows do not show. ``call`` is the call event's ``n``.
+    ``forgiving`` operations may end in UCM_ERROR for a reason the rows do not show. ``call`` is the call event's ``n``.
     """
 
     __slots__ = (
@@ -231,11 +231,11 @@ class Window:
         self.callbacks.append(callback)
         self.hooks.add(callback.hook)
         body = callback.component, callback.instance
-        heard = self.by_body.get(body)
-        if heard is None:
+        callbacks = self.by_body.get(body)
+        if callbacks is None:
             self.by_body[body] = [callback]
         else:
-            heard.append(callback)
+            callbacks.append(callback)
 
 
 def lane(component: str, instance: int) -> str:

@@ -1,4 +1,4 @@
-"""Rules about bursts: many messages, of which only is told how many were pushed and counted (10.1.2, 10.1.6)."""
+"""Properties about bursts: many messages, of which only is told how many were pushed and counted (10.1.2, 10.1.6)."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from ucm_cts.reference_models.model.interactions import PushedBurst
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.messages import CODES, OK, interactions_of, is_well
 from ucm_cts.reference_models.model.runtime import Member, Runtime
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 
-@rule("told", "R-10.1.2-02", "R-10.1.2-09")
-def burst_answered(ledger: Ledger, runtime: Runtime, event: Event) -> None:
+@property_at("told", "R-10.1.2-02", "R-10.1.2-09")
+def burst_answered(verdicts: Verdicts, runtime: Runtime, event: Event) -> None:
     """Each message of a burst is answered one of the three codes; ok, where the vendor has declared that push waits."""
     if not isinstance(event, Pushed):
         return
@@ -25,21 +26,23 @@ def burst_answered(ledger: Ledger, runtime: Runtime, event: Event) -> None:
     unknown = [code for code in event.answers if code not in CODES]
     if unknown:
         expected = f"each message of a burst is answered {' or '.join(CODES)}"
-        _violate(ledger, "R-10.1.2-02", "burst_answered", expected, f"{unknown[0] or 'nothing'} was the answer", event)
+        _violate(
+            verdicts, "R-10.1.2-02", "burst_answered", expected, f"{unknown[0] or 'nothing'} was the answer", event
+        )
         return
-    ledger.exercised("R-10.1.2-02")
+    verdicts.exercised("R-10.1.2-02")
     healthy = len(burst.receivers) == len(burst.link.live("receiver")) > 0 and all(map(is_well, burst.receivers))
     if not healthy or burst.link.broken_at:
         return
     if set(event.answers) == {OK}:
-        ledger.exercised("R-10.1.2-09")
-    elif not ledger.observed("message-overflow", "refuse"):
+        verdicts.exercised("R-10.1.2-09")
+    elif not verdicts.observed("message-overflow", "refuse"):
         expected = "message-overflow was declared as block: each message of a burst is answered ok"
-        _violate(ledger, "R-10.1.2-09", "burst_answered", expected, f"the answers were {event.answers}", event)
+        _violate(verdicts, "R-10.1.2-09", "burst_answered", expected, f"the answers were {event.answers}", event)
 
 
-@rule("told", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07", timed=True)
-def burst_counted(ledger: Ledger, runtime: Runtime, event: Event) -> None:
+@property_at("told", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07", timed=True)
+def burst_counted(verdicts: Verdicts, runtime: Runtime, event: Event) -> None:
     """What was pushed in bursts and got ok is counted, each message once, and nothing else is."""
     if not isinstance(event, Counted):
         return
@@ -48,55 +51,55 @@ def burst_counted(ledger: Ledger, runtime: Runtime, event: Event) -> None:
     bursts = [burst for burst in interactions_of(runtime).bursts if burst.link is link]
     if receiver is None or link is None or not bursts or _is_busy(runtime, link) or not _is_known(bursts):
         return
-    _origin(ledger, receiver, bursts, event)
-    _once(ledger, receiver, event)
-    _order(ledger, receiver, event)
+    _origin(verdicts, receiver, bursts, event)
+    _once(verdicts, receiver, event)
+    _order(verdicts, receiver, event)
     if link.broken_at or not receiver.serving or not all(receiver in burst.receivers for burst in bursts):
         return
     due = sum(burst.pushed.answers.get(OK, 0) for burst in bursts)
     step = runtime.scenario.steps[event.step]
     if event.distinct >= due:
-        ledger.exercised("R-10.1.2-10")
+        verdicts.exercised("R-10.1.2-10")
         if len({(b.pushed.component, b.pushed.instance) for b in bursts}) > 1:
-            ledger.exercised("R-10.1.6.1-03")
+            verdicts.exercised("R-10.1.6.1-03")
     elif isinstance(step, s.AwaitMessages) and event.received < step.count and not interactions_of(runtime).held:
         expected = f"{receiver.lane} gets each of the {due} messages that were answered ok"
         observed = f"it has got {event.distinct} of them when patience has run out"
-        _violate(ledger, "R-10.1.2-10", "burst_counted", expected, observed, event, "lost")
+        _violate(verdicts, "R-10.1.2-10", "burst_counted", expected, observed, event, "lost")
 
 
-def _origin(ledger: Ledger, receiver: Member, bursts: list[PushedBurst], event: Counted) -> None:
+def _origin(verdicts: Verdicts, receiver: Member, bursts: list[PushedBurst], event: Counted) -> None:
     pushed = sum(burst.pushed.count for burst in bursts)
     least = min(burst.pushed.first for burst in bursts)
     greatest = max(burst.pushed.first + burst.pushed.count - 1 for burst in bursts)
     if event.received and (event.distinct > pushed or event.least < least or event.greatest > greatest):
         expected = f"{receiver.lane} gets {pushed} messages from {least} to {greatest} and nothing else"
         observed = f"it got {event.distinct} from {event.least} to {event.greatest}"
-        _violate(ledger, "R-10.1.6.1-06", "burst_counted", expected, observed, event, "invented")
+        _violate(verdicts, "R-10.1.6.1-06", "burst_counted", expected, observed, event, "invented")
     elif event.received:
-        ledger.exercised("R-10.1.6.1-06")
+        verdicts.exercised("R-10.1.6.1-06")
 
 
-def _once(ledger: Ledger, receiver: Member, event: Counted) -> None:
+def _once(verdicts: Verdicts, receiver: Member, event: Counted) -> None:
     if event.received > event.distinct:
         again = event.received - event.distinct
         expected = f"{receiver.lane} gets each message once"
-        _violate(ledger, "R-10.1.6.1-05", "burst_counted", expected, f"{again} came again", event, "repeated")
+        _violate(verdicts, "R-10.1.6.1-05", "burst_counted", expected, f"{again} came again", event, "repeated")
     elif event.received:
-        ledger.exercised("R-10.1.6.1-05")
+        verdicts.exercised("R-10.1.6.1-05")
 
 
-def _order(ledger: Ledger, receiver: Member, event: Counted) -> None:
+def _order(verdicts: Verdicts, receiver: Member, event: Counted) -> None:
     """Each burst has numbers of its own, in which the disorder is counted."""
     if event.received < 2:
         return
-    ledger.exercised("R-10.1.6.1-07")
+    verdicts.exercised("R-10.1.6.1-07")
     if not event.disordered:
-        ledger.observed("message-order", "fifo")
-    elif not ledger.observed("message-order", "unordered"):
+        verdicts.observed("message-order", "fifo")
+    elif not verdicts.observed("message-order", "unordered"):
         expected = f"{receiver.lane} gets an emitter's messages in the order in which they were pushed"
         observed = f"{event.disordered} came after a later one"
-        _violate(ledger, "R-10.1.6.1-07", "burst_counted", expected, observed, event, "disordered")
+        _violate(verdicts, "R-10.1.6.1-07", "burst_counted", expected, observed, event, "disordered")
 
 
 def _is_busy(runtime: Runtime, link: LinkState) -> bool:
@@ -112,7 +115,7 @@ def _is_known(bursts: list[PushedBurst]) -> bool:
 
 
 def _violate(
-    ledger: Ledger,
+    verdicts: Verdicts,
     requirement: str,
     rule_name: str,
     expected: str,
@@ -121,4 +124,4 @@ def _violate(
     cause: str = "answer",
 ) -> None:
     step = event.step if isinstance(event, Counted) else None
-    ledger.violated(requirement, rule_name, cause, expected, observed, (event.n,), step)
+    verdicts.violated(requirement, rule_name, cause, expected, observed, (event.n,), step)

@@ -1,4 +1,4 @@
-"""Rules about the clock service: order, rate, agreement and range of the times that bodies are told (10.1.4)."""
+"""Properties about the clock service: order, rate, agreement and range of the times that bodies are told (10.1.4)."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ from ucm_cts.reference_models.model.clock_readings import (
     time_told,
 )
 from ucm_cts.reference_models.model.interactions import MethodCall
-from ucm_cts.reference_models.model.runtime import Runtime, Window, lane
+from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime, lane
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, only_service, policies_of
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 _LARGEST_MICROSECONDS = 999_999
 _LARGEST_SECONDS = 2**32 - 1
@@ -31,18 +32,18 @@ _LONG_ENOUGH = 3
 """So many tolerances must lie between two readings; less would not show a clock that stands still or runs double."""
 
 
-@rule("completed", "R-10.1.4.1-06")
-def clock_answers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.4.1-06")
+def clock_answers(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """Both methods of the clock return, from on_startup to on_shutdown."""
     method, caller, reply = clock_call(call, runtime.scenario.components), call.caller, call.reply
     if not method or reply is None or caller is None or caller.suspended:
         return
     if time_told(call) is not None:
         if _has_told(runtime, call, *(other for other in CLOCK_METHODS if other != method)):
-            ledger.exercised("R-10.1.4.1-06")
+            verdicts.exercised("R-10.1.4.1-06")
         return
     failed = reply.raised or reply.exception is not None
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.4.1-06",
         "clock_answers",
         f"{method} {'raises' if failed else 'no time'}",
@@ -59,18 +60,18 @@ def _has_told(runtime: Runtime, call: MethodCall, *methods: str) -> bool:
     return any(clock_call(c, runtime.scenario.components) in methods for c in own)
 
 
-@rule("completed", "R-10.1.4.2-14")
-def time_range(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.4.2-14")
+def time_range(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """The microseconds of a time are those of one second, and its seconds have 32 bits without sign."""
     told = time_told(call) if clock_call(call, runtime.scenario.components) else None
     if told is None or call.reply is None:
         return
     seconds, microseconds = told
     if 0 <= microseconds <= _LARGEST_MICROSECONDS and 0 <= seconds <= _LARGEST_SECONDS:
-        ledger.exercised("R-10.1.4.2-14")
+        verdicts.exercised("R-10.1.4.2-14")
         return
     part, value = ("seconds", seconds) if not 0 <= seconds <= _LARGEST_SECONDS else ("microseconds", microseconds)
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.4.2-14",
         "time_range",
         f"negative {part}" if value < 0 else f"too many {part}",
@@ -80,90 +81,90 @@ def time_range(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     )
 
 
-@rule("ended", "R-10.1.4.1-02", at=("add_component", "start"), where="policies")
-def one_clock(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", "R-10.1.4.1-02", at=("add_component", "start"), feature="policies")
+def one_clock(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """A component without clock and one with a clock are started, one with two is refused when it is to start at latest."""
-    if isinstance(window.step, s.AddComponent):
-        declaration = runtime.scenario.components.get(window.step.component)
-        if declaration is None or window.container.started is not False or not isinstance(end, Raise):
+    if isinstance(ongoing.step, s.AddComponent):
+        declaration = runtime.scenario.components.get(ongoing.step.component)
+        if declaration is None or ongoing.container.started is not False or not isinstance(end, Raise):
             return
         if has_several_clocks(declaration):
-            ledger.exercised("R-10.1.4.1-02")
+            verdicts.exercised("R-10.1.4.1-02")
         elif only_service(declaration, s.CLOCK):
-            _refused(ledger, window, end)
+            _refused(verdicts, ongoing, end)
         return
-    members = [m for m in window.container.live_members() if has_several_clocks(m.declaration)]
+    members = [m for m in ongoing.container.live_members() if has_several_clocks(m.declaration)]
     if isinstance(end, Raise):
         if members:
-            ledger.exercised("R-10.1.4.1-02")
+            verdicts.exercised("R-10.1.4.1-02")
         return
     for member in members:
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.4.1-02",
             "one_clock",
             "started",
             f"'{member.lane}', which has two clocks, is not started",
             "start returned",
             (end.n,),
-            window.step_number,
+            ongoing.step_number,
         )
-    for member in window.container.live_members() if window.judged and not members else ():
-        if policies_of(member.declaration, s.CLOCK) and (member.component, member.instance) in window.by_body:
-            ledger.exercised("R-10.1.4.1-02")
+    for member in ongoing.container.live_members() if ongoing.judged and not members else ():
+        if policies_of(member.declaration, s.CLOCK) and (member.component, member.instance) in ongoing.by_body:
+            verdicts.exercised("R-10.1.4.1-02")
 
 
-def _refused(ledger: Ledger, window: Window, end: Raise) -> None:
-    ledger.violated(
+def _refused(verdicts: Verdicts, ongoing: OperationInProgress, end: Raise) -> None:
+    verdicts.violated(
         "R-10.1.4.1-02",
         "one_clock",
         "refused",
         "a component with one clock is added",
         f"add_component raised {end.error} {end.detail}".rstrip(),
         (end.n,),
-        window.step_number,
+        ongoing.step_number,
     )
 
 
-@rule("closed", "R-10.1.4.1-08")
-def local_time_order(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", "R-10.1.4.1-08")
+def local_time_order(verdicts: Verdicts, runtime: Runtime) -> None:
     """Of two readings of local time in one container, one after the other, the later one is not earlier, unless the clock
     may have been set. Another container may be on another node.
     """
-    tolerance = ledger.claims.tolerance("clock-tolerance") * MILLISECOND
-    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(ledger)):
+    tolerance = verdicts.ics.tolerance("clock-tolerance") * MILLISECOND
+    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(verdicts)):
         if earlier.container is None or earlier.container is not later.container:
             continue
         went = passed(earlier.time, later.time)
         if went >= 0:
             if drift <= tolerance:
-                ledger.exercised("R-10.1.4.1-08")
+                verdicts.exercised("R-10.1.4.1-08")
         elif later.asked - earlier.told - went > drift:
-            _went_back(ledger, "R-10.1.4.1-08", "local_time_order", earlier, later, 0.0)
+            _went_back(verdicts, "R-10.1.4.1-08", "local_time_order", earlier, later, 0.0)
             return
 
 
-@rule("closed", "R-10.1.4.1-10")
-def synchronized_time_agrees(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", "R-10.1.4.1-10")
+def synchronized_time_agrees(verdicts: Verdicts, runtime: Runtime) -> None:
     """Of two readings of synchronized time, wherever, the later one is not earlier by more than the tolerance."""
-    tolerance = ledger.claims.tolerance("synchronization-tolerance")
+    tolerance = verdicts.ics.tolerance("synchronization-tolerance")
     for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
         if passed(earlier.time, later.time) < -tolerance * MILLISECOND - drift:
-            _went_back(ledger, "R-10.1.4.1-10", "synchronized_time_agrees", earlier, later, tolerance)
+            _went_back(verdicts, "R-10.1.4.1-10", "synchronized_time_agrees", earlier, later, tolerance)
             return
         if earlier.body != later.body and drift <= tolerance * MILLISECOND:
-            ledger.exercised("R-10.1.4.1-10")
+            verdicts.exercised("R-10.1.4.1-10")
 
 
-@rule("closed", "R-10.1.4.1-10", timed=True)
-def synchronized_time_passes(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", "R-10.1.4.1-10", timed=True)
+def synchronized_time_passes(verdicts: Verdicts, runtime: Runtime) -> None:
     """Between two readings of one body synchronized time went on, by half of the real time at least."""
-    tolerance = ledger.claims.tolerance("synchronization-tolerance") * MILLISECOND
+    tolerance = verdicts.ics.tolerance("synchronization-tolerance") * MILLISECOND
     for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
         least = (later.asked - earlier.told) // 2
         went = passed(earlier.time, later.time)
         if earlier.body != later.body or went >= least - tolerance - drift:
             continue
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.4.1-10",
             "synchronized_time_passes",
             "too slow",
@@ -174,21 +175,21 @@ def synchronized_time_passes(ledger: Ledger, runtime: Runtime) -> None:
         return
 
 
-@rule("closed", "R-10.1.4.1-09", timed=True)
-def local_time_rate(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", "R-10.1.4.1-09", timed=True)
+def local_time_rate(verdicts: Verdicts, runtime: Runtime) -> None:
     """Between two readings of one body as much local time passed as on the host's monotonic clock."""
-    tolerance = ledger.claims.tolerance("clock-tolerance") * MILLISECOND
-    rate = ledger.claims.tolerance("clock-rate") / 100
-    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(ledger)):
+    tolerance = verdicts.ics.tolerance("clock-tolerance") * MILLISECOND
+    rate = verdicts.ics.tolerance("clock-rate") / 100
+    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(verdicts)):
         if earlier.body != later.body or _width(earlier) + _width(later) > tolerance:
             continue
         least, most = later.asked - earlier.told, later.told - earlier.asked
         went, slack = passed(earlier.time, later.time), tolerance + drift + 2 * MICROSECOND
         if least * (1 - rate) - slack <= went <= most * (1 + rate) + slack:
             if least >= _LONG_ENOUGH * tolerance and drift <= tolerance:
-                ledger.exercised("R-10.1.4.1-09")
+                verdicts.exercised("R-10.1.4.1-09")
             continue
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.4.1-09",
             "local_time_rate",
             "too slow" if went < least else "too fast",
@@ -199,12 +200,12 @@ def local_time_rate(ledger: Ledger, runtime: Runtime) -> None:
         return
 
 
-@rule("closed", "R-10.1.4.1-09", timed=True)
-def local_time_epoch(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", "R-10.1.4.1-09", timed=True)
+def local_time_epoch(verdicts: Verdicts, runtime: Runtime) -> None:
     """Local time is the host's calendar time, within the tolerance, where the vendor says that it begins like Unix time."""
-    if ledger.claims.reading("clock-epoch") != "unix" or runtime.interactions is None:
+    if verdicts.ics.reading("clock-epoch") != "unix" or runtime.interactions is None:
         return
-    tolerance = ledger.claims.tolerance("epoch-tolerance") * MILLISECOND
+    tolerance = verdicts.ics.tolerance("epoch-tolerance") * MILLISECOND
     for reading in _readings(runtime, LOCAL):
         calendar = calendar_at(runtime.interactions.pauses, reading.asked, reading.told)
         if calendar is None:
@@ -212,9 +213,9 @@ def local_time_epoch(ledger: Ledger, runtime: Runtime) -> None:
         away = passed(calendar[0], reading.time)
         slack = tolerance + calendar[1]
         if -slack <= away <= slack + _width(reading):
-            ledger.exercised("R-10.1.4.1-09")
+            verdicts.exercised("R-10.1.4.1-09")
             continue
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.4.1-09",
             "local_time_epoch",
             "not unix",
@@ -230,8 +231,8 @@ def _readings(runtime: Runtime, method: str) -> list[ClockReading]:
     return readings_of(interactions, runtime.scenario.components, method) if interactions is not None else []
 
 
-def _is_never_set(ledger: Ledger) -> bool:
-    return ledger.claims.reading("local-clock") == "monotonic"
+def _is_never_set(verdicts: Verdicts) -> bool:
+    return verdicts.ics.reading("local-clock") == "monotonic"
 
 
 def _pairs(
@@ -251,10 +252,10 @@ def _pairs(
 
 
 def _went_back(
-    ledger: Ledger, requirement: str, name: str, earlier: ClockReading, later: ClockReading, tolerance: float
+    verdicts: Verdicts, requirement: str, name: str, earlier: ClockReading, later: ClockReading, tolerance: float
 ) -> None:
     back = _milliseconds(-passed(earlier.time, later.time))
-    ledger.violated(
+    verdicts.violated(
         requirement,
         name,
         "one component" if earlier.body == later.body else "two components",

@@ -1,13 +1,14 @@
-"""Rules about the references that on_startup hands over (11.2.1.2, 11.2.3, 12.10)."""
+"""Properties about the references that on_startup hands over (11.2.1.2, 11.2.3, 12.10)."""
 
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
 from ucm_cts.reference_models.findings import Arrow
-from ucm_cts.reference_models.model.callback_history import Heard
-from ucm_cts.reference_models.model.runtime import Member, Runtime, Window, lane
+from ucm_cts.reference_models.model.callback_history import CallbackHistory
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime, lane
 from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 
 def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
@@ -18,8 +19,10 @@ def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
     return by_port
 
 
-@rule("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
-def dependencies(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
+@property_at("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
+def dependencies(
+    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+) -> None:
     """on_startup names each connected required port element and gives the reference it was connected to."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended or member.operational:
@@ -29,19 +32,19 @@ def dependencies(ledger: Ledger, runtime: Runtime, window: Window | None, event:
     problem = _problem(member, given)
     if problem is None:
         if member.live_connections():
-            ledger.exercised("R-11.2.3-10" if again else "R-11.2.1.2-09")
-            ledger.exercised("R-11.2.1.2-03")
-            ledger.exercised("R-12.10-25")
+            verdicts.exercised("R-11.2.3-10" if again else "R-11.2.1.2-09")
+            verdicts.exercised("R-11.2.1.2-03")
+            verdicts.exercised("R-12.10-25")
         return
     requirement, cause, expected, observed = problem
-    ledger.violated(
+    verdicts.violated(
         "R-11.2.3-10" if again else requirement,
         "dependencies",
         cause,
         expected,
         observed,
         (event.n,),
-        window.step_number if window else None,
+        ongoing.step_number if ongoing else None,
         (Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
     )
 
@@ -84,10 +87,12 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
     return None
 
 
-@rule("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
-def no_dangling_reference(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
+@property_at("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
+def no_dangling_reference(
+    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+) -> None:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
-    if window is not None and window.operation == "connect":
+    if ongoing is not None and ongoing.operation == "connect":
         return
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.operational:
@@ -98,32 +103,32 @@ def no_dangling_reference(ledger: Ledger, runtime: Runtime, window: Window | Non
             provider = runtime.provider_of(reference)
             stale = any(c.stale and c.provider is provider for c in member.connections)
             if provider is not None and provider.gone and not stale:
-                ledger.violated(
+                verdicts.violated(
                     "R-11.2.3-14",
                     "no_dangling_reference",
                     "removed provider",
                     f"{provider.lane} was removed, so {port} is not connected to it",
                     f"on_startup handed over {_show(reference)} for {port}",
                     (event.n,),
-                    window.step_number if window else None,
+                    ongoing.step_number if ongoing else None,
                 )
                 return
             of_port = [c for c in member.connections if c.port == port and c.reference == reference]
             if of_port and all(c.live is False for c in of_port) and not member.suspended:
-                ledger.violated(
+                verdicts.violated(
                     "R-11.2.2.1-10",
                     "no_dangling_reference",
                     "undone connection",
                     f"{of_port[0].name} was disconnected, so its reference is not handed over",
                     f"on_startup handed over {_show(reference)} for {port}",
                     (event.n,),
-                    window.step_number if window else None,
+                    ongoing.step_number if ongoing else None,
                 )
                 return
     if any(c.provider is not None and c.provider.gone for c in member.connections):
-        ledger.exercised("R-11.2.3-14")
+        verdicts.exercised("R-11.2.3-14")
     if any(c.live is False and c.provider is not None and not c.provider.gone for c in member.connections):
-        ledger.exercised("R-11.2.2.1-10")
+        verdicts.exercised("R-11.2.2.1-10")
 
 
 def _expected(member: Member) -> str:

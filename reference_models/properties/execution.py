@@ -1,4 +1,4 @@
-"""Rules about execution policies: exclusion where overlap was provoked, run, and calls that had to wait (10.1.3)."""
+"""Properties about execution policies: exclusion where overlap was provoked, run, and calls that had to wait (10.1.3)."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ from ucm_cts.reference_models.model.executions import (
     protection_of,
 )
 from ucm_cts.reference_models.model.interactions import Delivery
-from ucm_cts.reference_models.model.runtime import Runtime, Window, lane, raises
+from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime, lane, raises
 from ucm_cts.reference_models.model.service_policies import SERVICES, policies_of
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 _SUPPORT = {
     "self-executing": "R-10.1.3.1-12",
@@ -39,15 +40,15 @@ _INTERVALS = 3
 """So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
 
 
-@rule("began", *EXCLUSIONS)
-def no_reentry(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+@property_at("began", *EXCLUSIONS)
+def no_reentry(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
     """A protected component is not entered while it is executed, unless the execution's own calls lead back into it."""
     enter = execution.enter
     declaration = runtime.scenario.components[enter.component]
     for other in met:
-        requirement = exclusion(declaration, ledger.claims, execution.way, other.way)
+        requirement = exclusion(declaration, verdicts.ics, execution.way, other.way)
         if requirement:
-            ledger.violated(
+            verdicts.violated(
                 requirement,
                 "no_reentry",
                 f"{other.way} {execution.way}",
@@ -58,31 +59,31 @@ def no_reentry(ledger: Ledger, runtime: Runtime, execution: Execution, met: list
             return
 
 
-@rule("began", "R-10.1.3.2-20")
-def overlap_possible(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+@property_at("began", "R-10.1.3.2-20")
+def overlap_possible(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
     """Two callers may be inside an unprotected passive component, which is told and never demanded."""
     if met and protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
-        ledger.observed("unprotected-concurrency", "concurrent")
-        ledger.exercised("R-10.1.3.2-20")
-        ledger.measured("overlaps provoked")
+        verdicts.observed("unprotected-concurrency", "concurrent")
+        verdicts.exercised("R-10.1.3.2-20")
+        verdicts.measured("overlaps provoked")
 
 
-@rule("over", *EXCLUSIONS)
-def kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, end: int) -> None:
+@property_at("over", *EXCLUSIONS)
+def kept_out(verdicts: Verdicts, runtime: Runtime, execution: Execution, end: int) -> None:
     """An execution was held, a call that was to execute the same body had been made, and did not until the first ended."""
     enter = execution.enter
     for call in execution.waited:
         for member, port in goals_of(runtime, call):
             own = (member.component, member.instance) == (enter.component, enter.instance)
-            requirement = exclusion(member.declaration, ledger.claims, execution.way, port) if own else ""
+            requirement = exclusion(member.declaration, verdicts.ics, execution.way, port) if own else ""
             inside = any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries)
             if requirement and not inside:
-                ledger.exercised(requirement)
-                ledger.measured("exclusions proved")
+                verdicts.exercised(requirement)
+                verdicts.measured("exclusions proved")
 
 
-@rule("delivered", *CALL_EXCLUSIONS)
-def message_kept_out(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+@property_at("delivered", *CALL_EXCLUSIONS)
+def message_kept_out(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
     """A message was pushed while its receiver was executed, time passed, and it came in when the execution had ended."""
     call, receiver = delivery.call, delivery.receiver
     if call is None or receiver is None or not call.is_message or runtime.executions is None:
@@ -91,10 +92,10 @@ def message_kept_out(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> No
     for execution in runtime.executions.past(enter.component, enter.instance):
         was_there = execution.enter.n < call.request.n
         if was_there and _time_passed(runtime, call.request.n, execution.end) and enter.port is not None:
-            requirement = exclusion(receiver.declaration, ledger.claims, execution.way, enter.port)
+            requirement = exclusion(receiver.declaration, verdicts.ics, execution.way, enter.port)
             if requirement:
-                ledger.exercised(requirement)
-                ledger.measured("exclusions proved")
+                verdicts.exercised(requirement)
+                verdicts.measured("exclusions proved")
 
 
 def _time_passed(runtime: Runtime, begin: int, end: int) -> bool:
@@ -102,8 +103,8 @@ def _time_passed(runtime: Runtime, begin: int, end: int) -> bool:
     return runtime.interactions is not None and any(begin < pause.n < end for pause in runtime.interactions.pauses)
 
 
-@rule("over", "R-10.1.3.2-20")
-def callers_meet(ledger: Ledger, runtime: Runtime, execution: Execution, end: int) -> None:
+@property_at("over", "R-10.1.3.2-20")
+def callers_meet(verdicts: Verdicts, runtime: Runtime, execution: Execution, end: int) -> None:
     """Who waits while an unprotected component is executed is kept out, which is wrong if callers are said to meet."""
     enter = execution.enter
     body = enter.component, enter.instance
@@ -113,8 +114,8 @@ def callers_meet(ledger: Ledger, runtime: Runtime, execution: Execution, end: in
         inside = any((e.component, e.instance) == body for e, _ in call.entries)
         if inside or not _time_passed(runtime, call.n, end):
             continue
-        if not ledger.observed("unprotected-concurrency", "may-serialise"):
-            ledger.violated(
+        if not verdicts.observed("unprotected-concurrency", "may-serialise"):
+            verdicts.violated(
                 "R-10.1.3.2-20",
                 "callers_meet",
                 "kept out",
@@ -124,8 +125,8 @@ def callers_meet(ledger: Ledger, runtime: Runtime, execution: Execution, end: in
             )
 
 
-@rule("began", "R-10.1.3.2-05")
-def run_kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+@property_at("began", "R-10.1.3.2-05")
+def run_kept_out(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
     """A run was held inside for several of the intervals at which run is called, and nobody came in."""
     runs = [run for run in execution.earlier if run.over]
     if execution.way != "run" or met or len(runs) < _INTERVALS:
@@ -133,22 +134,22 @@ def run_kept_out(ledger: Ledger, runtime: Runtime, execution: Execution, met: li
     begun = [run.enter.t for run in (*runs, execution)]
     usual = statistics.median(later - earlier for earlier, later in itertools.pairwise(begun))
     if any(run.left - run.enter.t >= _INTERVALS * usual for run in runs):
-        ledger.exercised("R-10.1.3.2-05")
+        verdicts.exercised("R-10.1.3.2-05")
 
 
-@rule("served", "R-10.1.3.2-17", timed=True)
-def waiting_calls_served(ledger: Ledger, runtime: Runtime, call: BusinessCall, waited: Execution, end: int) -> None:
+@property_at("served", "R-10.1.3.2-17", timed=True)
+def waiting_calls_served(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, waited: Execution, end: int) -> None:
     """Who had to wait for an execution is served when it has ended; ``end`` is 0 if the call never came back."""
     enter = waited.enter
     if protection_of(runtime.scenario.components[enter.component]) in ("", "unprotected"):
         return
     if end and any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries):
-        ledger.exercised("R-10.1.3.2-17")
+        verdicts.exercised("R-10.1.3.2-17")
         return
     ending = runtime.interactions is not None and runtime.interactions.ends_phases(call.n, end or _NOW)
     if ending or not all(member.serving for member, _ in goals_of(runtime, call)):
         return  # who is being stopped serves nobody
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.3.2-17",
         "waiting_calls_served",
         "refused" if end else "never",
@@ -158,8 +159,8 @@ def waiting_calls_served(ledger: Ledger, runtime: Runtime, call: BusinessCall, w
     )
 
 
-@rule("answered", "R-10.1.3.2-07", "R-10.1.3.2-08", "R-10.1.3.2-15", "R-10.1.3.2-21", where="policies")
-def calls_carried_out(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
+@property_at("answered", "R-10.1.3.2-07", "R-10.1.3.2-08", "R-10.1.3.2-15", "R-10.1.3.2-21", feature="policies")
+def calls_carried_out(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
     """A call through a port that the policy speaks of enters the body once, there, with the value sent; its result comes back."""
     member, port = call.callee, call.port
     if member is None or port is None or not call.possible or not member.serving or member.raises("exchange"):
@@ -171,11 +172,11 @@ def calls_carried_out(ledger: Ledger, runtime: Runtime, call: BusinessCall, end:
     right = [x for e, x in own if e.port == port and e.value == call.value and x is not None]
     if len(own) == len(right) == 1 and isinstance(end, Return) and end.value == right[0].value:
         for requirement in promised:
-            ledger.exercised(requirement)
+            verdicts.exercised(requirement)
         return
     entered = ", ".join(f"{e.port} with {e.value}" for e, _ in own) or "nothing"
     came_back = end.value if isinstance(end, Return) else end.error
-    ledger.violated(
+    verdicts.violated(
         promised[0],
         "calls_carried_out",
         "not served" if not own else "otherwise",
@@ -185,9 +186,9 @@ def calls_carried_out(ledger: Ledger, runtime: Runtime, call: BusinessCall, end:
     )
 
 
-@rule("called", "R-10.1.3.2-14", "R-10.1.3.2-19", where="policies")
+@property_at("called", "R-10.1.3.2-14", "R-10.1.3.2-19", feature="policies")
 def no_self_execution(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
+    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
 ) -> None:
     """A passive component is executed because somebody calls it."""
     member = runtime.member_of(event.component, event.instance)
@@ -195,9 +196,9 @@ def no_self_execution(
     if member is None or not requirement or member.suspended:
         return
     if call is not None:
-        ledger.exercised(requirement)
+        verdicts.exercised(requirement)
         return
-    ledger.violated(
+    verdicts.violated(
         requirement,
         "no_self_execution",
         "no caller",
@@ -207,77 +208,79 @@ def no_self_execution(
     )
 
 
-@rule("ended", *_SUPPORT.values(), at=("add_component", "start"), where="policies")
-def policy_supported(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", *_SUPPORT.values(), at=("add_component", "start"), feature="policies")
+def policy_supported(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """A component with an execution policy is added and started like any other."""
-    if isinstance(window.step, s.AddComponent):
-        declaration = runtime.scenario.components.get(window.step.component)
-        if isinstance(end, Raise) and declaration is not None and window.container.started is False:
-            _refused(ledger, window, declaration, end)
+    if isinstance(ongoing.step, s.AddComponent):
+        declaration = runtime.scenario.components.get(ongoing.step.component)
+        if isinstance(end, Raise) and declaration is not None and ongoing.container.started is False:
+            _refused(verdicts, ongoing, declaration, end)
         return
-    if not isinstance(end, Return) or not window.judged:
+    if not isinstance(end, Return) or not ongoing.judged:
         return
-    for member in window.container.live_members():
-        heard = [c.hook for c in window.by_body.get((member.component, member.instance), ())]
+    for member in ongoing.container.live_members():
+        hooks = [c.hook for c in ongoing.by_body.get((member.component, member.instance), ())]
         requirement = _SUPPORT.get(protection_of(member.declaration), "")
-        if requirement and "on_startup" in heard:
-            ledger.exercised(requirement)
+        if requirement and "on_startup" in hooks:
+            verdicts.exercised(requirement)
 
 
-def _refused(ledger: Ledger, window: Window, declaration: Declaration, end: Raise) -> None:
+def _refused(verdicts: Verdicts, ongoing: OperationInProgress, declaration: Declaration, end: Raise) -> None:
     requirement = _SUPPORT.get(protection_of(declaration), "")
     excused = is_contradictory(declaration) or len(managed_ports(declaration)) > 1  # may count as two policies
     excused = excused or bool(policies_of(declaration, *SERVICES))  # may be the reason
     if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
-        ledger.violated(
+        verdicts.violated(
             requirement,
             "policy_supported",
             "refused",
             f"a component with the policy {declaration.policies[0].definition} is added",
             f"add_component raised {end.error} {end.detail}".rstrip(),
             (end.n,),
-            window.step_number,
+            ongoing.step_number,
         )
 
 
-@rule("ended", "R-10.1.3-03", at=("add_component", "start"), where="policies")
-def one_execution_policy(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
+def one_execution_policy(
+    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """A component with two execution policies is refused when it is added, or at the latest when it is to be started."""
-    if isinstance(window.step, s.AddComponent):
-        declaration = runtime.scenario.components.get(window.step.component)
+    if isinstance(ongoing.step, s.AddComponent):
+        declaration = runtime.scenario.components.get(ongoing.step.component)
         if declaration is not None and is_contradictory(declaration) and isinstance(end, Raise):
-            ledger.exercised("R-10.1.3-03")
+            verdicts.exercised("R-10.1.3-03")
         return
-    members = [m for m in window.container.live_members() if is_contradictory(m.declaration)]
+    members = [m for m in ongoing.container.live_members() if is_contradictory(m.declaration)]
     if members and isinstance(end, Raise):
-        ledger.exercised("R-10.1.3-03")
+        verdicts.exercised("R-10.1.3-03")
     for member in members if isinstance(end, Return) else ():
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.3-03",
             "one_execution_policy",
             "started",
             f"'{member.lane}', which has two execution policies, is not started",
             "start returned",
             (end.n,),
-            window.step_number,
+            ongoing.step_number,
         )
 
 
-@rule("began", "R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03")
-def run_phases(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+@property_at("began", "R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03")
+def run_phases(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
     """run is called on an operational component, and needs neither connections nor callers."""
     enter = execution.enter
     member = runtime.member_of(enter.component, enter.instance)
     if enter.hook != "run" or (member is not None and member.suspended):
         return
     if member is not None and runtime.may_run(member):
-        ledger.exercised("R-10.1.3.2-01")
-        ledger.exercised("R-10.1.3.2-02")
+        verdicts.exercised("R-10.1.3.2-01")
+        verdicts.exercised("R-10.1.3.2-02")
         if not member.connections and not member.served:
-            ledger.exercised("R-10.1.3.2-03")
+            verdicts.exercised("R-10.1.3.2-03")
         return
     who = lane(enter.component, enter.instance)
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.3.2-02",
         "run_phases",
         "not operational",
@@ -287,8 +290,8 @@ def run_phases(ledger: Ledger, runtime: Runtime, execution: Execution, met: list
     )
 
 
-@rule("waited", "R-10.1.3.2-01", "R-10.1.3.2-03", timed=True)
-def run_triggered(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
+@property_at("waited", "R-10.1.3.2-01", "R-10.1.3.2-03", timed=True)
+def run_triggered(verdicts: Verdicts, runtime: Runtime, event: Timeout) -> None:
     """Once started, a self-executing component is executed within the scenario's patience."""
     step = runtime.scenario.steps[event.step]
     if not isinstance(step, s.ReachGate):
@@ -298,7 +301,7 @@ def run_triggered(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
         if member.serving and not runs and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
             unprompted = not member.connections and not member.served
             for requirement in ("R-10.1.3.2-01", *(("R-10.1.3.2-03",) if unprompted else ())):
-                ledger.violated(
+                verdicts.violated(
                     requirement,
                     "run_triggered",
                     "never",

@@ -1,4 +1,4 @@
-"""Rules about business calls: through references, between components, and in which phase (11.1.3, 11.2.1.1, 11.2.3)."""
+"""Properties about business calls: through references, between components, and in which phase (11.1.3, 11.2.1.1, 11.2.3)."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply, Return
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, calls_promised
-from ucm_cts.reference_models.model.runtime import Member, Runtime, Window, lane
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime, lane
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 
-@rule("answered", "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06")
-def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
+@property_at("answered", "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06")
+def stimulus(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
     """A call through a reference enters an operational body once, with the value sent, and returns its result."""
     member, port = call.callee, call.port
     if member is None or not call.possible or not member.serving or member.raises("exchange"):
@@ -25,28 +26,28 @@ def stimulus(ledger: Ledger, runtime: Runtime, call: BusinessCall, end: Return |
     if not own or isinstance(end, Raise):
         expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
         observed = f"it raised {end.error} {end.detail}" if isinstance(end, Raise) else "the body was not entered"
-        _violate(ledger, "R-11.2.1.2-07", "stimulus", "not served", expected, observed, call.n, end.n, member)
+        _violate(verdicts, "R-11.2.1.2-07", "stimulus", "not served", expected, observed, call.n, end.n, member)
         return
     enter, exit_ = own[0]
     result = exit_.value if exit_ is not None else None
     if enter.port == port and enter.value == call.value and end.value == result and len(own) == 1:
-        ledger.exercised("R-11.2.1.2-07", "R-11.2.1.1-02", "R-11.2.2.1-06")
+        verdicts.exercised("R-11.2.1.2-07", "R-11.2.1.1-02", "R-11.2.2.1-06")
         return
-    ledger.exercised("R-11.2.1.2-07")
+    verdicts.exercised("R-11.2.1.2-07")
     if enter.port != port:
         observed = f"it ran {member.lane}'s {enter.port}"
         expected = f"the reference that get_port_element gave for {port} runs {member.lane}'s {port}"
-        _violate(ledger, "R-11.2.2.1-06", "stimulus", "another port", expected, observed, call.n, end.n, member)
+        _violate(verdicts, "R-11.2.2.1-06", "stimulus", "another port", expected, observed, call.n, end.n, member)
         return
     observed = f"the body received {enter.value}, returned {result}, the caller got {end.value}"
     if len(own) > 1:
         observed = f"the body was entered {len(own)} times"
     expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
-    _violate(ledger, "R-11.2.1.1-02", "stimulus", "wrong value", expected, observed, call.n, end.n, member)
+    _violate(verdicts, "R-11.2.1.1-02", "stimulus", "wrong value", expected, observed, call.n, end.n, member)
 
 
-@rule("replied", "R-11.1.3-01", "R-11.1.2-02")
-def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
+@property_at("replied", "R-11.1.3-01", "R-11.1.2-02")
+def peer_calls(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
     """A call through a connection enters a connected body with the value sent; its result comes back."""
     request = call.request
     if request is None or reply.raised:
@@ -60,12 +61,12 @@ def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Repl
         enter, exit_ = call.entries[0]
         came_to = enter.component, enter.instance, enter.port
         if enter.value == wanted and came_to in targets and (exit_ is None or exit_.value == reply.value):
-            ledger.exercised(requirement)
+            verdicts.exercised(requirement)
             return
     reached = [(e, x) for e, x in call.entries if e.value == wanted and (e.component, e.instance, e.port) in targets]
     came_back = [x for _, x in reached if x is None or x.value == reply.value]
     if len(reached) == 1 and came_back:
-        ledger.exercised(requirement)
+        verdicts.exercised(requirement)
         return
     names = " or ".join(sorted(p.lane for p in providers))
     expected = f"{reply.component}'s call of {reply.port} with {call.value} reaches {names} and brings back its result"
@@ -77,11 +78,11 @@ def peer_calls(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Repl
     else:
         observed = f"it was carried out {len(reached)} times"
     cause = "target" if not reached else "result"
-    _violate(ledger, requirement, "peer_calls", cause, expected, observed, call.n, reply.n, providers[0])
+    _violate(verdicts, requirement, "peer_calls", cause, expected, observed, call.n, reply.n, providers[0])
 
 
-@rule("replied", "R-11.2.3-03")
-def interactions(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
+@property_at("replied", "R-11.2.3-03")
+def interactions(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
     """In the operational phase a call between two components comes back."""
     request = call.request
     if not call.possible or request is None:
@@ -96,30 +97,30 @@ def interactions(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Re
         if not provider.serving or (provider.declaration.plan and provider.raises("exchange")):
             return
     if not reply.raised:
-        ledger.exercised("R-11.2.3-03")
+        verdicts.exercised("R-11.2.3-03")
         return
     expected = f"{caller.lane} and {providers[0].lane} are ready, so the call comes back"
     _violate(
-        ledger, "R-11.2.3-03", "interactions", "refused", expected, "the call raised", call.n, reply.n, providers[0]
+        verdicts, "R-11.2.3-03", "interactions", "refused", expected, "the call raised", call.n, reply.n, providers[0]
     )
 
 
-@rule("called", "R-11.2.3-02", at=("body", "nobody"))
+@property_at("called", "R-11.2.3-02", at=("body", "nobody"))
 def disabled_ports(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
+    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
 ) -> None:
     """Before start was called on its container, no component is called by another one or by the framework."""
     member = runtime.bodies.get((event.component, event.instance))
     if member is None:
-        _called_while_added(ledger, window, event, call)
+        _called_while_added(verdicts, ongoing, event, call)
         return
     if member.startups and not member.operational:
         return
     container = member.container
-    starting = window is not None and window.operation == "start"
+    starting = ongoing is not None and ongoing.operation == "start"
     if container.started is not False or starting:
         if call is not None and call.caller_hook == "on_startup":
-            ledger.exercised("R-11.2.3-02")
+            verdicts.exercised("R-11.2.3-02")
         return
     if member.suspended and not (call is not None and call.request is not None):
         return
@@ -128,80 +129,82 @@ def disabled_ports(
         other = runtime.member_of(call.request.component, call.request.instance)
         if other is not None and other.container is not container and other.container.started is not False:
             return
-        if (call.request.component, call.request.instance) in runtime.startups and window is None:
+        if (call.request.component, call.request.instance) in runtime.startups and ongoing is None:
             return  # it has kept the reference that it heard of in a start that failed
-    ledger.violated(
+    verdicts.violated(
         "R-11.2.3-02",
         "disabled_ports",
         "called before start",
         f"{member.lane} is not called before its container {container.name} is started",
         f"{caller} called {member.lane}'s {event.port} during configuration",
         (event.n,),
-        window.step_number if window else None,
+        ongoing.step_number if ongoing else None,
         (Arrow("test", container.name, "start"), Arrow(caller, member.lane, "exchange")),
     )
 
 
-@rule("replied", "R-11.2.3-02")
-def refused_ports(ledger: Ledger, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
+@property_at("replied", "R-11.2.3-02")
+def refused_ports(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
     """A call that a component makes as soon as it is told to start may be refused: ports were closed until then, too."""
     if call.caller_hook == "on_startup" and reply.raised and not call.entries:
-        ledger.exercised("R-11.2.3-02")
+        verdicts.exercised("R-11.2.3-02")
 
 
-def _called_while_added(ledger: Ledger, window: Window | None, event: Enter, call: BusinessCall | None) -> None:
+def _called_while_added(
+    verdicts: Verdicts, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
+) -> None:
     """The body is one that add_component is just making, in a container that is not started."""
-    step = window.step if window is not None else None
-    if window is None or not isinstance(step, s.AddComponent) or step.component != event.component:
+    step = ongoing.step if ongoing is not None else None
+    if ongoing is None or not isinstance(step, s.AddComponent) or step.component != event.component:
         return
-    if window.container.started is not False:
+    if ongoing.container.started is not False:
         return
     who = lane(event.component, event.instance)
     caller = call.request.component if call is not None and call.request is not None else "the framework"
-    ledger.violated(
+    verdicts.violated(
         "R-11.2.3-02",
         "disabled_ports",
         "called while added",
-        f"{who} is not called before its container {window.container.name} is started",
+        f"{who} is not called before its container {ongoing.container.name} is started",
         f"{caller} called {who}'s {event.port} during add_component",
         (event.n,),
-        window.step_number,
-        (Arrow("test", window.container.name, "start"), Arrow(caller, who, "exchange")),
+        ongoing.step_number,
+        (Arrow("test", ongoing.container.name, "start"), Arrow(caller, who, "exchange")),
     )
 
 
-@rule("called", "R-11.2.3-17", at=("nobody",))
+@property_at("called", "R-11.2.3-17", at=("nobody",))
 def nothing_after_stop(
-    ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, call: BusinessCall | None
+    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
 ) -> None:
     """After stop returned, no business method begins but those that are called."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended or member.operational or not member.startups:
         return
-    if window is not None and window.operation in ("start", "stop", "add_component"):
+    if ongoing is not None and ongoing.operation in ("start", "stop", "add_component"):
         return
-    ledger.violated(
+    verdicts.violated(
         "R-11.2.3-17",
         "nothing_after_stop",
         "called after stop",
         f"{member.lane} was stopped, so nothing is run on it",
         f"the framework called {member.lane}'s {event.port} with {event.value}",
         (event.n,),
-        window.step_number if window else None,
+        ongoing.step_number if ongoing else None,
     )
 
 
-@rule("ended", "R-11.2.3-17", at=("get_components", "get_port_element"))
-def quiet_after_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", "R-11.2.3-17", at=("get_components", "get_port_element"))
+def quiet_after_stop(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """Counts what nothing_after_stop watched: queries of a container stopped after it had served calls."""
-    if window.container.started is not False:
+    if ongoing.container.started is not False:
         return
-    if any(m.served and not m.suspended for m in window.container.live_members()):
-        ledger.exercised("R-11.2.3-17")
+    if any(m.served and not m.suspended for m in ongoing.container.live_members()):
+        verdicts.exercised("R-11.2.3-17")
 
 
 def _violate(
-    ledger: Ledger,
+    verdicts: Verdicts,
     requirement: str,
     rule_name: str,
     cause: str,
@@ -211,7 +214,7 @@ def _violate(
     end: int,
     member: Member,
 ) -> None:
-    ledger.violated(
+    verdicts.violated(
         requirement,
         rule_name,
         cause,

@@ -1,4 +1,4 @@
-"""Rules about messages and phases: before a receiver is started, after it is stopped, and what waits meanwhile (10.1.6)."""
+"""Properties about messages and phases: before a receiver is started, after it is stopped, and what waits meanwhile (10.1.6)."""
 
 from __future__ import annotations
 
@@ -21,12 +21,13 @@ from ucm_cts.reference_models.model.messages import (
     waited_for,
     was_delivered,
 )
-from ucm_cts.reference_models.model.runtime import Member, Runtime, Window
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 
-@rule("delivered", "R-10.1.6.1-09")
-def message_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+@property_at("delivered", "R-10.1.6.1-09")
+def message_phases(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
     """No message enters a receiver before start was called on its container, or after stop returned."""
     receiver, call = delivery.receiver, delivery.call
     if receiver is None or receiver.suspended or (call is not None and not call.is_message):
@@ -36,12 +37,12 @@ def message_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None
     in_progress = interactions_of(runtime).in_progress.values()
     if receiver.operational or any(isinstance(o.step, s.Start) for o in in_progress):
         if call is not None and _was_kept_waiting(runtime, call, receiver):
-            ledger.exercised("R-10.1.6.1-09")
+            verdicts.exercised("R-10.1.6.1-09")
         return
     if receiver.container.started is not False:
         return
     when = "after it was stopped" if receiver.startups else "before it was started"
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.6.1-09",
         "message_phases",
         when,
@@ -51,8 +52,8 @@ def message_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None
     )
 
 
-@rule("delivered", "R-10.1.6.1-09")
-def later_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+@property_at("delivered", "R-10.1.6.1-09")
+def later_phases(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
     """A message of an earlier phase comes in a later one only if the vendor has not declared that it does not."""
     call, receiver = delivery.call, delivery.receiver
     if call is None or receiver is None or not call.is_message or not pushed_before_start(runtime, delivery):
@@ -62,22 +63,22 @@ def later_phases(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
     if not (was_idle or any(ready)):
         return
     option, value = ("receiver-not-ready", "hold") if was_idle else ("pending-at-stop", "keep")
-    if not ledger.observed(option, value):
-        ledger.violated(
+    if not verdicts.observed(option, value):
+        verdicts.violated(
             "R-10.1.6.1-09",
             "later_phases",
             option,
-            f"{option} was declared as {ledger.claims.reading(option)}: {name_of(call)} does not come after a start",
+            f"{option} was declared as {verdicts.ics.reading(option)}: {name_of(call)} does not come after a start",
             f"it entered {receiver.lane} after its next start",
             events_of(call, delivery.enter.n),
         )
 
 
-@rule("waited", "R-10.1.6.1-09", timed=True)
-def kept_for_later_phases(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+@property_at("waited", "R-10.1.6.1-09", timed=True)
+def kept_for_later_phases(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
     """A message that waits for the next start comes then, where the vendor has declared it."""
     for call in messages(runtime):
-        if call.code != OK or not is_whole(ledger, runtime, call):
+        if call.code != OK or not is_whole(verdicts, runtime, call):
             continue
         for end, was_ready in call.targets:
             since, _ = runtime.startups.get((end.member.component, end.member.instance or 0), (0, 0))
@@ -87,11 +88,11 @@ def kept_for_later_phases(ledger: Ledger, runtime: Runtime, timeout: Timeout) ->
             if not was_ready and end not in call.idle:
                 continue
             option = "pending-at-stop" if was_ready else "receiver-not-ready"
-            if not ledger.observed(option, "drop"):
+            if not verdicts.observed(option, "drop"):
                 expected = (
-                    f"{option} was declared as {ledger.claims.reading(option)}: {name_of(call)} comes after the start"
+                    f"{option} was declared as {verdicts.ics.reading(option)}: {name_of(call)} comes after the start"
                 )
-                ledger.violated(
+                verdicts.violated(
                     "R-10.1.6.1-09",
                     "kept_for_later_phases",
                     option,
@@ -101,18 +102,18 @@ def kept_for_later_phases(ledger: Ledger, runtime: Runtime, timeout: Timeout) ->
                 )
 
 
-@rule("ended", "R-10.1.6.1-09", at=("stop",), where="interactions")
-def delivered_at_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", "R-10.1.6.1-09", at=("stop",), feature="interactions")
+def delivered_at_stop(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """All that had got ok has arrived when stop returns, where the vendor has declared it."""
     if isinstance(end, Raise) or runtime.interactions is None:
         return
     for call in messages(runtime):
-        for target in of_one_phase(runtime, call) if call.code == OK and is_whole(ledger, runtime, call) else ():
-            here = target.member.container is window.container and not counts(target.member)
-            if not here or call.request.n > window.call or was_delivered(call, target):
+        for target in of_one_phase(runtime, call) if call.code == OK and is_whole(verdicts, runtime, call) else ():
+            here = target.member.container is ongoing.container and not counts(target.member)
+            if not here or call.request.n > ongoing.call or was_delivered(call, target):
                 continue
-            if ledger.claims.reading("pending-at-stop") == "deliver":
-                ledger.violated(
+            if verdicts.ics.reading("pending-at-stop") == "deliver":
+                verdicts.violated(
                     "R-10.1.6.1-09",
                     "delivered_at_stop",
                     "pending-at-stop",
@@ -122,19 +123,19 @@ def delivered_at_stop(ledger: Ledger, runtime: Runtime, window: Window, end: Ret
                 )
 
 
-@rule("completed", "R-10.1.6.1-09")
-def unready_receivers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.6.1-09")
+def unready_receivers(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """What is pushed to a receiver that is not operational is answered as the vendor has declared."""
-    if not call.is_message or not call.idle or not is_whole(ledger, runtime, call) or not is_quiet(runtime, call):
+    if not call.is_message or not call.idle or not is_whole(verdicts, runtime, call) or not is_quiet(runtime, call):
         return
     others = [end for end, ready in call.targets if ready and end not in call.idle]
     if len(others) + len(call.idle) < len(call.targets) or not all(is_well(end.member) for end in others):
         return
     refused = call.code in CODES and call.code != OK
-    declared = ledger.claims.reading("receiver-not-ready")
-    if (refused and not ledger.observed("receiver-not-ready", "error")) or (declared == "error" and call.code == OK):
+    declared = verdicts.ics.reading("receiver-not-ready")
+    if (refused and not verdicts.observed("receiver-not-ready", "error")) or (declared == "error" and call.code == OK):
         expected = f"is answered as receiver-not-ready was declared: {declared}"
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.6.1-09",
             "unready_receivers",
             "receiver-not-ready",

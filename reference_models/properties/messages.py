@@ -1,4 +1,4 @@
-"""Rules about messages: who gets them, how often, in which order, when and unchanged (10.1.6)."""
+"""Properties about messages: who gets them, how often, in which order, when and unchanged (10.1.6)."""
 
 from __future__ import annotations
 
@@ -20,36 +20,37 @@ from ucm_cts.reference_models.model.messages import (
     overdue,
     was_delivered,
 )
-from ucm_cts.reference_models.model.runtime import Member, Runtime, Window
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime
 from ucm_cts.reference_models.model.values_carried import overwritten
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 
-@rule("closed", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-08", "R-10.1.6.1-10", "R-10.1.6.1-20")
-def messages_arrived(ledger: Ledger, runtime: Runtime) -> None:
-    """Counts what the rules about missing messages watched: messages that reached every receiver they had to."""
+@property_at("closed", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-08", "R-10.1.6.1-10", "R-10.1.6.1-20")
+def messages_arrived(verdicts: Verdicts, runtime: Runtime) -> None:
+    """Counts what the properties about missing messages checked: messages that reached every receiver they had to."""
     arrived: dict[str, set[Member | None]] = {}
     interfaces = set()
     for call in messages(runtime):
         ready = [end for end, was_ready in call.targets if was_ready and not counts(end.member)]
         if call.link is None or not ready or not all(was_delivered(call, end) for end in ready):
             continue
-        ledger.exercised("R-10.1.6.1-10")
+        verdicts.exercised("R-10.1.6.1-10")
         arrived.setdefault(call.link.name, set()).add(call.caller)
         interfaces.add(call.link.interface)
         if len(ready) > 1:
-            ledger.exercised("R-10.1.6.1-08" if is_disturbed(runtime, call) else "R-10.1.6.1-04")
+            verdicts.exercised("R-10.1.6.1-08" if is_disturbed(runtime, call) else "R-10.1.6.1-04")
     if len(interfaces) > 1:
-        ledger.exercised("R-10.1.6.1-20")
+        verdicts.exercised("R-10.1.6.1-20")
     for emitters in arrived.values():
         if len(emitters) > 1:
-            ledger.exercised("R-10.1.6.1-03")
+            verdicts.exercised("R-10.1.6.1-03")
 
 
-@rule("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True)
-def every_receiver(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+@property_at("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True)
+def every_receiver(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
     """What entered one receiver enters all that are well; one that is slow or fails costs the others nothing."""
-    for call, missing in overdue(ledger, runtime, timeout):
+    for call, missing in overdue(verdicts, runtime, timeout):
         refused, disturbed = call.code != OK, is_disturbed(runtime, call)
         if not call.deliveries and (refused or not disturbed):
             continue  # ok_kept's matter
@@ -57,11 +58,11 @@ def every_receiver(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
             continue
         requirement = "R-10.1.6.1-08" if disturbed and not refused else "R-10.1.6.1-04"
         got = ", ".join(sorted({d.receiver.lane for d in call.deliveries if d.receiver is not None}))
-        _missing(ledger, "every_receiver", requirement, call, missing, f"it came to {got or 'nobody'}", timeout)
+        _missing(verdicts, "every_receiver", requirement, call, missing, f"it came to {got or 'nobody'}", timeout)
 
 
-@rule("waited", "R-10.1.6.1-08", timed=True)
-def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+@property_at("waited", "R-10.1.6.1-08", timed=True)
+def slow_receivers(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
     """Whether the others have the message while one of its receivers is held."""
     interactions = interactions_of(runtime)
     held = {(event.component, event.instance) for event in interactions.held}
@@ -71,7 +72,7 @@ def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
         if (
             not held
             or not held <= own
-            or not is_whole(ledger, runtime, call)
+            or not is_whole(verdicts, runtime, call)
             or (call.reply is not None and call.code != OK)
         ):
             continue
@@ -79,46 +80,46 @@ def slow_receivers(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
             continue
         others = [end for end in lasting(runtime, call) if end.member not in holding and is_well(end.member)]
         missing = [end for end in others if not was_delivered(call, end)]
-        if missing and not ledger.observed("slow-receiver", "shared"):
+        if missing and not verdicts.observed("slow-receiver", "shared"):
             _missing(
-                ledger, "slow_receivers", "R-10.1.6.1-08", call, missing, "they wait for one that is slow", timeout
+                verdicts, "slow_receivers", "R-10.1.6.1-08", call, missing, "they wait for one that is slow", timeout
             )
         elif others and not missing:
-            ledger.observed("slow-receiver", "independent")
+            verdicts.observed("slow-receiver", "independent")
 
 
-@rule("waited", "R-10.1.6.1-03", timed=True)
-def many_emitters(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+@property_at("waited", "R-10.1.6.1-03", timed=True)
+def many_emitters(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
     """Messages of each emitter arrive, not of one only."""
-    for call, missing in overdue(ledger, runtime, timeout):
+    for call, missing in overdue(verdicts, runtime, timeout):
         if call.code != OK or call.deliveries:
             continue
         arrived = {c.caller for c in messages(runtime) if c.link is call.link and c.deliveries}
         if arrived and call.caller not in arrived:
-            _missing(ledger, "many_emitters", "R-10.1.6.1-03", call, missing, "only another emitter's came", timeout)
+            _missing(verdicts, "many_emitters", "R-10.1.6.1-03", call, missing, "only another emitter's came", timeout)
 
 
-@rule("waited", "R-10.1.6.1-20", timed=True)
-def message_template(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+@property_at("waited", "R-10.1.6.1-20", timed=True)
+def message_template(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
     """Messages of each type arrive, not of one only."""
-    for call, missing in overdue(ledger, runtime, timeout):
+    for call, missing in overdue(verdicts, runtime, timeout):
         arrived = {c.link.interface for c in messages(runtime) if c.link is not None and c.deliveries}
         if call.code != OK or call.link is None or not arrived or call.link.interface in arrived:
             continue
-        _missing(ledger, "message_template", "R-10.1.6.1-20", call, missing, "only another type's came", timeout)
+        _missing(verdicts, "message_template", "R-10.1.6.1-20", call, missing, "only another type's came", timeout)
 
 
-@rule("delivered", "R-10.1.6.1-05")
-def at_most_once(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+@property_at("delivered", "R-10.1.6.1-05")
+def at_most_once(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
     """One push enters each receiver once."""
     call = delivery.call
     if call is None or not call.is_message or delivery.receiver is None:
         return
     if delivery.fit != "repeated":
-        ledger.exercised("R-10.1.6.1-05")
+        verdicts.exercised("R-10.1.6.1-05")
         return
     times = len(call.delivered_to(delivery.receiver, delivery.enter.port))
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.6.1-05",
         "at_most_once",
         "repeated",
@@ -128,8 +129,8 @@ def at_most_once(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
     )
 
 
-@rule("closed", "R-10.1.6.1-06")
-def message_origin(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", "R-10.1.6.1-06")
+def message_origin(verdicts: Verdicts, runtime: Runtime) -> None:
     """Whatever enters a receiver was pushed before by an emitter of its connection."""
     for delivery in interactions_of(runtime).deliveries:
         receiver, link, enter = delivery.receiver, delivery.link, delivery.enter
@@ -137,7 +138,7 @@ def message_origin(ledger: Ledger, runtime: Runtime) -> None:
             continue
         call = delivery.call
         if call is not None and interactions_of(runtime).has_left(delivery):
-            ledger.violated(
+            verdicts.violated(
                 "R-10.1.6.1-06",
                 "message_origin",
                 "no receiver any more",
@@ -147,11 +148,11 @@ def message_origin(ledger: Ledger, runtime: Runtime) -> None:
             )
             continue
         if delivery.fit != "stray":
-            ledger.exercised("R-10.1.6.1-06")
+            verdicts.exercised("R-10.1.6.1-06")
             continue
         elsewhere = [c for c in messages(runtime) if c.request.arguments == enter.arguments and c.link is not link]
         what = "which was pushed through another connection" if elsewhere else "which nobody had pushed"
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.6.1-06",
             "message_origin",
             "another connection" if elsewhere else "invented",
@@ -161,8 +162,8 @@ def message_origin(ledger: Ledger, runtime: Runtime) -> None:
         )
 
 
-@rule("delivered", "R-10.1.6.1-07")
-def message_order(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+@property_at("delivered", "R-10.1.6.1-07")
+def message_order(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
     """Do an emitter's messages come in the order in which they were pushed one after the other?"""
     call = delivery.call
     if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
@@ -171,9 +172,9 @@ def message_order(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
     came = [c for c in others if c.delivered_to(delivery.receiver, delivery.enter.port)]
     overtaken = [c for c in came if call.reply is not None and call.reply.n < c.request.n]
     if overtaken:
-        ledger.exercised("R-10.1.6.1-07")
-        if not ledger.observed("message-order", "unordered"):
-            ledger.violated(
+        verdicts.exercised("R-10.1.6.1-07")
+        if not verdicts.observed("message-order", "unordered"):
+            verdicts.violated(
                 "R-10.1.6.1-07",
                 "message_order",
                 "overtaken",
@@ -182,12 +183,12 @@ def message_order(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
                 events_of(call, overtaken[0].request.n, delivery.enter.n),
             )
     elif any(c.reply is not None and c.reply.n < call.request.n for c in came):
-        ledger.exercised("R-10.1.6.1-07")
-        ledger.observed("message-order", "fifo")
+        verdicts.exercised("R-10.1.6.1-07")
+        verdicts.observed("message-order", "fifo")
 
 
-@rule("delivered", "R-10.1.6.1-19")
-def values_isolated(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> None:
+@property_at("delivered", "R-10.1.6.1-19")
+def values_isolated(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
     """Who overwrites what he pushed or got changes what nobody else sees."""
     call = delivery.call
     if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
@@ -201,9 +202,9 @@ def values_isolated(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> Non
         return
     pushed, got = list(call.request.arguments or ()), list(enter.arguments or ())
     if delivery.fit == "same":
-        ledger.exercised("R-10.1.6.1-19")
+        verdicts.exercised("R-10.1.6.1-19")
     elif got in overwritten(pushed):
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.6.1-19",
             "values_isolated",
             "overwritten",
@@ -213,9 +214,9 @@ def values_isolated(ledger: Ledger, runtime: Runtime, delivery: Delivery) -> Non
         )
 
 
-@rule("linked", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-10", "R-10.1.6.1-20")
+@property_at("linked", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-10", "R-10.1.6.1-20")
 def message_connector(
-    ledger: Ledger, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+    verdicts: Verdicts, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
 ) -> None:
     """A message connector can be had for each type, and any number of emitters and receivers can be joined by it."""
     if not isinstance(end, Raise) or any(c.started is not False for c in runtime.containers.values()):
@@ -238,28 +239,28 @@ def message_connector(
     else:
         return
     observed = f"it raised {end.error} {end.detail}"
-    ledger.violated(requirement, "message_connector", s.operation(step), what, observed, (end.n,), end.step)
+    verdicts.violated(requirement, "message_connector", s.operation(step), what, observed, (end.n,), end.step)
 
 
-@rule("ended", "R-10.1.6.1-10", at=("start",), where="interactions")
-def joined_and_started(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", "R-10.1.6.1-10", at=("start",), feature="interactions")
+def joined_and_started(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """Whoever is joined by a message connector can be started."""
-    if not isinstance(end, Raise) or runtime.interactions is None or window.forgiving:
+    if not isinstance(end, Raise) or runtime.interactions is None or ongoing.forgiving:
         return
-    members = window.container.live_members()
+    members = ongoing.container.live_members()
     if any(m.raises("on_startup") or not m.connected or m.operational or m.suspended for m in members):
         return
     links = [link for link in runtime.interactions.links.values() if link.connector == s.MESSAGE_CONNECTOR]
     joined = [link.name for link in links if any(e.member in members for e in link.live("emitter", "receiver"))]
     if joined:
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.6.1-10",
             "joined_and_started",
             "start",
             f"what is joined by {joined[0]} is started",
             f"start raised {end.error} {end.detail}",
-            (window.call, end.n),
-            window.step_number,
+            (ongoing.call, end.n),
+            ongoing.step_number,
         )
 
 
@@ -273,7 +274,7 @@ def _overwrites(receiver: Member) -> bool:
 
 
 def _missing(
-    ledger: Ledger,
+    verdicts: Verdicts,
     rule_name: str,
     requirement: str,
     call: MethodCall,
@@ -282,7 +283,7 @@ def _missing(
     timeout: Timeout,
 ) -> None:
     names = ", ".join(sorted(end.member.lane for end in missing))
-    ledger.violated(
+    verdicts.violated(
         requirement,
         rule_name,
         "missing",

@@ -1,4 +1,4 @@
-"""Rules about which execution policy a component has, and about what is left to the framework (10.1.3)."""
+"""Properties about which execution policy a component has, and about what is left to the framework (10.1.3)."""
 
 from __future__ import annotations
 
@@ -15,61 +15,64 @@ from ucm_cts.reference_models.model.executions import (
     protection_of,
 )
 from ucm_cts.reference_models.model.interactions import MethodCall
-from ucm_cts.reference_models.model.runtime import Member, Runtime, Window, lane, raises
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime, lane, raises
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 _MILLISECOND = 1_000_000
 
 
-@rule("ended", "R-10.1.3-02", at=("add_component", "start"), where="policies")
-def execution_policy_given(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", "R-10.1.3-02", at=("add_component", "start"), feature="policies")
+def execution_policy_given(
+    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """A component that says nothing of its execution is refused, or is given a policy by the framework."""
     declarations = runtime.scenario.components
     if not any(protection_of(declaration) for declaration in declarations.values()):
         return  # a scenario of profile container, which knows no policies
-    if window.operation == "add_component":
-        component = getattr(window.step, "component", "")
+    if ongoing.operation == "add_component":
+        component = getattr(ongoing.step, "component", "")
         declaration = declarations.get(component)
         if declaration is None or protection_of(declaration) or not isinstance(end, Raise) or declaration.plan:
             return
-        _note(ledger, window, component, "refuse", end)
+        _note(verdicts, ongoing, component, "refuse", end)
         return
-    without = [m for m in window.container.live_members() if not protection_of(m.declaration)]
-    if not without or not window.judged or isinstance(end, Raise):
+    without = [m for m in ongoing.container.live_members() if not protection_of(m.declaration)]
+    if not without or not ongoing.judged or isinstance(end, Raise):
         return
-    _note(ledger, window, without[0].lane, "default", end)
+    _note(verdicts, ongoing, without[0].lane, "default", end)
 
 
-def _note(ledger: Ledger, window: Window, who: str, reading: str, end: Return | Raise) -> None:
-    if ledger.observed("missing-execution-policy", reading):
-        ledger.exercised("R-10.1.3-02")
+def _note(verdicts: Verdicts, ongoing: OperationInProgress, who: str, reading: str, end: Return | Raise) -> None:
+    if verdicts.observed("missing-execution-policy", reading):
+        verdicts.exercised("R-10.1.3-02")
         return
     refuses = reading == "refuse"
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.3-02",
         "execution_policy_given",
         reading,
         f"'{who}', which has no execution policy, is {'given a default one' if refuses else 'refused'}, as declared",
         f"it was {'refused' if refuses else 'started'}",
         (end.n,),
-        window.step_number,
+        ongoing.step_number,
     )
 
 
-@rule("ended", "R-10.1.3-03", at=("add_component", "start"), where="policies")
-def active_policies(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
+def active_policies(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """A component with the active policy on several ports is refused, or started, as declared."""
     declarations = runtime.scenario.components
-    if window.operation == "add_component":
-        component = getattr(window.step, "component", "")
+    if ongoing.operation == "add_component":
+        component = getattr(ongoing.step, "component", "")
         declaration = declarations.get(component)
-        is_open = declaration is not None and _is_active_twice(declaration) and window.container.started is False
+        is_open = declaration is not None and _is_active_twice(declaration) and ongoing.container.started is False
         if is_open and isinstance(end, Raise):
-            _note_active(ledger, window, component, "refuse", end)
+            _note_active(verdicts, ongoing, component, "refuse", end)
         return
-    twice = [m for m in window.container.live_members() if _is_active_twice(m.declaration)]
-    if twice and window.judged and isinstance(end, Return):
-        _note_active(ledger, window, twice[0].lane, "allow", end)
+    twice = [m for m in ongoing.container.live_members() if _is_active_twice(m.declaration)]
+    if twice and ongoing.judged and isinstance(end, Return):
+        _note_active(verdicts, ongoing, twice[0].lane, "allow", end)
 
 
 def _is_active_twice(declaration: Declaration) -> bool:
@@ -79,30 +82,30 @@ def _is_active_twice(declaration: Declaration) -> bool:
     return is_active and not fails and len(managed_ports(declaration)) > 1
 
 
-def _note_active(ledger: Ledger, window: Window, who: str, reading: str, end: Return | Raise) -> None:
-    if ledger.observed("second-active-policy", reading):
+def _note_active(verdicts: Verdicts, ongoing: OperationInProgress, who: str, reading: str, end: Return | Raise) -> None:
+    if verdicts.observed("second-active-policy", reading):
         return
     allows = reading == "refuse"
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.3-03",
         "active_policies",
         reading,
         f"'{who}', of which two ports are active, is {'allowed' if allows else 'refused'}, as declared",
         f"it was {'refused' if allows else 'started'}",
         (end.n,),
-        window.step_number,
+        ongoing.step_number,
     )
 
 
-@rule("began", "R-10.1.3.2-01")
-def runs_again(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+@property_at("began", "R-10.1.3.2-01")
+def runs_again(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
     """run is called more than once a start, unless the vendor declares that it is called once."""
     enter = execution.enter
     if execution.way != "run" or met:
         return
     since = _runs_since_start(runtime, enter.component, enter.instance)
-    if len(since) > 1 and not ledger.observed("run-trigger", "repeated"):
-        ledger.violated(
+    if len(since) > 1 and not verdicts.observed("run-trigger", "repeated"):
+        verdicts.violated(
             "R-10.1.3.2-01",
             "runs_again",
             "repeated",
@@ -112,8 +115,8 @@ def runs_again(ledger: Ledger, runtime: Runtime, execution: Execution, met: list
         )
 
 
-@rule("waited", "R-10.1.3.2-01", timed=True)
-def runs_no_more(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
+@property_at("waited", "R-10.1.3.2-01", timed=True)
+def runs_no_more(verdicts: Verdicts, runtime: Runtime, event: Timeout) -> None:
     """run was called once and not again within most of the scenario's patience, although it returned."""
     step = runtime.scenario.steps[event.step]
     patience = runtime.scenario.patience
@@ -125,8 +128,8 @@ def runs_no_more(ledger: Ledger, runtime: Runtime, event: Timeout) -> None:
         if not member.serving or len(runs) != 1 or s.HoldAtGate(step.gate) not in plan or s.RaiseError() in plan:
             continue
         is_long_over = runs[0].over and event.t - runs[0].left > patience * _MILLISECOND / 2
-        if is_long_over and not ledger.observed("run-trigger", "once"):
-            ledger.violated(
+        if is_long_over and not verdicts.observed("run-trigger", "once"):
+            verdicts.violated(
                 "R-10.1.3.2-01",
                 "runs_no_more",
                 "once",
@@ -143,48 +146,50 @@ def _runs_since_start(runtime: Runtime, component: str, instance: int) -> list[E
     return [run for run in runs if started is not None and run.enter.n > started[0]]
 
 
-@rule("began", *CALL_EXCLUSIONS)
-def circle_entered(ledger: Ledger, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+@property_at("began", *CALL_EXCLUSIONS)
+def circle_entered(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
     """A call came back to the component whose execution waits for it, and was let in, which is the framework's choice."""
     body = execution.enter.component, execution.enter.instance
     callers = execution.call.callers() if execution.call is not None else ()
     waiting = [c for c in callers if (c.enter.component, c.enter.instance) == body]
     member = runtime.member_of(*body)
     if waiting and member is not None:
-        _came_round(ledger, member, waiting[0], execution.way, "enter", (waiting[0].enter.n, execution.enter.n))
+        _came_round(verdicts, member, waiting[0], execution.way, "enter", (waiting[0].enter.n, execution.enter.n))
 
 
-@rule("completed", *CALL_EXCLUSIONS)
-def circle_refused(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", *CALL_EXCLUSIONS)
+def circle_refused(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """A call came back to the component whose execution waits for it, and was refused."""
     reply = call.reply
     if reply is not None and reply.raised and not call.deliveries:
-        _look_round(ledger, runtime, call.business, "refuse", (call.business.n, reply.n))
+        _look_round(verdicts, runtime, call.business, "refuse", (call.business.n, reply.n))
 
 
-@rule("closed", *CALL_EXCLUSIONS)
-def circle_waits(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", *CALL_EXCLUSIONS)
+def circle_waits(verdicts: Verdicts, runtime: Runtime) -> None:
     """A call came back to the component whose execution waits for it, and both were still waiting in the end."""
     for call in runtime.executions.on_their_way if runtime.executions is not None else ():
-        _look_round(ledger, runtime, call, "wait", (call.n,))
+        _look_round(verdicts, runtime, call, "wait", (call.n,))
 
 
-def _look_round(ledger: Ledger, runtime: Runtime, call: BusinessCall, reading: str, events: tuple[int, ...]) -> None:
+def _look_round(
+    verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reading: str, events: tuple[int, ...]
+) -> None:
     callers = list(call.callers())
     for member, port in goals_of(runtime, call):
         body = member.component, member.instance
         for caller in callers:
             if (caller.enter.component, caller.enter.instance) == body:
-                _came_round(ledger, member, caller, port, reading, events)
+                _came_round(verdicts, member, caller, port, reading, events)
                 return
 
 
 def _came_round(
-    ledger: Ledger, member: Member, waiting: Execution, port: str, reading: str, events: tuple[int, ...]
+    verdicts: Verdicts, member: Member, waiting: Execution, port: str, reading: str, events: tuple[int, ...]
 ) -> None:
-    requirement = exclusion(member.declaration, ledger.claims, waiting.way, port)
-    if requirement and not ledger.observed("protected-recursion", reading):
-        ledger.violated(
+    requirement = exclusion(member.declaration, verdicts.ics, waiting.way, port)
+    if requirement and not verdicts.observed("protected-recursion", reading):
+        verdicts.violated(
             requirement,
             "circle",
             reading,

@@ -1,4 +1,4 @@
-"""Rules about return codes: what a push is answered, and whether that is true (10.1.2)."""
+"""Properties about return codes: what a push is answered, and whether that is true (10.1.2)."""
 
 from __future__ import annotations
 
@@ -27,99 +27,102 @@ from ucm_cts.reference_models.model.messages import (
     settling_time,
     waited_for,
 )
-from ucm_cts.reference_models.model.runtime import Runtime, Window
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 _DUE = {"transport": ("R-10.1.2-12", COMM_ERROR), "inside": ("R-10.1.2-11", INTERNAL_ERROR)}
 
 
-@rule("completed", "R-10.1.2-02")
-def known_codes(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.2-02")
+def known_codes(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """Whatever push gives back is one of the three codes."""
     if not call.is_message or call.reply is None or call.caller is None or not call.caller.serving:
         return
     results = list(call.reply.results or ())
     if not call.reply.raised and call.reply.exception is None and len(results) == 1 and results[0] in CODES:
-        ledger.exercised("R-10.1.2-02")
+        verdicts.exercised("R-10.1.2-02")
         return
-    _violate(ledger, "R-10.1.2-02", "known_codes", call, f"is answered {' or '.join(CODES)}", "unknown")
+    _violate(verdicts, "R-10.1.2-02", "known_codes", call, f"is answered {' or '.join(CODES)}", "unknown")
 
 
-@rule("completed", "R-10.1.2-02")
-def without_receivers(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.2-02")
+def without_receivers(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """A push that nobody receives is answered what the vendor has declared."""
     if (
         not call.is_message
         or call.targets
         or not call.ready
-        or not is_whole(ledger, runtime, call)
+        or not is_whole(verdicts, runtime, call)
         or call.code not in CODES
     ):
         return
-    declared = ledger.claims.reading("push-without-receiver")
+    declared = verdicts.ics.reading("push-without-receiver")
     if declared == "refused" and call.link is not None and any(end.role == "receiver" for end in call.link.ends):
         return  # what was refused is to connect or start without one; this one lost its receivers later
-    if not ledger.observed("push-without-receiver", str(call.code)):
+    if not verdicts.observed("push-without-receiver", str(call.code)):
         expected = f"has no receiver, for which {declared} was declared"
-        _violate(ledger, "R-10.1.2-02", "without_receivers", call, expected, "without receivers")
+        _violate(verdicts, "R-10.1.2-02", "without_receivers", call, expected, "without receivers")
 
 
-@rule("ended", "R-10.1.2-02", at=("start",), where="interactions")
-def refused_without_receivers(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", "R-10.1.2-02", at=("start",), feature="interactions")
+def refused_without_receivers(
+    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """A connection without receivers is refused only where the vendor has declared it."""
     if (
         not isinstance(end, Raise)
         or runtime.interactions is None
-        or any(not m.connected for m in window.container.members)
+        or any(not m.connected for m in ongoing.container.members)
     ):
         return
-    links = [k for k in runtime.interactions.improper(window.container) if k.live("emitter")]
-    if links and not ledger.observed("push-without-receiver", "refused"):
-        declared = ledger.claims.reading("push-without-receiver")
-        ledger.violated(
+    links = [k for k in runtime.interactions.improper(ongoing.container) if k.live("emitter")]
+    if links and not verdicts.observed("push-without-receiver", "refused"):
+        declared = verdicts.ics.reading("push-without-receiver")
+        verdicts.violated(
             "R-10.1.2-02",
             "refused_without_receivers",
             "refused",
             f"push-without-receiver was declared as {declared}: who has nobody to push to is started",
             f"start raised {end.error}",
-            (window.call, end.n),
-            window.step_number,
+            (ongoing.call, end.n),
+            ongoing.step_number,
         )
 
 
-@rule("linked", "R-10.1.2-02")
+@property_at("linked", "R-10.1.2-02")
 def refused_attachment(
-    ledger: Ledger, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+    verdicts: Verdicts, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
 ) -> None:
     """An emitter that has no receiver yet is refused only where the vendor has declared it."""
     if not isinstance(step, s.Attach) or step.role != "emitter" or link is None or link.live("receiver"):
         return
-    if isinstance(end, Raise) and not ledger.observed("push-without-receiver", "refused"):
-        declared = ledger.claims.reading("push-without-receiver")
+    if isinstance(end, Raise) and not verdicts.observed("push-without-receiver", "refused"):
+        declared = verdicts.ics.reading("push-without-receiver")
         expected = f"push-without-receiver was declared as {declared}: an emitter can be attached before a receiver"
         observed = f"it raised {end.error}"
-        ledger.violated("R-10.1.2-02", "refused_attachment", "refused", expected, observed, (end.n,), end.step)
+        verdicts.violated("R-10.1.2-02", "refused_attachment", "refused", expected, observed, (end.n,), end.step)
 
 
-@rule("completed", "R-10.1.2-09")
-def ok_when_healthy(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.2-09")
+def ok_when_healthy(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """Nothing disturbs the push, so it gives ok."""
-    if not _is_undisturbed(ledger, runtime, call) or call.link is None or call.link.broken_at:
+    if not _is_undisturbed(verdicts, runtime, call) or call.link is None or call.link.broken_at:
         return
     if all(is_well(end.member) for end, _ in call.targets):
         if call.code == OK:
-            ledger.exercised("R-10.1.2-09")
+            verdicts.exercised("R-10.1.2-09")
             return
-        blocking = ledger.claims.reading("message-overflow") == "block"
+        blocking = verdicts.ics.reading("message-overflow") == "block"
         if is_quiet(runtime, call) or (blocking and call.code in CODES):
             expected = "is answered ok: all its receivers are operational and well, and nothing is broken"
-            _violate(ledger, "R-10.1.2-09", "ok_when_healthy", call, expected, "not ok")
+            _violate(verdicts, "R-10.1.2-09", "ok_when_healthy", call, expected, "not ok")
 
 
-@rule("completed", "R-10.1.2-09")
-def receivers_codes(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.2-09")
+def receivers_codes(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """What a receiver answers is dropped, and the code is ok, or passed on, and the code is that of one that was not ok."""
-    if not _is_undisturbed(ledger, runtime, call) or not is_quiet(runtime, call):
+    if not _is_undisturbed(verdicts, runtime, call) or not is_quiet(runtime, call):
         return
     answers = {answer_to_push(end.member) for end, _ in call.targets}
     if answers == {OK} or not answers <= {*CODES}:
@@ -127,138 +130,140 @@ def receivers_codes(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     reading = "dropped" if call.code == OK else "passed"
     if call.code != OK and call.code not in answers:
         expected = f"is answered ok, or what a receiver answered: {', '.join(sorted(answers - {OK}))}"
-        _violate(ledger, "R-10.1.2-09", "receivers_codes", call, expected, "another code")
-    elif not ledger.observed("receiver-code", reading):
-        expected = f"is answered so that the receiver's code is {ledger.claims.reading('receiver-code')}, as declared"
-        _violate(ledger, "R-10.1.2-09", "receivers_codes", call, expected, "receiver-code")
+        _violate(verdicts, "R-10.1.2-09", "receivers_codes", call, expected, "another code")
+    elif not verdicts.observed("receiver-code", reading):
+        expected = f"is answered so that the receiver's code is {verdicts.ics.reading('receiver-code')}, as declared"
+        _violate(verdicts, "R-10.1.2-09", "receivers_codes", call, expected, "receiver-code")
     else:
-        ledger.exercised("R-10.1.2-09")
+        verdicts.exercised("R-10.1.2-09")
 
 
-@rule("waited", "R-10.1.2-09", timed=True)
-def answered_at_all(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+@property_at("waited", "R-10.1.2-09", timed=True)
+def answered_at_all(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
     """A push that nothing disturbs is answered."""
     for call in messages(runtime):
-        if call.reply is not None or not is_whole(ledger, runtime, call) or not is_healthy(runtime, call):
+        if call.reply is not None or not is_whole(verdicts, runtime, call) or not is_healthy(runtime, call):
             continue
         if waited_for(runtime, timeout, call.request.t):
-            _violate(ledger, "R-10.1.2-09", "answered_at_all", call, "is answered ok", "no answer")
+            _violate(verdicts, "R-10.1.2-09", "answered_at_all", call, "is answered ok", "no answer")
 
 
-@rule("closed", "R-10.1.2-10")
-def ok_true(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", "R-10.1.2-10")
+def ok_true(verdicts: Verdicts, runtime: Runtime) -> None:
     """Counts messages that got ok and arrived."""
     for call in messages(runtime):
         if call.code == OK and not call.broken and any(d.fit == "same" for d in call.deliveries):
-            ledger.exercised("R-10.1.2-10")
+            verdicts.exercised("R-10.1.2-10")
 
 
-@rule("waited", "R-10.1.2-10", timed=True)
-def ok_kept(ledger: Ledger, runtime: Runtime, timeout: Timeout) -> None:
+@property_at("waited", "R-10.1.2-10", timed=True)
+def ok_kept(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
     """What got ok arrives, if nothing is broken and the receivers are well."""
-    for call, missing in overdue(ledger, runtime, timeout):
+    for call, missing in overdue(verdicts, runtime, timeout):
         if call.code == OK and not call.deliveries and not is_disturbed(runtime, call):
             names = ", ".join(sorted(end.member.lane for end in missing))
             expected = f"was answered ok and comes to {names}"
-            _violate(ledger, "R-10.1.2-10", "ok_kept", call, expected, "lost", "it came to nobody", timeout.n)
+            _violate(verdicts, "R-10.1.2-10", "ok_kept", call, expected, "lost", "it came to nobody", timeout.n)
 
 
-@rule("completed", "R-10.1.2-10")
-def delivered_before_ok(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.2-10")
+def delivered_before_ok(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """Where the vendor has declared it, push gives ok when every receiver has the message."""
-    if not call.is_message or call.code != OK or not is_whole(ledger, runtime, call) or not is_calm(runtime, call):
+    if not call.is_message or call.code != OK or not is_whole(verdicts, runtime, call) or not is_calm(runtime, call):
         return
     receivers = [end for end in lasting(runtime, call) if is_well(end.member) and not counts(end.member)]
     late = [end for end in receivers if not call.delivered_to(end.member, end.port)]
-    if receivers and not ledger.observed("message-delivery", "asynchronous" if late else "synchronous") and late:
+    if receivers and not verdicts.observed("message-delivery", "asynchronous" if late else "synchronous") and late:
         expected = f"comes to {late[0].member.lane} before push returns, as declared"
-        _violate(ledger, "R-10.1.2-10", "delivered_before_ok", call, expected, "not yet", "push returned before")
+        _violate(verdicts, "R-10.1.2-10", "delivered_before_ok", call, expected, "not yet", "push returned before")
 
 
-@rule("completed", "R-10.1.2-01", timed=True)
-def failure_noticed(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.2-01", timed=True)
+def failure_noticed(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """While its connector is known to be broken an interaction does not look as if it had gone well."""
     if call.link is None or not call.broken or call.reply is None:
         return
     if call.link.connector == s.SERVICE_CONNECTOR:
-        _failed_request(ledger, call)
-    elif call.is_message and _is_still_broken(call) and _is_known(ledger, runtime, call):
+        _failed_request(verdicts, call)
+    elif call.is_message and _is_still_broken(call) and _is_known(verdicts, runtime, call):
         if call.code == OK:
             where = (
                 f"the {call.broken} of its connection is broken"
                 if call.broken == "transport"
                 else "it is broken inside"
             )
-            _violate(ledger, "R-10.1.2-01", "failure_noticed", call, f"is not answered ok while {where}", "ok")
+            _violate(verdicts, "R-10.1.2-01", "failure_noticed", call, f"is not answered ok while {where}", "ok")
         else:
-            ledger.exercised("R-10.1.2-01")
+            verdicts.exercised("R-10.1.2-01")
 
 
-def _failed_request(ledger: Ledger, call: MethodCall) -> None:
+def _failed_request(verdicts: Verdicts, call: MethodCall) -> None:
     reply = call.reply
     assert reply is not None
     if reply.raised or reply.exception is not None:
-        taken, reading = ledger.observed("service-failure", "raise"), "raise"
+        taken, reading = verdicts.observed("service-failure", "raise"), "raise"
     elif any(d.exit is not None and d.exit.results == reply.results for d in call.deliveries):
-        taken, reading = _is_still_broken(call) or ledger.observed("service-failure", "wait"), "wait"
+        taken, reading = _is_still_broken(call) or verdicts.observed("service-failure", "wait"), "wait"
     else:
         expected = "does not return as if its server had answered: the connection is broken"
-        _violate(ledger, "R-10.1.2-01", "failure_noticed", call, expected, "invented result")
+        _violate(verdicts, "R-10.1.2-01", "failure_noticed", call, expected, "invented result")
         return
     if taken:
-        ledger.exercised("R-10.1.2-01")
+        verdicts.exercised("R-10.1.2-01")
     else:
-        declared = ledger.claims.reading("service-failure")
+        declared = verdicts.ics.reading("service-failure")
         expected = f"ends as declared of calls whose connection is broken: {declared}"
-        _violate(ledger, "R-10.1.2-01", "failure_noticed", call, expected, reading)
+        _violate(verdicts, "R-10.1.2-01", "failure_noticed", call, expected, reading)
 
 
-@rule("completed", "R-10.1.2-11")
-def internal_error_when_due(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.2-11")
+def internal_error_when_due(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """A push through a connector that is broken inside gives internal_error."""
     if not call.is_message or call.broken != "inside" or not _is_still_broken(call) or not _has_receivers(call):
         return
     if call.code == INTERNAL_ERROR:
-        ledger.exercised("R-10.1.2-11")
+        verdicts.exercised("R-10.1.2-11")
     else:
         expected = "is answered internal_error: its connector is broken inside"
-        _violate(ledger, "R-10.1.2-11", "internal_error_when_due", call, expected, "another code")
+        _violate(verdicts, "R-10.1.2-11", "internal_error_when_due", call, expected, "another code")
 
 
-@rule("completed", "R-10.1.2-12", timed=True)
-def comm_error_when_due(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.2-12", timed=True)
+def comm_error_when_due(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """A push through a transport that is broken gives comm_error, at the latest when the connector must know."""
     if not call.is_message or call.broken != "transport" or not _is_still_broken(call) or not _has_receivers(call):
         return
     if call.code == COMM_ERROR:
-        ledger.exercised("R-10.1.2-12")
+        verdicts.exercised("R-10.1.2-12")
         if call is _first_to_meet(runtime, call):
-            ledger.observed("comm-error", "at-once")
-    elif _is_known(ledger, runtime, call) or not ledger.observed("comm-error", "eventually"):
+            verdicts.observed("comm-error", "at-once")
+    elif _is_known(verdicts, runtime, call) or not verdicts.observed("comm-error", "eventually"):
         expected = "is answered comm_error: the transport of its connection is broken"
-        _violate(ledger, "R-10.1.2-12", "comm_error_when_due", call, expected, "another code")
+        _violate(verdicts, "R-10.1.2-12", "comm_error_when_due", call, expected, "another code")
 
 
-@rule("completed", "R-10.1.2-11", "R-10.1.2-12", timed=True)
-def ok_after_mending(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.2-11", "R-10.1.2-12", timed=True)
+def ok_after_mending(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """When what was broken has been mended push gives ok again."""
     link = call.link
     if link is None or not link.mended_at or not link.was_broken:  # who could not break it may still mend it
         return
-    if not _is_undisturbed(ledger, runtime, call) or not is_quiet(runtime, call):
+    if not _is_undisturbed(verdicts, runtime, call) or not is_quiet(runtime, call):
         return
     if not all(is_well(end.member) for end, _ in call.targets):
         return
     requirement, _ = _DUE[link.was_broken]
     if call.code == OK:
-        ledger.exercised(requirement)
+        verdicts.exercised(requirement)
     else:
-        _violate(ledger, requirement, "ok_after_mending", call, "is answered ok: its connection was mended", "mended")
+        _violate(verdicts, requirement, "ok_after_mending", call, "is answered ok: its connection was mended", "mended")
 
 
-def _is_undisturbed(ledger: Ledger, runtime: Runtime, call: MethodCall) -> bool:
+def _is_undisturbed(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> bool:
     """Is it a message that has been answered, by a connector that was whole and had only receivers that are operational?"""
-    return call.is_message and call.reply is not None and is_whole(ledger, runtime, call) and is_healthy(runtime, call)
+    return (
+        call.is_message and call.reply is not None and is_whole(verdicts, runtime, call) and is_healthy(runtime, call)
+    )
 
 
 def _is_still_broken(call: MethodCall) -> bool:
@@ -278,16 +283,16 @@ def _first_to_meet(runtime: Runtime, call: MethodCall) -> MethodCall:
     return next(c for c in messages(runtime) if c.link is call.link and c.broken and c.request.t >= since)
 
 
-def _is_known(ledger: Ledger, runtime: Runtime, call: MethodCall) -> bool:
+def _is_known(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> bool:
     """Must the connector know by now that it is broken?"""
     if not _has_receivers(call):
         return False
     first = _first_to_meet(runtime, call)
-    return call.broken == "inside" or call.request.t - first.request.t >= settling_time(ledger)
+    return call.broken == "inside" or call.request.t - first.request.t >= settling_time(verdicts)
 
 
 def _violate(
-    ledger: Ledger,
+    verdicts: Verdicts,
     requirement: str,
     rule_name: str,
     call: MethodCall,
@@ -296,7 +301,7 @@ def _violate(
     observed: str = "",
     *further: int,
 ) -> None:
-    ledger.violated(
+    verdicts.violated(
         requirement,
         rule_name,
         cause,

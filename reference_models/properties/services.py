@@ -1,4 +1,4 @@
-"""Rules about the service connector: calls of clients reach one server and come back (10.1.5.1)."""
+"""Properties about the service connector: calls of clients reach one server and come back (10.1.5.1)."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Reply, Return
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.links import LinkState
-from ucm_cts.reference_models.model.runtime import Runtime, Window, lane
+from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime, lane
 from ucm_cts.reference_models.model.services import (
     ServiceCall,
     Trouble,
@@ -23,7 +23,8 @@ from ucm_cts.reference_models.model.services import (
     what_sets_apart,
 )
 from ucm_cts.reference_models.model.values_carried import altered_calls
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 _CALLS, _CLIENTS, _OWN, _ONE_SERVER = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-05"
 _DIRECTIONS, _INHERITED, _EXCEPTIONS = "R-10.1.5.1-08", "R-10.1.5.1-09", "R-10.1.5.1-10"
@@ -47,38 +48,38 @@ def _undisturbed(runtime: Runtime) -> list[tuple[ServiceCall, Trouble]]:
     return [(one, trouble) for one, trouble in judged if one.call not in altered]
 
 
-@rule("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE)
-def service_call(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE)
+def service_call(verdicts: Verdicts, runtime: Runtime) -> None:
     """A call enters the connected server once, at the method called, and comes back as the server was left."""
     judged = _undisturbed(runtime)
     good = [one for one, trouble in judged if not trouble]
     for one in good:
-        ledger.exercised(_CALLS)
+        verdicts.exercised(_CALLS)
         if one.is_inherited:
-            ledger.exercised(_INHERITED)
+            verdicts.exercised(_INHERITED)
         if len({id(other.client) for other in good if other.link is one.link}) > 1:
-            ledger.exercised(_CLIENTS)
+            verdicts.exercised(_CLIENTS)
         if len({other.link.interface for other in good}) > 1:
-            ledger.exercised(_TEMPLATE)
+            verdicts.exercised(_TEMPLATE)
     expected = "enters the server once and comes back as the server was left"
     for one, trouble in judged:
         if trouble == "twice":
             observed = f"the server was entered {len(one.served)} times"
-            _violate(ledger, _CALLS, "service_call", trouble, one, expected, observed)
+            _violate(verdicts, _CALLS, "service_call", trouble, one, expected, observed)
         elif trouble in ("not served", "elsewhere", "failed"):
             observed = _what_failed(runtime, one, trouble)
-            _violate(ledger, _concerned(runtime, one, good), "service_call", trouble, one, expected, observed)
+            _violate(verdicts, _concerned(runtime, one, good), "service_call", trouble, one, expected, observed)
 
 
-@rule("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE, timed=True)
-def service_call_ends(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE, timed=True)
+def service_call_ends(verdicts: Verdicts, runtime: Runtime) -> None:
     """A call that nothing disturbs ends when its server has been left, if that waits for nobody."""
     for one in service_calls(runtime):
         if one.call.reply is None and _may_be_expected(one) and _hangs(runtime, one, disturbed_at(runtime, one)):
             good = [other for other, trouble in _undisturbed(runtime) if not trouble]
             observed = "the server was left, and it did not end" if one.exit else "it did not end"
             requirement = _concerned(runtime, one, good)
-            _violate(ledger, requirement, "service_call_ends", "hangs", one, "ends", observed)
+            _violate(verdicts, requirement, "service_call_ends", "hangs", one, "ends", observed)
 
 
 def _hangs(runtime: Runtime, one: ServiceCall, until: int | None = None) -> bool:
@@ -111,8 +112,8 @@ def _may_be_expected(one: ServiceCall) -> bool:
     return not any(isinstance(a, calls) for plan in one.server.member.declaration.plan.values() for a in plan)
 
 
-@rule("closed", _OWN, _DIRECTIONS, _CALLS)
-def service_values(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", _OWN, _DIRECTIONS, _CALLS)
+def service_values(verdicts: Verdicts, runtime: Runtime) -> None:
     """What the client sends reaches the server, and what the server gives reaches the client that asked."""
     judged = _undisturbed(runtime)
     for one, trouble in judged:
@@ -121,19 +122,19 @@ def service_values(ledger: Ledger, runtime: Runtime) -> None:
         beside = [other for other, _ in judged if one.meets(other) and other.exit is not None]
         if not trouble and given is not None and not given.raised:
             if several and given.exception is None:
-                ledger.exercised(_DIRECTIONS)
+                verdicts.exercised(_DIRECTIONS)
             if any(_outcome(other) != _outcome(one) for other in beside):
-                ledger.exercised(_OWN)
+                verdicts.exercised(_OWN)
         elif trouble == "arguments":
             observed = f"it got {_values(one.served[0].enter.arguments)}"
             expected = f"reaches the server with {_values(one.call.request.arguments)}"
-            _violate(ledger, _DIRECTIONS if several else _CALLS, "service_values", trouble, one, expected, observed)
+            _violate(verdicts, _DIRECTIONS if several else _CALLS, "service_values", trouble, one, expected, observed)
         elif trouble == "results" and given is not None and one.call.reply is not None:
             got = one.call.reply.results
             others = [other for other in beside if other.exit is not None and other.exit.results == got]
             requirement = _OWN if others else _DIRECTIONS if several else _CALLS
             expected = f"brings back what the server gave for it, {_values(given.results)}"
-            _violate(ledger, requirement, "service_values", trouble, one, expected, f"it brought {_values(got)}")
+            _violate(verdicts, requirement, "service_values", trouble, one, expected, f"it brought {_values(got)}")
 
 
 def _outcome(one: ServiceCall) -> object:
@@ -144,8 +145,8 @@ def _values(values: object) -> str:
     return str(list(values)) if isinstance(values, tuple) else "nothing"
 
 
-@rule("closed", _EXCEPTIONS)
-def service_exceptions(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", _EXCEPTIONS)
+def service_exceptions(verdicts: Verdicts, runtime: Runtime) -> None:
     """An exception of the server's is one for the client: the same one, unless it may be any."""
     for one, trouble in _undisturbed(runtime):
         left, reply = one.exit, one.call.reply
@@ -154,8 +155,8 @@ def service_exceptions(ledger: Ledger, runtime: Runtime) -> None:
         if left.raised and trouble != "swallowed":
             continue  # arrives as any exception
         reading = "full" if not trouble else "system-error"
-        if trouble in ("", "translated") and ledger.observed("exception-transport", reading):
-            ledger.exercised(_EXCEPTIONS)
+        if trouble in ("", "translated") and verdicts.observed("exception-transport", reading):
+            verdicts.exercised(_EXCEPTIONS)
             continue
         if trouble not in ("swallowed", "", "translated"):
             continue
@@ -163,26 +164,26 @@ def service_exceptions(ledger: Ledger, runtime: Runtime) -> None:
         got = f"{reply.exception} with {_values(reply.results)}" if reply.exception else "some other exception"
         observed = f"it returned {_values(reply.results)}" if trouble == "swallowed" else f"it ended with {got}"
         expected = f"ends as the server did, with {gave}"
-        _violate(ledger, _EXCEPTIONS, "service_exceptions", trouble or "full", one, expected, observed)
+        _violate(verdicts, _EXCEPTIONS, "service_exceptions", trouble or "full", one, expected, observed)
 
 
-@rule("closed", _BLOCKING)
-def service_blocks(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", _BLOCKING)
+def service_blocks(verdicts: Verdicts, runtime: Runtime) -> None:
     """No call comes back with an answer before its server's method was left."""
     settled = interactions_of(runtime).settled
     for one, trouble in _undisturbed(runtime):
         left = one.exit
         if trouble == "early":
             expected = "comes back when the server's method has been left"
-            _violate(ledger, _BLOCKING, "service_blocks", trouble, one, expected, "it came back before")
+            _violate(verdicts, _BLOCKING, "service_blocks", trouble, one, expected, "it came back before")
             continue
         seen = [e for e in settled if e.worker == one.call.business.worker and e.where != "done"]
         if left is not None and one.served[0].was_held and any(one.served[0].enter.n < e.n < left.n for e in seen):
-            ledger.exercised(_BLOCKING)
+            verdicts.exercised(_BLOCKING)
 
 
-@rule("closed", _IN_FLIGHT)
-def call_in_flight_ends(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", _IN_FLIGHT)
+def call_in_flight_ends(verdicts: Verdicts, runtime: Runtime) -> None:
     """A call whose client or server is stopped, or whose connection is undone, brings what its server gave, or an exception."""
     for one in service_calls(runtime):
         ending = ended_by(runtime, one)
@@ -190,17 +191,17 @@ def call_in_flight_ends(ledger: Ledger, runtime: Runtime) -> None:
             continue
         reading = _how_it_ended(one, one.call.reply)
         was_inside = bool(one.served) and one.served[0].enter.n < min(o.begin.n for o in ending)
-        if reading and (not was_inside or ledger.observed("call-in-flight", reading)):
-            ledger.exercised(_IN_FLIGHT)
+        if reading and (not was_inside or verdicts.observed("call-in-flight", reading)):
+            verdicts.exercised(_IN_FLIGHT)
             continue
-        declared = ledger.claims.reading("call-in-flight")
+        declared = verdicts.ics.reading("call-in-flight")
         expected = f"{declared} as declared" if reading else "ends with what the server gave, or with an exception"
         observed = "it was otherwise" if reading else f"it returned {_values(one.call.reply.results)}"
-        _violate(ledger, _IN_FLIGHT, "call_in_flight_ends", reading or "invented", one, expected, observed)
+        _violate(verdicts, _IN_FLIGHT, "call_in_flight_ends", reading or "invented", one, expected, observed)
 
 
-@rule("closed", _IN_FLIGHT, timed=True)
-def nobody_is_left_hanging(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", _IN_FLIGHT, timed=True)
+def nobody_is_left_hanging(verdicts: Verdicts, runtime: Runtime) -> None:
     """Neither the call nor what stops its client or server, or undoes its connection, waits for ever."""
     for one in service_calls(runtime):
         ending = ended_by(runtime, one)
@@ -208,11 +209,11 @@ def nobody_is_left_hanging(ledger: Ledger, runtime: Runtime) -> None:
             if operation.end is None and is_left_hanging(runtime, operation.step.thread, operation.begin.n):
                 expected = f"and {s.operation(operation.step)}, called meanwhile, end once the server is let go"
                 observed = f"{s.operation(operation.step)} did not end"
-                _violate(ledger, _IN_FLIGHT, "nobody_is_left_hanging", "operation", one, expected, observed)
+                _violate(verdicts, _IN_FLIGHT, "nobody_is_left_hanging", "operation", one, expected, observed)
         began = min((o.begin.n for o in ending), default=None)
         if began is not None and one.call.reply is None and not _hangs(runtime, one, began) and _hangs(runtime, one):
             expected = "ends once the server is let go"
-            _violate(ledger, _IN_FLIGHT, "nobody_is_left_hanging", "hangs", one, expected, "it did not end")
+            _violate(verdicts, _IN_FLIGHT, "nobody_is_left_hanging", "hangs", one, expected, "it did not end")
 
 
 def _how_it_ended(one: ServiceCall, reply: Reply) -> str:
@@ -224,8 +225,8 @@ def _how_it_ended(one: ServiceCall, reply: Reply) -> str:
     return "aborted" if reply.raised or reply.exception is not None else ""
 
 
-@rule("closed", _CALLS)
-def service_uncalled(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", _CALLS)
+def service_uncalled(verdicts: Verdicts, runtime: Runtime) -> None:
     """A server is entered because a client of its own connection called."""
     explained = [led_astray(runtime, one) for one, trouble in _undisturbed(runtime) if trouble == "elsewhere"]
     for delivery in strays(runtime):
@@ -233,7 +234,7 @@ def service_uncalled(ledger: Ledger, runtime: Runtime) -> None:
             continue
         enter = delivery.enter
         who = lane(enter.component, enter.instance)
-        ledger.violated(
+        verdicts.violated(
             _CALLS,
             "service_uncalled",
             "no caller",
@@ -243,8 +244,8 @@ def service_uncalled(ledger: Ledger, runtime: Runtime) -> None:
         )
 
 
-@rule("closed", _CALLS)
-def servers_that_left(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", _CALLS)
+def servers_that_left(verdicts: Verdicts, runtime: Runtime) -> None:
     """Who is no longer a server of the connection is not entered by calls through it."""
     interactions = interactions_of(runtime)
     for delivery in interactions.deliveries:
@@ -252,7 +253,7 @@ def servers_that_left(ledger: Ledger, runtime: Runtime) -> None:
         if link is None or link.connector != s.SERVICE_CONNECTOR or call is None or call.link is not link:
             continue
         if delivery.fit == "same" and interactions.has_left(delivery):
-            ledger.violated(
+            verdicts.violated(
                 _CALLS,
                 "servers_that_left",
                 "no server any more",
@@ -268,9 +269,9 @@ def _may_be_late(runtime: Runtime, moment: int) -> bool:
     return any(isinstance(o.step, undoing) and o.begin.n < moment for o in interactions_of(runtime).operations)
 
 
-@rule("linked", _CALLS, _CLIENTS, _ONE_SERVER, _TEMPLATE)
+@property_at("linked", _CALLS, _CLIENTS, _ONE_SERVER, _TEMPLATE)
 def connector_takes_its_ends(
-    ledger: Ledger, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+    verdicts: Verdicts, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
 ) -> None:
     """While nothing is started, a connector can be had for each interface, and takes one server and any number of clients."""
     if any(container.started is not False for container in runtime.containers.values()):
@@ -279,13 +280,13 @@ def connector_takes_its_ends(
         if step.connector == s.SERVICE_CONNECTOR and isinstance(end, Raise):
             others = [k for k in interactions_of(runtime).links.values() if k.connector == step.connector]
             if not others or not new_types(runtime, step):  # otherwise a matter of its types
-                _refused(ledger, _TEMPLATE if others else _CALLS, step, end, "made")
+                _refused(verdicts, _TEMPLATE if others else _CALLS, step, end, "made")
         return
     if isinstance(step, s.Attach) and link is not None and link.connector == s.SERVICE_CONNECTOR:
-        _attached(ledger, runtime, link, step, end)
+        _attached(verdicts, runtime, link, step, end)
 
 
-def _attached(ledger: Ledger, runtime: Runtime, link: LinkState, step: s.Attach, end: Return | Raise) -> None:
+def _attached(verdicts: Verdicts, runtime: Runtime, link: LinkState, step: s.Attach, end: Return | Raise) -> None:
     member = runtime.members.get(step.id)
     if member is None or member.suspended or member.declaration.ports.get(step.port) != link.interface:
         return
@@ -293,10 +294,10 @@ def _attached(ledger: Ledger, runtime: Runtime, link: LinkState, step: s.Attach,
     servers = [e for e in before if e.role == "server"]
     if step.role == "server" and servers and step.port in member.declaration.provides:
         if isinstance(end, Raise):
-            _refused_second_server(ledger, step, end)
+            _refused_second_server(verdicts, step, end)
     elif isinstance(end, Raise) and _fits(link, step, bool(servers)):
         clients = [e for e in before if e.role == "client"]
-        _refused(ledger, _CLIENTS if step.role == "client" and clients else _CALLS, step, end, "attached")
+        _refused(verdicts, _CLIENTS if step.role == "client" and clients else _CALLS, step, end, "attached")
 
 
 def _fits(link: LinkState, step: s.Attach, has_server: bool) -> bool:
@@ -305,9 +306,9 @@ def _fits(link: LinkState, step: s.Attach, has_server: bool) -> bool:
     return not known and (step.role == "server" or (step.role == "client" and has_server))
 
 
-def _refused(ledger: Ledger, requirement: str, step: s.Link | s.Attach, end: Raise, done: str) -> None:
+def _refused(verdicts: Verdicts, requirement: str, step: s.Link | s.Attach, end: Raise, done: str) -> None:
     what = f"a connector for {step.interface}" if isinstance(step, s.Link) else f"{step.role} {step.id}"
-    ledger.violated(
+    verdicts.violated(
         requirement,
         "connector_takes_its_ends",
         f"not {done}",
@@ -318,11 +319,11 @@ def _refused(ledger: Ledger, requirement: str, step: s.Link | s.Attach, end: Rai
     )
 
 
-def _refused_second_server(ledger: Ledger, step: s.Attach, end: Raise) -> None:
-    if end.error in _REFUSALS and ledger.observed("second-server", "at-connect"):
-        ledger.exercised(_ONE_SERVER)
+def _refused_second_server(verdicts: Verdicts, step: s.Attach, end: Raise) -> None:
+    if end.error in _REFUSALS and verdicts.observed("second-server", "at-connect"):
+        verdicts.exercised(_ONE_SERVER)
         return
-    ledger.violated(
+    verdicts.violated(
         _ONE_SERVER,
         "connector_takes_its_ends",
         "refused otherwise",
@@ -333,43 +334,43 @@ def _refused_second_server(ledger: Ledger, step: s.Attach, end: Raise) -> None:
     )
 
 
-@rule("ended", _ONE_SERVER, at=("start",), where="interactions")
-def one_server(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", _ONE_SERVER, at=("start",), feature="interactions")
+def one_server(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """Two servers of one connection never are operational together."""
     links = runtime.interactions.improper() if runtime.interactions is not None else []
     for link in (k for k in links if k.connector == s.SERVICE_CONNECTOR):
         servers = link.live("server")
-        if len(servers) < 2 or all(e.member.container is not window.container for e in link.live("server", "client")):
+        if len(servers) < 2 or all(e.member.container is not ongoing.container for e in link.live("server", "client")):
             continue
-        started = [e for e in servers if e.member.container is window.container or e.member.container.started]
+        started = [e for e in servers if e.member.container is ongoing.container or e.member.container.started]
         if isinstance(end, Raise):
-            if end.error == "UCM_ERROR" and ledger.observed("second-server", "at-start"):
-                ledger.exercised(_ONE_SERVER)
+            if end.error == "UCM_ERROR" and verdicts.observed("second-server", "at-start"):
+                verdicts.exercised(_ONE_SERVER)
             elif end.error == "UCM_ERROR":
-                _started(ledger, window, "it was to be refused at connect, as declared", end.n)
+                _started(verdicts, ongoing, "it was to be refused at connect, as declared", end.n)
         elif len(started) == len(servers):
-            _started(ledger, window, "start returned", end.n)
+            _started(verdicts, ongoing, "start returned", end.n)
 
 
-def _started(ledger: Ledger, window: Window, observed: str, end: int) -> None:
-    ledger.violated(
+def _started(verdicts: Verdicts, ongoing: OperationInProgress, observed: str, end: int) -> None:
+    verdicts.violated(
         _ONE_SERVER,
         "one_server",
         "two",
         "a connection with two servers is not started",
         observed,
-        (window.call, end),
-        window.step_number,
+        (ongoing.call, end),
+        ongoing.step_number,
     )
 
 
 def _violate(
-    ledger: Ledger, requirement: str, rule_name: str, cause: str, one: ServiceCall, expected: str, observed: str
+    verdicts: Verdicts, requirement: str, rule_name: str, cause: str, one: ServiceCall, expected: str, observed: str
 ) -> None:
     request, reply = one.call.request, one.call.reply
     client, server = lane(request.component, request.instance), one.server.member.lane
     events = (request.n, *(d.enter.n for d in one.served), *((reply.n,) if reply is not None else ()))
-    ledger.violated(
+    verdicts.violated(
         requirement,
         rule_name,
         cause,

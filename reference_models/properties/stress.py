@@ -1,4 +1,4 @@
-"""Rules about components that many callers enter as fast as they can: tiny holes in their protection (10.1.3.2).
+"""Properties about components that many callers enter as fast as they can: tiny holes in their protection (10.1.3.2).
 
 Counters inside the body tell who met whom. They prove something only if they find overlap where nobody protects.
 """
@@ -9,12 +9,13 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Paused, Pushed, Return, Stressed
 from ucm_cts.reference_models.model.executions import CALL_EXCLUSIONS, exclusion, protection_of
 from ucm_cts.reference_models.model.runtime import Runtime
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 
-@rule("told", *CALL_EXCLUSIONS)
+@property_at("told", *CALL_EXCLUSIONS)
 def no_overlap_under_stress(
-    ledger: Ledger, runtime: Runtime, event: Return | Pushed | Counted | Paused | Stressed
+    verdicts: Verdicts, runtime: Runtime, event: Return | Pushed | Counted | Paused | Stressed
 ) -> None:
     """Callers that stress a protected component never meet inside."""
     if not isinstance(event, Stressed):
@@ -26,14 +27,14 @@ def no_overlap_under_stress(
     if member is None or not member.serving:
         return
     ports = [runtime.ports[ref] for ref in step.refs]
-    requirement = exclusion(member.declaration, ledger.claims, ports[0], ports[-1])
+    requirement = exclusion(member.declaration, verdicts.ics, ports[0], ports[-1])
     if not requirement:
         if event.overlaps and protection_of(member.declaration) == "unprotected":
-            ledger.exercised("R-10.1.3.2-20")
+            verdicts.exercised("R-10.1.3.2-20")
         return
-    ledger.measured("calls stressed", event.calls)
+    verdicts.measured("calls stressed", event.calls)
     if event.overlaps:
-        ledger.violated(
+        verdicts.violated(
             requirement,
             "no_overlap_under_stress",
             "tiny hole",
@@ -43,5 +44,5 @@ def no_overlap_under_stress(
             event.step,
         )
     elif event.control_overlaps and event.calls:
-        ledger.exercised(requirement)
-        ledger.measured("calls stressed beside a control that was found out", event.calls)
+        verdicts.exercised(requirement)
+        verdicts.measured("calls stressed beside a control that was found out", event.calls)

@@ -1,10 +1,10 @@
-"""Rules about the trace service: references, log, and what is in the log when it is read back (10.1.4)."""
+"""Properties about the trace service: references, log, and what is in the log when it is read back (10.1.4)."""
 
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Enter, Paused, Pushed, Raise, Return, Stressed
-from ucm_cts.reference_models.model.callback_history import Heard
+from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.log_contents import (
     Contents,
@@ -15,7 +15,7 @@ from ucm_cts.reference_models.model.log_contents import (
     log_readings,
     severities_shown,
 )
-from ucm_cts.reference_models.model.runtime import Runtime, Window, lane
+from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime, lane
 from ucm_cts.reference_models.model.service_policies import (
     TRACES,
     has_several_clocks,
@@ -23,7 +23,8 @@ from ucm_cts.reference_models.model.service_policies import (
     policies_of,
     policy_elements,
 )
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 _REFERENCES = {s.CLOCK: "R-10.1.4.1-06", s.COMPONENT_TRACE: "R-10.1.4.2-03"}
 _SEVERAL = "R-10.1.4.2-02"
@@ -31,8 +32,10 @@ _TOO_MANY = "too many"
 _SHOWN = 60
 
 
-@rule("entered", *_REFERENCES.values(), _SEVERAL, at=("on_startup",), where="policies")
-def policy_references(ledger: Ledger, runtime: Runtime, window: Window | None, event: Enter, heard: Heard) -> None:
+@property_at("entered", *_REFERENCES.values(), _SEVERAL, at=("on_startup",), feature="policies")
+def policy_references(
+    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+) -> None:
     """on_startup hands over a reference for each port element that a component requires by its policies, at every start."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or has_several_clocks(member.declaration) or member.operational:
@@ -42,23 +45,23 @@ def policy_references(ledger: Ledger, runtime: Runtime, window: Window | None, e
     for element, definition in elements.items():
         if element in given:
             if definition == s.COMPONENT_TRACE:
-                ledger.exercised(_REFERENCES[definition])
+                verdicts.exercised(_REFERENCES[definition])
             continue
         others = [e for e, d in elements.items() if d == definition and e in given]
         named = any(dependency.port == element for dependency in event.dependencies or ())
-        ledger.violated(
+        verdicts.violated(
             _SEVERAL if others else _REFERENCES[definition],
             "policy_references",
             f"{definition} {'null' if named else 'missing'}",
             f"on_startup of '{member.lane}' hands over a reference for {element}, which its {definition} provides",
             f"it handed over {'a null reference' if named else 'none of that name'}",
             (event.n,),
-            window.step_number if window else None,
+            ongoing.step_number if ongoing else None,
         )
 
 
-@rule("completed", "R-10.1.4.2-25")
-def log_returns(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
+@property_at("completed", "R-10.1.4.2-25")
+def log_returns(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
     """A call of log comes back, whichever severity it has, from on_startup to on_shutdown."""
     request, reply, caller = call.request, call.reply, call.caller
     if reply is None or caller is None or caller.suspended or request.method != "log":
@@ -66,12 +69,12 @@ def log_returns(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     if request.port not in policy_elements(caller.declaration, s.COMPONENT_TRACE) or not request.arguments:
         return
     severity, text = str(request.arguments[0]), str(request.arguments[-1])
-    if not Threshold.declared(ledger.claims).knows(severity) or not _is_sendable(ledger, text):
+    if not Threshold.declared(verdicts.ics).knows(severity) or not _is_sendable(verdicts, text):
         return
     if not reply.raised and reply.exception is None:
-        ledger.exercised("R-10.1.4.2-25")
+        verdicts.exercised("R-10.1.4.2-25")
         return
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.4.2-25",
         "log_returns",
         "raises",
@@ -81,47 +84,47 @@ def log_returns(ledger: Ledger, runtime: Runtime, call: MethodCall) -> None:
     )
 
 
-@rule("ended", _SEVERAL, at=("add_component",), where="policies")
-def traces_supported(ledger: Ledger, runtime: Runtime, window: Window, end: Return | Raise) -> None:
+@property_at("ended", _SEVERAL, at=("add_component",), feature="policies")
+def traces_supported(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """A component may have any number of trace policies."""
-    step = window.step
+    step = ongoing.step
     declaration = runtime.scenario.components.get(step.component) if isinstance(step, s.AddComponent) else None
-    if declaration is None or not isinstance(end, Raise) or window.container.started is not False:
+    if declaration is None or not isinstance(end, Raise) or ongoing.container.started is not False:
         return
     if only_service(declaration, *TRACES):
         names = ", ".join(policy.definition for policy in policies_of(declaration, *TRACES))
-        ledger.violated(
+        verdicts.violated(
             _SEVERAL,
             "traces_supported",
             "refused",
             f"a component with the policies {names} is added",
             f"add_component raised {end.error} {end.detail}".rstrip(),
             (end.n,),
-            window.step_number,
+            ongoing.step_number,
         )
 
 
 Told = Return | Pushed | Counted | Paused | Stressed
 
 
-@rule("told", "R-10.1.4.2-26", "R-10.1.4.2-47", _SEVERAL, timed=True)
-def log_recorded(ledger: Ledger, runtime: Runtime, event: Told) -> None:
+@property_at("told", "R-10.1.4.2-26", "R-10.1.4.2-47", _SEVERAL, timed=True)
+def log_recorded(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
     """Each call of log leaves one record, from the declared threshold on and none below it."""
-    contents = _contents(ledger, runtime, event)
+    contents = _contents(verdicts, runtime, event)
     if contents is None:
         return
     for message in contents.missing:
         requirement = "R-10.1.4.2-26" if message.is_narrow else "R-10.1.4.2-47"
         expected = f"a record of log({message.severity}, {_shown(message.text)})"
-        _violated(ledger, contents, message, requirement, "log_recorded", "none", expected, "there was none")
+        _violated(verdicts, contents, message, requirement, "log_recorded", "none", expected, "there was none")
     for message, record in contents.surplus:
         observed = f"there was another one: {record.severity} {_shown(record.message)}"
         expected = f"one record of log({message.severity}, {_shown(message.text)})"
-        _violated(ledger, contents, message, "R-10.1.4.2-26", "log_recorded", "more than one", expected, observed)
+        _violated(verdicts, contents, message, "R-10.1.4.2-26", "log_recorded", "more than one", expected, observed)
     for message in (m for m in contents.messages if m.barred and m.record is not None):
-        expected = f"no record below the threshold {ledger.claims.reading('log-threshold')}"
+        expected = f"no record below the threshold {verdicts.ics.reading('log-threshold')}"
         observed = f"there was one of log({message.severity}, {_shown(message.text)})"
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.4.2-26",
             "log_recorded",
             "threshold",
@@ -131,19 +134,19 @@ def log_recorded(ledger: Ledger, runtime: Runtime, event: Told) -> None:
             contents.reading.end.step,
         )
     if any(m.due and m.record for m in contents.messages) and not (contents.missing or contents.surplus):
-        ledger.exercised("R-10.1.4.2-26")
+        verdicts.exercised("R-10.1.4.2-26")
 
 
-@rule("told", "R-10.1.4.2-47", "R-10.1.4.2-53")
-def log_text(ledger: Ledger, runtime: Runtime, event: Told) -> None:
+@property_at("told", "R-10.1.4.2-47", "R-10.1.4.2-53")
+def log_text(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
     """A record has the text that log was called with."""
-    contents = _contents(ledger, runtime, event)
+    contents = _contents(verdicts, runtime, event)
     for message in (m for m in contents.messages if m.due) if contents is not None else ():
         requirement = "R-10.1.4.2-53" if message.is_narrow else "R-10.1.4.2-47"
         if message.record is not None:
-            ledger.exercised(requirement)
+            verdicts.exercised(requirement)
         elif message.altered is not None and contents is not None:
-            ledger.violated(
+            verdicts.violated(
                 requirement,
                 "log_text",
                 "altered",
@@ -154,18 +157,18 @@ def log_text(ledger: Ledger, runtime: Runtime, event: Told) -> None:
             )
 
 
-@rule("told", "R-10.1.4.2-51")
-def log_severity_kept(ledger: Ledger, runtime: Runtime, event: Told) -> None:
+@property_at("told", "R-10.1.4.2-51")
+def log_severity_kept(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
     """A record has the severity that log was called with."""
-    contents = _contents(ledger, runtime, event)
+    contents = _contents(verdicts, runtime, event)
     for message in (m for m in contents.messages if m.due) if contents is not None else ():
         record = message.record or message.altered
         if record is None or contents is None:
             continue
         if record.severity == message.severity:
-            ledger.exercised("R-10.1.4.2-51")
+            verdicts.exercised("R-10.1.4.2-51")
             continue
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.4.2-51",
             "log_severity_kept",
             message.severity,
@@ -176,36 +179,36 @@ def log_severity_kept(ledger: Ledger, runtime: Runtime, event: Told) -> None:
         )
 
 
-@rule("told", "R-10.1.4.2-04", "R-10.1.4.2-32", timed=True)
-def port_trace_recorded(ledger: Ledger, runtime: Runtime, event: Told) -> None:
+@property_at("told", "R-10.1.4.2-04", "R-10.1.4.2-32", timed=True)
+def port_trace_recorded(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
     """Each call of a method that methods_to_trace names has one record with the method's name, or one for each way."""
-    contents = _contents(ledger, runtime, event)
+    contents = _contents(verdicts, runtime, event)
     for tracing in contents.tracings.values() if contents is not None else ():
         if contents is None or not tracing.is_traced:
             continue
-        problem = _number_problem(ledger, contents, tracing)
+        problem = _number_problem(verdicts, contents, tracing)
         if problem == _TOO_MANY and _may_be_of_others(tracing):
-            continue  # another rule's matter
+            continue  # another property's matter
         if problem:
-            _wrong_number(ledger, contents, tracing, problem)
+            _wrong_number(verdicts, contents, tracing, problem)
         elif tracing.due and len(tracing.records) >= tracing.due:
-            ledger.exercised("R-10.1.4.2-04")
-            ledger.exercised("R-10.1.4.2-32")
+            verdicts.exercised("R-10.1.4.2-04")
+            verdicts.exercised("R-10.1.4.2-32")
 
 
-def _number_problem(ledger: Ledger, contents: Contents, tracing: Tracing) -> str:
+def _number_problem(verdicts: Verdicts, contents: Contents, tracing: Tracing) -> str:
     """What is wrong with the number of records; empty if nothing is, or more may come."""
     found, due, possible = len(tracing.records), tracing.due, tracing.due + tracing.possible
     in_vain = contents.reading.in_vain
     if in_vain and found < due:
         return "too few" if found else "none"
-    if _has_too_many(ledger, contents, tracing):
+    if _has_too_many(verdicts, contents, tracing):
         return _TOO_MANY
     if found > 2 * possible:
         return "threshold"
     if found > possible or (in_vain and found == possible > 0):
         for reading in _readings_of_number(found, possible, in_vain):
-            if not ledger.observed("port-trace-records", reading):
+            if not verdicts.observed("port-trace-records", reading):
                 return f"{reading}, which is not what is declared"
     return ""
 
@@ -217,12 +220,12 @@ def _readings_of_number(found: int, calls: int, in_vain: bool) -> list[str]:
     return ["call-and-return", "call"] if in_vain and found < 2 * calls else ["call-and-return"]
 
 
-def _has_too_many(ledger: Ledger, contents: Contents, tracing: Tracing) -> bool:
+def _has_too_many(verdicts: Verdicts, contents: Contents, tracing: Tracing) -> bool:
     """Are there more records with the method's name than one, or two, for each call that is traced at a port?"""
     found, most = len(tracing.records), tracing.most
     no_more_to_come = contents.reading.in_vain and not tracing.possible
     between = most < found < 2 * most and found - tracing.due not in tracing.pairs
-    one_a_call = ledger.claims.reading("port-trace-records") == "call"
+    one_a_call = verdicts.ics.reading("port-trace-records") == "call"
     return found > 2 * most or (between and no_more_to_come) or (one_a_call and most < found < 2 * most)
 
 
@@ -232,10 +235,10 @@ def _may_be_of_others(tracing: Tracing) -> bool:
     return tracing.others > 0 and (not tracing.is_traced or len(tracing.records) <= most)
 
 
-def _wrong_number(ledger: Ledger, contents: Contents, tracing: Tracing, problem: str) -> None:
+def _wrong_number(verdicts: Verdicts, contents: Contents, tracing: Tracing, problem: str) -> None:
     beside = [t for t in contents.tracings.values() if t.ports.keys() & tracing.ports.keys()]
     nothing = problem == "none" and not any(t.records for t in beside)
-    ledger.violated(
+    verdicts.violated(
         "R-10.1.4.2-04" if nothing else "R-10.1.4.2-32",
         "port_trace_recorded",
         problem,
@@ -246,20 +249,20 @@ def _wrong_number(ledger: Ledger, contents: Contents, tracing: Tracing, problem:
     )
 
 
-@rule("told", "R-10.1.4.2-33")
-def port_trace_selective(ledger: Ledger, runtime: Runtime, event: Told) -> None:
+@property_at("told", "R-10.1.4.2-33")
+def port_trace_selective(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
     """Methods that are not named, and ports without port_trace, leave no record."""
-    contents = _contents(ledger, runtime, event)
+    contents = _contents(verdicts, runtime, event)
     if contents is None:
         return
     works = any(t.is_traced and t.records for t in contents.tracings.values())
     for tracing in (t for t in contents.tracings.values() if _may_be_of_others(t)):
-        if not _has_too_many(ledger, contents, tracing):
+        if not _has_too_many(verdicts, contents, tracing):
             others_show = tracing.others > tracing.due  # with theirs, there would be more than two records a call
             if works and len(tracing.records) <= tracing.due * (1 + others_show):
-                ledger.exercised("R-10.1.4.2-33")
+                verdicts.exercised("R-10.1.4.2-33")
             continue
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.4.2-33",
             "port_trace_selective",
             "port" if tracing.is_traced else "method",
@@ -268,9 +271,9 @@ def port_trace_selective(ledger: Ledger, runtime: Runtime, event: Told) -> None:
             (contents.reading.begin.n, contents.reading.end.n),
             contents.reading.end.step,
         )
-    unexplained = _unexplained(ledger, runtime, contents)
+    unexplained = _unexplained(verdicts, runtime, contents)
     if unexplained:
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.4.2-33",
             "port_trace_selective",
             "unexplained",
@@ -281,7 +284,7 @@ def port_trace_selective(ledger: Ledger, runtime: Runtime, event: Told) -> None:
         )
 
 
-def _unexplained(ledger: Ledger, runtime: Runtime, contents: Contents) -> int:
+def _unexplained(verdicts: Verdicts, runtime: Runtime, contents: Contents) -> int:
     """How many records have come that nobody can explain, while nothing happened but calls that are not traced."""
     interactions = runtime.interactions
     if interactions is None:
@@ -296,25 +299,25 @@ def _unexplained(ledger: Ledger, runtime: Runtime, contents: Contents) -> int:
     written = [c for c in calls if c.request.port in policy_elements(components.get(c.request.component), *TRACES)]
     if not calls or written or any(isinstance(step, s.ContainerCall) for step in between):
         return 0
-    earlier = contents_of(before, interactions, components, ledger.claims)
+    earlier = contents_of(before, interactions, components, verdicts.ics)
     if sum(t.most for t in contents.tracings.values()) > sum(t.most for t in earlier.tracings.values()):
         return 0
     return max(len(contents.strays) - len(earlier.strays), 0)
 
 
-@rule("told", "R-10.1.4.2-35")
-def port_trace_severity(ledger: Ledger, runtime: Runtime, event: Told) -> None:
+@property_at("told", "R-10.1.4.2-35")
+def port_trace_severity(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
     """What a port trace records has the severity of its log_severity."""
-    contents = _contents(ledger, runtime, event)
+    contents = _contents(verdicts, runtime, event)
     for tracing in contents.tracings.values() if contents is not None else ():
         if contents is None or not tracing.is_traced or not tracing.records:
             continue
-        if _has_too_many(ledger, contents, tracing):
+        if _has_too_many(verdicts, contents, tracing):
             continue  # nobody knows which of them are of traced calls
         if {record.severity for record in tracing.records} <= tracing.severities:
-            ledger.exercised("R-10.1.4.2-35")
+            verdicts.exercised("R-10.1.4.2-35")
             continue
-        ledger.violated(
+        verdicts.violated(
             "R-10.1.4.2-35",
             "port_trace_severity",
             " or ".join(sorted(tracing.severities)),
@@ -325,10 +328,10 @@ def port_trace_severity(ledger: Ledger, runtime: Runtime, event: Told) -> None:
         )
 
 
-@rule("told", _SEVERAL)
-def several_traces(ledger: Ledger, runtime: Runtime, event: Told) -> None:
+@property_at("told", _SEVERAL)
+def several_traces(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
     """Counts components of which more than one trace policy has been seen to work."""
-    contents = _contents(ledger, runtime, event)
+    contents = _contents(verdicts, runtime, event)
     if contents is None or contents.surplus:
         return
     working: dict[str, set[str]] = {}
@@ -338,10 +341,10 @@ def several_traces(ledger: Ledger, runtime: Runtime, event: Told) -> None:
         for component, port in tracing.ports:
             working.setdefault(component, set()).add(port)
     if any(len(ways) > 1 for ways in working.values()):
-        ledger.exercised(_SEVERAL)
+        verdicts.exercised(_SEVERAL)
 
 
-def _contents(ledger: Ledger, runtime: Runtime, event: Told) -> Contents | None:
+def _contents(verdicts: Verdicts, runtime: Runtime, event: Told) -> Contents | None:
     """What was read of the log, if that is what the event tells."""
     if not isinstance(event, Return) or event.records is None or runtime.interactions is None:
         return None
@@ -349,11 +352,11 @@ def _contents(ledger: Ledger, runtime: Runtime, event: Told) -> Contents | None:
     last = next((reading for reading in readings if reading.end is event), None)
     if last is None:
         return None
-    return contents_of(last, runtime.interactions, runtime.scenario.components, ledger.claims)
+    return contents_of(last, runtime.interactions, runtime.scenario.components, verdicts.ics)
 
 
 def _violated(
-    ledger: Ledger,
+    verdicts: Verdicts,
     contents: Contents,
     message: Message,
     requirement: str,
@@ -364,9 +367,9 @@ def _violated(
 ) -> None:
     """A message has another number of records than one; of a component with several traces this is their matter."""
     request = message.call.request
-    declaration = ledger.scenario.components.get(request.component)
+    declaration = verdicts.scenario.components.get(request.component)
     several = len(policies_of(declaration, s.COMPONENT_TRACE)) > 1
-    ledger.violated(
+    verdicts.violated(
         _SEVERAL if several else requirement,
         name,
         f"{cause}, several traces" if several else cause,
@@ -377,10 +380,10 @@ def _violated(
     )
 
 
-def _is_sendable(ledger: Ledger, text: str) -> bool:
+def _is_sendable(verdicts: Verdicts, text: str) -> bool:
     """Is it a message under the declared reading of what a message is?"""
     narrow = text.isascii() and len(text) <= 255
-    return narrow or ledger.claims.reading("log-message") != "narrow-255"
+    return narrow or verdicts.ics.reading("log-message") != "narrow-255"
 
 
 def _shown(text: str) -> str:

@@ -1,4 +1,4 @@
-"""Rules about values: every core data type is carried by both connectors, in every direction and at any depth (10.1.1).
+"""Properties about values: every core data type is carried by both connectors, in every direction and at any depth (10.1.1).
 
 They look when the trace is over: a value is known to be carried well alone only then, and which message was which.
 """
@@ -34,40 +34,41 @@ from ucm_cts.reference_models.model.value_transport import (
     requirements_of,
 )
 from ucm_cts.reference_models.model.values_carried import Carried, method_of, values_carried
-from ucm_cts.reference_models.verdicts import Ledger, rule
+from ucm_cts.reference_models.properties.declaration import property_at
+from ucm_cts.reference_models.verdicts import Verdicts
 
 _LONGEST = 70
 
 
-@rule("closed", *REQUIREMENTS)
-def exact_values(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", *REQUIREMENTS)
+def exact_values(verdicts: Verdicts, runtime: Runtime) -> None:
     """What a connector carries arrives as it was sent, bit by bit, and back again."""
     wrong: list[tuple[Carried, Difference]] = []
     well: list[Carried] = []
     for carried in values_carried(runtime):
-        different = [d for d in carried.differences if not _is_permitted(ledger, d)]
+        different = [d for d in carried.differences if not _is_permitted(verdicts, d)]
         if different:
             wrong.append((carried, different[0]))
             continue
         well.append(carried)
         for requirement in requirements_of(carried.of, carried.sent):
-            ledger.exercised(requirement)
+            verdicts.exercised(requirement)
     evidence = Evidence()
     for carried in well if wrong else ():
         evidence.add(carried.of, carried.sent)
     for carried, difference in wrong:
-        _accuse(ledger, carried, difference, evidence.to_blame(difference.part))
+        _accuse(verdicts, carried, difference, evidence.to_blame(difference.part))
 
 
-def _is_permitted(ledger: Ledger, difference: Difference) -> bool:
+def _is_permitted(verdicts: Verdicts, difference: Difference) -> bool:
     """Another NaN may arrive, unless exactness is declared."""
-    return difference.is_nan and ledger.observed("nan", "any")
+    return difference.is_nan and verdicts.observed("nan", "any")
 
 
-def _accuse(ledger: Ledger, carried: Carried, difference: Difference, requirement: str) -> None:
+def _accuse(verdicts: Verdicts, carried: Carried, difference: Difference, requirement: str) -> None:
     part = difference.part
     kind = kind_name(part.of)
-    ledger.violated(
+    verdicts.violated(
         requirement,
         "exact_values",
         f"{_sort_of(part.of, part.value)}{kind} as {carried.way}",
@@ -113,8 +114,8 @@ def told(of: AnyType, value: object) -> str:
     )
 
 
-@rule("closed", *REQUIREMENTS)
-def values_accepted(ledger: Ledger, runtime: Runtime) -> None:
+@property_at("closed", *REQUIREMENTS)
+def values_accepted(verdicts: Verdicts, runtime: Runtime) -> None:
     """A service call is not refused for its values, while others are served."""
     interactions = runtime.interactions
     if interactions is None or not any(call.reply is not None and call.reply.raised for call in interactions.calls):
@@ -133,7 +134,7 @@ def values_accepted(ledger: Ledger, runtime: Runtime) -> None:
         return
     alone = [of for _, values in refused for of, _ in values[:1]]
     for one, values in refused:
-        _accuse_of_refusal(ledger, one, *values[0], alone)
+        _accuse_of_refusal(verdicts, one, *values[0], alone)
 
 
 def _may_be_carried(
@@ -174,12 +175,14 @@ def _typed(types: Sequence[AnyType], given: Sequence[Datum] | None) -> Iterator[
         yield from zip(types, given, strict=True)
 
 
-def _accuse_of_refusal(ledger: Ledger, one: ServiceCall, of: AnyType, value: Datum, alone: Sequence[AnyType]) -> None:
+def _accuse_of_refusal(
+    verdicts: Verdicts, one: ServiceCall, of: AnyType, value: Datum, alone: Sequence[AnyType]
+) -> None:
     """To blame is the innermost part whose type was refused by itself as well."""
     suspects = [part for part in inside(Part(of, value)) if not part.around or part.of in alone]
     suspect = max(suspects, key=lambda part: len(part.around))
     reply = one.call.reply
-    ledger.violated(
+    verdicts.violated(
         requirement_of(suspect.of),
         "values_accepted",
         f"{kind_name(suspect.of)} refused",
@@ -189,9 +192,9 @@ def _accuse_of_refusal(ledger: Ledger, one: ServiceCall, of: AnyType, value: Dat
     )
 
 
-@rule("linked", *REQUIREMENTS)
+@property_at("linked", *REQUIREMENTS)
 def types_accepted(
-    ledger: Ledger, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+    verdicts: Verdicts, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
 ) -> None:
     """A connector that can be bound to one interface can be bound to another one with other data types."""
     interactions = runtime.interactions
@@ -204,7 +207,7 @@ def types_accepted(
     types = new_types(runtime, step)
     if not types:
         return
-    ledger.violated(
+    verdicts.violated(
         requirement_of(types[0]),
         "types_accepted",
         f"{kind_name(types[0])} refused by {step.connector}",

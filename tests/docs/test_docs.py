@@ -41,7 +41,7 @@ from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.results.values import Verdict
 from ucm_cts.harness.selftest.matrix import Matrix
 from ucm_cts.harness.toolchains.description import Command, ToolChain
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 FRAMEWORK = ROOT / "adapters" / "reference" / "cpp" / "framework"
 PAGES = [ROOT / "README.md", FRAMEWORK / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -228,9 +228,9 @@ def test_conversation_is_one_that_takes_place() -> None:
     traced: Any
     welcome, traced = (m.from_host_decoder().decode(line) for line in lines[1::2])
     assert contradiction(run.scenario, traced.events) is None
-    ledger = Judge(load_life_cycle()).judge(run.scenario, traced.events)
-    assert ledger.exercises
-    assert not ledger.findings
+    verdicts = Monitor(load_life_cycle()).judge(run.scenario, traced.events)
+    assert verdicts.exercises
+    assert not verdicts.findings
     assert hello == m.Hello(m.PROTOCOL)
     assert welcome == msgspec.structs.replace(answer(hello), product="example", version="1.0")
     assert [msgspec.structs.replace(event, t=0) for event in traced.events] == list(answer(run).events)
@@ -245,7 +245,7 @@ def test_example_scenario(here: Path) -> None:
     (script,) = read_scripts(here / "example.yaml")
     scenario = to_scenario(script)
     trace = answer(m.Run(1, scenario)).events
-    assert set(script.exercises) <= set(Judge(load_life_cycle()).judge(scenario, trace).exercises)
+    assert set(script.exercises) <= set(Monitor(load_life_cycle()).judge(scenario, trace).exercises)
 
 
 def test_words_of_scenarios() -> None:

@@ -23,9 +23,9 @@ from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.model.clock_readings import SECOND, passed
-from ucm_cts.reference_models.model.ics import Claims
-from ucm_cts.reference_models.monitor import Judge
-from ucm_cts.reference_models.verdicts import Ledger
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
+from ucm_cts.reference_models.verdicts import Verdicts
 
 Adapter = type[ReferenceAdapter]
 MILLISECOND = 1_000_000
@@ -88,10 +88,10 @@ def purposes(readings: Mapping[str, str]) -> Iterator[tuple[str, tuple[str, ...]
             yield purpose.id, purpose.requirements, [scenario for _, scenario in purpose.scenarios]
 
 
-def judged(scenario: Scenario, adapter: Adapter, readings: Mapping[str, str] = {}) -> Ledger:
+def judged(scenario: Scenario, adapter: Adapter, readings: Mapping[str, str] = {}) -> Verdicts:
     traced = answer(scenario, adapter)
     assert isinstance(traced, Traced), traced
-    return Judge(load_life_cycle(), Claims(readings)).judge(scenario, traced.events)
+    return Monitor(load_life_cycle(), Ics(readings)).judge(scenario, traced.events)
 
 
 @pytest.mark.parametrize("name", DECLARED)
@@ -102,9 +102,9 @@ def test_what_is_declared_is_tried_and_kept(name: str) -> None:
         exercised: set[str] = set()
         for plain in scenarios:
             scenario = msgspec.structs.replace(disguise.scenario(plain), patience=200)
-            ledger = judged(scenario, adapter, readings)
-            assert ledger.findings == [], purpose
-            exercised |= set(ledger.exercises)
+            verdicts = judged(scenario, adapter, readings)
+            assert verdicts.findings == [], purpose
+            exercised |= set(verdicts.exercises)
         assert set(requirements) <= exercised, purpose
 
 
@@ -120,14 +120,14 @@ def events_of(scenario: Scenario, adapter: Adapter = ReferenceAdapter) -> list[E
 
 
 def findings(scenario: Scenario, events: list[Event], **readings: str) -> dict[str, str]:
-    ledger = Judge(load_life_cycle(), Claims({k.replace("_", "-"): v for k, v in readings.items()})).judge(
+    verdicts = Monitor(load_life_cycle(), Ics({k.replace("_", "-"): v for k, v in readings.items()})).judge(
         scenario, tuple(events)
     )
-    return {finding.requirement: finding.cause for finding in ledger.findings}
+    return {finding.requirement: finding.cause for finding in verdicts.findings}
 
 
 def exercised(scenario: Scenario, events: list[Event]) -> set[str]:
-    return set(Judge(load_life_cycle()).judge(scenario, tuple(events)).exercises)
+    return set(Monitor(load_life_cycle()).judge(scenario, tuple(events)).exercises)
 
 
 LONGER = "clock-over-a-longer-time"

@@ -15,7 +15,7 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 EXCLUSION = {f"R-10.1.3.2-{number}" for number in ("06", "09", "10", "13", "16")}
 
@@ -23,7 +23,7 @@ EXCLUSION = {f"R-10.1.3.2-{number}" for number in ("06", "09", "10", "13", "16")
 @functools.cache
 def judged(adapter: str, times: int = 1) -> tuple[Counter[str], dict[str, set[str]]]:
     """What ``times`` runs of all schedules exercised, and the scenarios that broke each requirement."""
-    judge = Judge(load_life_cycle())
+    monitor = Monitor(load_life_cycle())
     exercised: Counter[str] = Counter()
     broken: dict[str, set[str]] = {}
     cases = [case for purpose in overlap_purposes() if not purpose.under for case in purpose.scenarios]
@@ -31,9 +31,9 @@ def judged(adapter: str, times: int = 1) -> tuple[Counter[str], dict[str, set[st
         with Driver(locate(adapter), seed=seed) as driver:
             for answer in driver.run(cases):
                 assert answer.incident is None, (answer.name, answer.incident)
-                ledger = judge.judge(answer.disguised, answer.trace)
-                exercised.update(ledger.exercises)
-                for finding in ledger.findings:
+                verdicts = monitor.judge(answer.disguised, answer.trace)
+                exercised.update(verdicts.exercises)
+                for finding in verdicts.findings:
                     broken.setdefault(finding.requirement, set()).add(answer.name)
     return exercised, broken
 
@@ -51,27 +51,27 @@ def test_reference_framework_keeps_callers_apart_and_that_is_proved(adapter: str
 
 
 def test_every_schedule_proves_something() -> None:
-    judge = Judge(load_life_cycle())
+    monitor = Monitor(load_life_cycle())
     wanted = EXCLUSION | {"R-10.1.3-03", "R-10.1.3.2-05", "R-10.1.3.2-20"}
     with Driver(locate("reference-py"), seed=1) as driver:
         for purpose in (p for p in overlap_purposes() if not p.under):
             for answer in driver.run(purpose.scenarios):
-                assert wanted & judge.judge(answer.disguised, answer.trace).exercises.keys(), answer.name
+                assert wanted & monitor.judge(answer.disguised, answer.trace).exercises.keys(), answer.name
 
 
 @pytest.mark.parametrize("seen", [None, "another", "done"])
 def test_who_was_not_seen_waiting_proves_nothing(seen: str | None) -> None:
-    judge = Judge(load_life_cycle())
+    monitor = Monitor(load_life_cycle())
     called = [p for p in overlap_purposes() if p.id.startswith("protected") and not p.id.endswith("/messages")]
     cases = [case for purpose in called for case in purpose.scenarios]
     with Driver(locate("reference-py"), seed=1) as driver:
         for answer in driver.run(cases):
             trace = answer.trace
-            assert EXCLUSION & judge.judge(answer.disguised, trace).exercises.keys(), answer.name
+            assert EXCLUSION & monitor.judge(answer.disguised, trace).exercises.keys(), answer.name
             changes = {"worker": "nobody"} if seen == "another" else {"where": "done"}
             doubtful = [
                 msgspec.structs.replace(event, **changes) if isinstance(event, Settled) else event
                 for event in trace
                 if seen is not None or not isinstance(event, Settled)
             ]
-            assert not EXCLUSION & judge.judge(answer.disguised, tuple(doubtful)).exercises.keys(), answer.name
+            assert not EXCLUSION & monitor.judge(answer.disguised, tuple(doubtful)).exercises.keys(), answer.name

@@ -23,7 +23,7 @@ from ucm_cts.harness.statement.files import read_statement
 from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.interactions import Delivery, Interactions, MethodCall
 from ucm_cts.reference_models.model.runtime import Container, Member, Runtime
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 EMITTER = Declaration(("in.api",), ("out.api",), ports={"out.api": "numbers"})
 RECEIVER = Declaration(("in.api", "aux.api"), ports={"in.api": "numbers", "aux.api": "numbers"})
@@ -161,5 +161,5 @@ def test_who_cannot_break_a_connection_may_mend_it() -> None:
     for _, asked in purpose.scenarios:
         told = answer(Payloads(1).deal(asked), CannotBreak)
         assert isinstance(told, Traced)
-        ledger = Judge(load_life_cycle(), statement.claims).judge(asked, told.events)
-        assert not [finding for finding in ledger.findings if finding.rule == "ok_after_mending"]
+        verdicts = Monitor(load_life_cycle(), statement.ics).judge(asked, told.events)
+        assert not [finding for finding in verdicts.findings if finding.rule == "ok_after_mending"]

@@ -12,7 +12,7 @@ from ucm_cts.adapters.contract.trace import Enter, Event, Reply
 from ucm_cts.harness.bench.long_life import LongLife
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.integrity import contradiction
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 MEGABYTE = 2**20
 
@@ -32,17 +32,17 @@ def late(events: Iterable[Event], at: int, **changed: object) -> Iterator[Event]
 @pytest.mark.parametrize(("rounds", "calls"), [(800, 1), (26, 100)], ids=["many connections", "many calls"])
 def test_memory_does_not_grow_with_events(rounds: int, calls: int) -> None:
     life = LongLife(rounds, calls)
-    scenario, judge = life.scenario(), Judge(load_life_cycle())
-    judge.judge(scenario, LongLife(2, calls).events())
+    scenario, monitor = life.scenario(), Monitor(load_life_cycle())
+    monitor.judge(scenario, LongLife(2, calls).events())
     tracemalloc.start()
     try:
-        ledger = judge.judge(scenario, life.events())
+        verdicts = monitor.judge(scenario, life.events())
         _, peak = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
     assert len(life) > 20_000
-    assert not ledger.findings
-    assert ledger.exercises["R-11.1.3-01"] == rounds * calls
+    assert not verdicts.findings
+    assert verdicts.exercises["R-11.1.3-01"] == rounds * calls
     assert peak < MEGABYTE // 4, peak
 
 
@@ -60,8 +60,8 @@ def test_whether_it_can_be_true_takes_little_memory() -> None:
 
 def test_what_is_wrong_after_many_rounds_is_found() -> None:
     life = LongLife(300, 2)
-    scenario, judge = life.scenario(), Judge(load_life_cycle())
-    answered = judge.judge(scenario, late(life.events(), len(life) - 100, value=77))
+    scenario, monitor = life.scenario(), Monitor(load_life_cycle())
+    answered = monitor.judge(scenario, late(life.events(), len(life) - 100, value=77))
     assert {f.requirement for f in answered.findings} == {"R-11.1.3-01"}
-    unconnected = judge.judge(scenario, late(life.events(), len(life) - 100, dependencies=()))
+    unconnected = monitor.judge(scenario, late(life.events(), len(life) - 100, dependencies=()))
     assert {f.requirement for f in unconnected.findings} == {"R-11.2.3-10"}

@@ -30,7 +30,7 @@ from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.statement.applicability import fitting
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 WAITING = ("calls_wait_for_the_start", "starts_all_at_a_time")
 """Variants that may wait for ever where a scenario calls too early or a body raises."""
@@ -63,8 +63,8 @@ def examples(number: int) -> settings:
 
 
 @cache
-def judge() -> Judge:
-    return Judge(load_life_cycle())
+def judge() -> Monitor:
+    return Monitor(load_life_cycle())
 
 
 def perform(adapter: type[Adapter], scenario: Scenario) -> tuple[Trace, bool]:
@@ -107,14 +107,14 @@ def test_no_variant_of_core_is_failed_for_what_joins_components(name: str) -> No
     variant = CORE_VARIANTS[name]
     usual = default_statement()
     stated = msgspec.structs.replace(usual, readings=usual.readings | variant.readings)
-    its_judge = Judge(load_life_cycle(), stated.claims)
+    its_monitor = Monitor(load_life_cycle(), stated.ics)
     writing = random.Random(name)
     drawn = (CoreWriter(writing.choice).scenario() for _ in itertools.count())
     fit = (one for scenario in drawn for _, one in fitting([("", scenario)], stated))
     for scenario in itertools.islice(fit, 4):
         trace, stuck = perform(variant.adapter, scenario)
         assert contradiction(scenario, trace, stuck) is None
-        assert [finding for finding in its_judge.judge(scenario, trace).findings if not is_timed(finding)] == []
+        assert [finding for finding in its_monitor.judge(scenario, trace).findings if not is_timed(finding)] == []
 
 
 @pytest.mark.parametrize("name", ONCE_FAILED)
@@ -154,7 +154,7 @@ def test_findings_depend_on_the_trace_alone_and_not_on_names(scenario: Scenario,
     for trace, _ in traces_of_wrong_subjects(disguised, first):
         findings = judge().judge(disguised, trace).findings
         assert judge().judge(disguised, trace).findings == findings
-        assert Judge(load_life_cycle()).judge(disguised, trace).findings == findings
+        assert Monitor(load_life_cycle()).judge(disguised, trace).findings == findings
         revealed = tuple(disguise.reveal(event) for event in trace)
         assert gist(judge().judge(scenario, revealed).findings) == gist(findings)
 

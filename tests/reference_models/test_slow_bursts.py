@@ -18,7 +18,7 @@ from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, Link
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.derived.messages import message_purposes
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 _PATIENCE = 100
 
@@ -59,6 +59,6 @@ def test_slow_pushes_are_no_hang(name: str, whole: Scenario) -> None:
     assert contradiction(asked, reply.events, bool(reply.stuck)) is None
     assert reply.stuck, "the bursts were over in time"
     assert set(reply.stuck) <= set(asked.may_stay)
-    ledger = Judge(load_life_cycle()).judge(asked, reply.events)
-    assert not ledger.findings
-    assert not {"R-10.1.2-10", "R-10.1.6.1-03"} & set(ledger.exercises)
+    verdicts = Monitor(load_life_cycle()).judge(asked, reply.events)
+    assert not verdicts.findings
+    assert not {"R-10.1.2-10", "R-10.1.6.1-03"} & set(verdicts.exercises)

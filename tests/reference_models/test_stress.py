@@ -23,9 +23,9 @@ from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.derived.circles import circle_purposes
 from ucm_cts.harness.purposes.derived.stress import stress_purposes
 from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario
-from ucm_cts.reference_models.model.ics import Claims
-from ucm_cts.reference_models.monitor import Judge
-from ucm_cts.reference_models.verdicts import Ledger
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
+from ucm_cts.reference_models.verdicts import Verdicts
 
 T = TypeVar("T")
 
@@ -40,10 +40,10 @@ def played(asked: Scenario, adapter: type[ReferenceAdapter]) -> Trace:
 
 def judged(
     purposes: list[TestPurpose], adapter: type[ReferenceAdapter], claims: dict[str, str] | None = None
-) -> dict[str, Ledger]:
-    judge = Judge(load_life_cycle(), Claims(claims or {}))
+) -> dict[str, Verdicts]:
+    monitor = Monitor(load_life_cycle(), Ics(claims or {}))
     cases = [case for purpose in purposes for case in purpose.scenarios]
-    return {name: judge.judge(asked, played(asked, adapter)) for name, asked in cases}
+    return {name: monitor.judge(asked, played(asked, adapter)) for name, asked in cases}
 
 
 class leaves_the_lock_out(Base):
@@ -71,8 +71,8 @@ class checks_and_then_enters(Base):
 
 
 def test_reference_framework_withstands_stress() -> None:
-    ledgers = judged(stress_purposes(), ReferenceAdapter)
-    assert not [finding for ledger in ledgers.values() for finding in ledger.findings]
+    by_case = judged(stress_purposes(), ReferenceAdapter)
+    assert not [finding for verdicts in by_case.values() for finding in verdicts.findings]
 
 
 @pytest.mark.parametrize("mixin", [leaves_the_lock_out, checks_and_then_enters])
@@ -80,7 +80,7 @@ def test_framework_with_a_tiny_hole_is_found_out(mixin: type) -> None:
     adapter = bind(mixin.__name__, mixin)
     purposes = [p for p in stress_purposes() if p.id == "stress/protected passive, two ports"]
     found = [judged(purposes, adapter) for _ in range(20)]
-    broken = {f.requirement for ledgers in found for ledger in ledgers.values() for f in ledger.findings}
+    broken = {f.requirement for by_case in found for verdicts in by_case.values() for f in verdicts.findings}
     assert broken == {"R-10.1.3.2-16"}
 
 
@@ -98,9 +98,9 @@ def stressed() -> tuple[Scenario, Trace]:
 def test_who_finds_nothing_where_nobody_protects_has_proved_nothing(counted: dict[str, int], exercised: bool) -> None:
     asked, trace = stressed()
     told = tuple(msgspec.structs.replace(e, **counted) if isinstance(e, Stressed) else e for e in trace)
-    ledger = Judge(load_life_cycle()).judge(asked, told)
-    assert ("R-10.1.3.2-13" in ledger.exercises) == exercised
-    assert not ledger.findings
+    verdicts = Monitor(load_life_cycle()).judge(asked, told)
+    assert ("R-10.1.3.2-13" in verdicts.exercises) == exercised
+    assert not verdicts.findings
 
 
 class refuses_to_come_round(Base):
@@ -129,22 +129,22 @@ CIRCLES = {"enter": ReferenceAdapter} | {
 @pytest.mark.parametrize(("reading", "adapter"), CIRCLES.items())
 def test_circle_is_told_and_not_judged_unless_declared(reading: str, adapter: type[ReferenceAdapter]) -> None:
     passive = [p for p in circle_purposes() if p.id == "circle/protected passive"]
-    for name, ledger in judged(passive, adapter).items():
-        assert ledger.readings["protected-recursion"] == {reading}, name
-        assert not ledger.findings
-        assert "R-10.1.3.2-15" in ledger.exercises, "the component beside the circle is served"
+    for name, verdicts in judged(passive, adapter).items():
+        assert verdicts.readings["protected-recursion"] == {reading}, name
+        assert not verdicts.findings
+        assert "R-10.1.3.2-15" in verdicts.exercises, "the component beside the circle is served"
     for other in CIRCLES.keys() - {reading}:
-        for ledger in judged(passive, adapter, {"protected-recursion": other}).values():
-            assert {f.requirement for f in ledger.findings} <= {"R-10.1.3.2-13", "R-10.1.3.2-16"}
-            assert ledger.findings
+        for verdicts in judged(passive, adapter, {"protected-recursion": other}).values():
+            assert {f.requirement for f in verdicts.findings} <= {"R-10.1.3.2-13", "R-10.1.3.2-16"}
+            assert verdicts.findings
 
 
 @pytest.mark.parametrize(("declared", "kept"), [("observed", True), ("default", True), ("refuse", False)])
 def test_component_without_execution_policy_fares_as_declared(declared: str, kept: bool) -> None:
     (script,) = [script for script in load_scripts() if script.scenario == "without-execution-policy"]
     asked = to_scenario(script)
-    ledger = Judge(load_life_cycle(), Claims({"missing-execution-policy": declared})).judge(
+    verdicts = Monitor(load_life_cycle(), Ics({"missing-execution-policy": declared})).judge(
         asked, played(asked, ReferenceAdapter)
     )
-    assert [f.requirement for f in ledger.findings] == ([] if kept else ["R-10.1.3-02"])
-    assert "R-10.1.3-02" in ledger.exercises
+    assert [f.requirement for f in verdicts.findings] == ([] if kept else ["R-10.1.3-02"])
+    assert "R-10.1.3-02" in verdicts.exercises

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 import pytest
 
-import ucm_cts.reference_models.monitor  # noqa: F401 - registers the rules
 from ucm_cts.harness.catalogue.profiles import PARTS, PROFILES
 from ucm_cts.harness.catalogue.requirements import (
     SUITE,
@@ -23,10 +22,10 @@ from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.examinations import TOOLCHAIN_CHECKS, stand_for
-from ucm_cts.reference_models.verdicts import RULES
+from ucm_cts.reference_models.properties.table import PROPERTIES
 
 REQUIREMENTS = {r.id: r for r in load_requirements()}
-STANDS_FOR = {rule.name: rule.stands_for for rule in RULES.values()} | checked() | stand_for()
+STANDS_FOR = {rule.name: rule.stands_for for rule in PROPERTIES.values()} | checked() | stand_for()
 INTERPRETATIONS = {i.id: i for i in load_interpretations()}
 
 ONLY_UNDER_OTHER_READINGS = {
@@ -103,8 +102,8 @@ def test_container_is_complete() -> None:
 
 
 def test_rules_stand_for_known_requirements_that_name_them() -> None:
-    assert not RULES.keys() & CHECKS.keys()
-    assert STANDS_FOR.keys() == RULES.keys() | CHECKS.keys() | TOOLCHAIN_CHECKS.keys()
+    assert not PROPERTIES.keys() & CHECKS.keys()
+    assert STANDS_FOR.keys() == PROPERTIES.keys() | CHECKS.keys() | TOOLCHAIN_CHECKS.keys()
     for rule, requirements in STANDS_FOR.items():
         for requirement in requirements:
             assert rule in REQUIREMENTS[requirement].rules, f"{requirement} does not name {rule}"
@@ -113,9 +112,9 @@ def test_rules_stand_for_known_requirements_that_name_them() -> None:
 def test_table_names_known_requirements_and_readings() -> None:
     table = load_life_cycle()
     assert len({row.id for row in table.rows}) == len(table.rows)
-    assert {row.requirement for row in table.rows} == set(RULES["outcomes"].stands_for)
+    assert {row.requirement for row in table.rows} == set(PROPERTIES["outcomes"].stands_for)
     duties = {x for d in table.duties for x in (d.missing, d.unexpected)} | {table.order, table.fragments}
-    assert duties <= set(RULES["callbacks"].stands_for)
+    assert duties <= set(PROPERTIES["callbacks"].stands_for)
     for outcome in (o for row in table.rows for o in row.outcomes):
         if outcome.reading:
             option, _, reading = outcome.reading.partition("=")

@@ -18,8 +18,8 @@ from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.payloads import Payloads
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.model.ics import Claims
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
 
 _TIME = re.compile(rb'"t":\d+')
 
@@ -65,11 +65,11 @@ class Product:
 
     def failing_if(self, declared: Mapping[str, str]) -> dict[str, str]:
         """Failing requirements, each with an example, if the vendor declares these readings."""
-        judge = Judge(load_life_cycle(), Claims(declared))
+        monitor = Monitor(load_life_cycle(), Ics(declared))
         failing: dict[str, str] = {}
         for name, scenario, answer, seen in self._telling:
             if len(declared) > 1 or seen.issuperset(declared):
-                _tell(failing, name, judge.judge(scenario, _trace(name, answer)).findings)
+                _tell(failing, name, monitor.judge(scenario, _trace(name, answer)).findings)
         return failing
 
 
@@ -106,11 +106,11 @@ def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes) ->
     assert isinstance(traced, Traced), (name, traced)
     problem = contradiction(scenario, traced.events, bool(traced.stuck))
     assert problem is None, (name, problem)
-    ledger = _judge(declared).judge(scenario, traced.events)
-    readings = {option: frozenset(values) for option, values in ledger.readings.items()}
-    return Judged(tuple(ledger.findings), readings, frozenset(ledger.exercises))
+    verdicts = _judge(declared).judge(scenario, traced.events)
+    readings = {option: frozenset(values) for option, values in verdicts.readings.items()}
+    return Judged(tuple(verdicts.findings), readings, frozenset(verdicts.exercises))
 
 
 @functools.cache
-def _judge(declared: Declared) -> Judge:
-    return Judge(load_life_cycle(), Claims(dict(declared)))
+def _judge(declared: Declared) -> Monitor:
+    return Monitor(load_life_cycle(), Ics(dict(declared)))

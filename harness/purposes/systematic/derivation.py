@@ -9,10 +9,10 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.harness.purposes.systematic.machine import Machine, Move, Permitted
 from ucm_cts.harness.purposes.systematic.permission import Permission
 from ucm_cts.harness.purposes.systematic.settings import Input, Setting
-from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.model.prediction import Prediction, Way
-from ucm_cts.reference_models.model.runtime import Runtime, Window
+from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime
 
 State = tuple[object, ...]
 """The part of a runtime that decides its further behaviour: phases, members, connections."""
@@ -25,14 +25,14 @@ def derive(table: LifeCycleTable, setting: Setting, readings: Mapping[str, str])
     Where an operation may fail half-way and leave an unknown state, that is permitted, and the machine goes on
     as if it had not been so.
     """
-    return _Derivation(table, Claims(readings), setting).machine()
+    return _Derivation(table, Ics(readings), setting).machine()
 
 
 class _Derivation:
-    def __init__(self, table: LifeCycleTable, claims: Claims, setting: Setting) -> None:
+    def __init__(self, table: LifeCycleTable, ics: Ics, setting: Setting) -> None:
         self.setting = setting
         self.first = Prediction(table, dict(setting.components))
-        self.permission = Permission(table, claims)
+        self.permission = Permission(table, ics)
         self.outputs: dict[Permitted, int] = {}
 
     def machine(self) -> Machine:
@@ -47,29 +47,29 @@ class _Derivation:
             moves.append({})
             for number, meant in enumerate(self.setting.inputs):
                 asked = _named(now.runtime, meant)
-                window = now.look(asked.step)
-                after = self.after(now, state, asked, window) if is_defined(now, window) else None
+                ongoing = now.look(asked.step)
+                after = self.after(now, state, asked, ongoing) if is_defined(now, ongoing) else None
                 if after is None:
                     continue
                 reached, then, way = after
                 if reached not in numbers:
                     numbers[reached] = len(numbers)
                     waiting.append((reached, then))
-                permitted = self.permitted(now.runtime, window, way)
+                permitted = self.permitted(now.runtime, ongoing, way)
                 moves[-1][number] = Move(numbers[reached], self.outputs.setdefault(permitted, len(self.outputs)))
         return Machine(tuple(i.name for i in self.setting.inputs), tuple(self.outputs), tuple(moves))
 
     def after(
-        self, now: Prediction, state: State, asked: Input, window: Window
+        self, now: Prediction, state: State, asked: Input, ongoing: OperationInProgress
     ) -> tuple[State, Prediction, Way] | None:
         """The one known state that ``asked`` leads to, the model in that state, and a way there; None unless there is
         just one.
         """
         reached: dict[State, tuple[Prediction, Way]] = {}
-        for way in now.ways(window):
-            if not self.permission.permits(now.runtime, window, way):
+        for way in now.ways(ongoing):
+            if not self.permission.permits(now.runtime, ongoing, way):
                 continue
-            if window.forgiving and way.answer == "UCM_ERROR":
+            if ongoing.forgiving and way.answer == "UCM_ERROR":
                 return None  # perhaps for a reason that the table does not know: the judge loses track
             if _changes_nothing(asked.step, way):
                 reached.setdefault(state, (now, way))
@@ -89,11 +89,11 @@ class _Derivation:
         [(after, (then, way))] = reached.items()
         return after, then, way
 
-    def permitted(self, runtime: Runtime, window: Window, usual: Way) -> Permitted:
+    def permitted(self, runtime: Runtime, ongoing: OperationInProgress, usual: Way) -> Permitted:
         """The possible observations of the next operation, the ``usual`` one first."""
-        ways = (usual, *self.permission.ways(runtime, window))
-        seen = dict.fromkeys(o for way in ways for o in self.permission.seen(runtime, window, way))
-        return Permitted(tuple(seen), window.forgiving)
+        ways = (usual, *self.permission.ways(runtime, ongoing))
+        seen = dict.fromkeys(o for way in ways for o in self.permission.seen(runtime, ongoing, way))
+        return Permitted(tuple(seen), ongoing.forgiving)
 
 
 def _named(runtime: Runtime, asked: Input) -> Input:
@@ -105,9 +105,9 @@ def _named(runtime: Runtime, asked: Input) -> Input:
     return asked
 
 
-def is_defined(now: Prediction, window: Window) -> bool:
-    """Can the window's step be taken now, and would it be judged?"""
-    step = window.step
+def is_defined(now: Prediction, ongoing: OperationInProgress) -> bool:
+    """Can the operation's step be taken now, and would it be judged?"""
+    step = ongoing.step
     if isinstance(step, s.Connect) and step.to != s.NIL:
         _, provider = now.runtime.reference(step.to)
         if provider is None or provider.gone:
@@ -120,7 +120,7 @@ def is_defined(now: Prediction, window: Window) -> bool:
         container = now.runtime.containers.get(step.bind)
         if container is not None and not container.removed:
             return False
-    return window.judged
+    return ongoing.judged
 
 
 def _changes_nothing(step: s.ContainerCall, way: Way) -> bool:

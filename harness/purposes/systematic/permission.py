@@ -5,83 +5,83 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 
-import ucm_cts.reference_models.monitor  # noqa: F401 - registers the rules, in their order
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Return
 from ucm_cts.harness.purposes.systematic.machine import LISTS, Observation
-from ucm_cts.reference_models.model.expected_callbacks import Duties, Listener, pattern
-from ucm_cts.reference_models.model.ics import Claims
+from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks, Listener, pattern
+from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
 from ucm_cts.reference_models.model.prediction import Way
 from ucm_cts.reference_models.model.row_selection import undone_by
-from ucm_cts.reference_models.model.runtime import Member, Runtime, Window
-from ucm_cts.reference_models.verdicts import RULES, Ledger
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime
+from ucm_cts.reference_models.properties.table import PROPERTIES
+from ucm_cts.reference_models.verdicts import Verdicts
 
 
 class Permission:
     """The life-cycle table, and the readings that the vendor declares."""
 
-    def __init__(self, table: LifeCycleTable, claims: Claims) -> None:
-        self._duties = Duties(table)
-        self._claims = claims
+    def __init__(self, table: LifeCycleTable, ics: Ics) -> None:
+        self._expected = ExpectedCallbacks(table)
+        self._ics = ics
 
-    def ways(self, runtime: Runtime, window: Window) -> Iterator[Way]:
+    def ways(self, runtime: Runtime, ongoing: OperationInProgress) -> Iterator[Way]:
         """Every way in which the operation that is about to begin may go."""
-        answers = dict.fromkeys(a for _, row in window.roles for outcome in row.outcomes for a in outcome.answer)
+        answers = dict.fromkeys(a for _, row in ongoing.roles for outcome in row.outcomes for a in outcome.answer)
         for answer in answers:
-            choices = [list(_sequences(row, answer, listener_of(window, member))) for member, row in window.roles]
+            choices = [list(_sequences(row, answer, listener_of(ongoing, member))) for member, row in ongoing.roles]
             for callbacks in itertools.product(*choices):
                 way = Way(answer, callbacks)
-                if self.permits(runtime, window, way):
+                if self.permits(runtime, ongoing, way):
                     yield way
 
-    def permits(self, runtime: Runtime, window: Window, way: Way) -> bool:
+    def permits(self, runtime: Runtime, ongoing: OperationInProgress, way: Way) -> bool:
         """Does each instance go a way that its row permits, and none one that its vendor has ruled out?"""
-        ledger = Ledger(runtime.scenario, self._duties, claims=self._claims)
-        window.fitted = []
-        for (member, row), heard in zip(window.roles, way.callbacks, strict=True):
-            fit = self._duties.fit(row, way.answer, listener_of(window, member), heard)
+        verdicts = Verdicts(runtime.scenario, self._expected, ics=self._ics)
+        ongoing.fitted = []
+        for (member, row), heard in zip(ongoing.roles, way.callbacks, strict=True):
+            fit = self._expected.fit(row, way.answer, listener_of(ongoing, member), heard)
             if fit is None:
                 return False
-            window.fitted.append((member, row, fit))
+            ongoing.fitted.append((member, row, fit))
         end = Return(0, 0, 0, 0) if way.answer == "return" else Raise(0, 0, 0, 0, way.answer)  # type: ignore[arg-type]
-        RULES["declared_choices"].check(ledger, runtime, window, end)
-        return not ledger.findings
+        PROPERTIES["declared_choices"].check(verdicts, runtime, ongoing, end)
+        return not verdicts.findings
 
-    def seen(self, runtime: Runtime, window: Window, way: Way) -> Iterator[Observation]:
+    def seen(self, runtime: Runtime, ongoing: OperationInProgress, way: Way) -> Iterator[Observation]:
         """The output of the operation if it goes this ``way``; a list may be shorter or longer."""
         told = sorted(
-            (_name(window, member), heard)
-            for (member, _), heard in zip(window.roles, way.callbacks, strict=True)
+            (_name(ongoing, member), heard)
+            for (member, _), heard in zip(ongoing.roles, way.callbacks, strict=True)
             if heard
         )
-        for answer in self._answers(runtime, window, way.answer):
+        for answer in self._answers(runtime, ongoing, way.answer):
             yield Observation(answer, tuple(told))
 
-    def _answers(self, runtime: Runtime, window: Window, answer: str) -> Iterator[str]:
-        if answer != "return" or not isinstance(window.step, s.GetComponents):
+    def _answers(self, runtime: Runtime, ongoing: OperationInProgress, answer: str) -> Iterator[str]:
+        if answer != "return" or not isinstance(ongoing.step, s.GetComponents):
             yield answer
             return
-        own = sorted(m.name for m in window.container.live_members())
+        own = sorted(m.name for m in ongoing.container.live_members())
         every = sorted(m.name for c in runtime.containers.values() for m in c.live_members())
-        below = window.container.name == s.MANAGER and every != own
-        if not below or self._claims.permits("manager-get-components", "own"):
+        below = ongoing.container.name == s.MANAGER and every != own
+        if not below or self._ics.permits("manager-get-components", "own"):
             yield " ".join((LISTS, *own))
-        if below and self._claims.permits("manager-get-components", "recursive"):
+        if below and self._ics.permits("manager-get-components", "recursive"):
             yield " ".join((LISTS, *every))
 
 
-def listener_of(window: Window, member: Member | None) -> Listener:
+def listener_of(ongoing: OperationInProgress, member: Member | None) -> Listener:
     """The key that decides which callbacks an instance in a role of the operation gets."""
     if member is not None:
         declaration = member.declaration
-        return Listener(declaration.connectable, declaration.fragment, len(undone_by(window, member)))
+        return Listener(declaration.connectable, declaration.fragment, len(undone_by(ongoing, member)))
     return Listener(False, False, 0)
 
 
-def _name(window: Window, member: Member | None) -> str:
-    if member is None and isinstance(window.step, s.AddComponent):
-        return window.step.bind or window.step.component
+def _name(ongoing: OperationInProgress, member: Member | None) -> str:
+    if member is None and isinstance(ongoing.step, s.AddComponent):
+        return ongoing.step.bind or ongoing.step.component
     return member.name if member is not None else ""
 
 

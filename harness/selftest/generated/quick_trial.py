@@ -36,7 +36,7 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.selftest.generated.trial import MORE_PATIENCE, Outcome
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 SECONDS = 10
 """What a scenario may take before the glance is given up."""
@@ -98,7 +98,7 @@ class Glancer:
                     self._prepared.append(
                         Prepared(purpose.id, purpose.clause, name, scenario, frozenset(plain.may_stay), line)
                     )
-        self._judge = Judge(load_life_cycle(), self.statement.claims)
+        self._monitor = Monitor(load_life_cycle(), self.statement.ics)
 
     def look(self, adapter: str, clauses: Sequence[str]) -> Glance:
         """Look at ``adapter``, ``package.module:Class``, whose package can be found; ``clauses`` come first."""
@@ -166,7 +166,7 @@ class Glancer:
         if contradiction(one.scenario, reply.events, bool(reply.stuck)) is not None:
             return None
         stalled = self._watch is None or self._watch.longest(reply.events)
-        found = self._judge.judge(one.scenario, reply.events).findings
+        found = self._monitor.judge(one.scenario, reply.events).findings
         return [finding for finding in found if not (stalled and is_timed(finding))]
 
     def learn(self, engine: Engine) -> None:

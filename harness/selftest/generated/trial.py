@@ -23,7 +23,7 @@ from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import read_statement
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 AT_ONCE = 8
 """Scenarios after which it is looked whether something is wrong; a purpose may have hundreds."""
@@ -63,7 +63,7 @@ def _try_out(adapter: str, statement: Statement, purposes: Sequence[TestPurpose]
     try:
         with Driver(locate(adapter), seed, Limits(incident_seconds=INCIDENT_SECONDS)) as driver:
             campaign = Campaign(driver, "core", (), statement)
-            confirmation = Confirmation(driver, Judge(load_life_cycle(), statement.claims), driver.gaps)
+            confirmation = Confirmation(driver, Monitor(load_life_cycle(), statement.ics), driver.gaps)
             for checked in campaign.check(_in_small_parts(purposes)):
                 for finding, execution in checked.failures:
                     if execution.incident is not None:

@@ -16,8 +16,8 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.model.ics import Claims
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
 
 SHORT = 0.2
 """Of the patience of scenarios. What a mutant never does is not waited for longer; a burst takes its time."""
@@ -37,7 +37,7 @@ def failing(
     enough: frozenset[str] = frozenset(),
 ) -> dict[str, str]:
     """Failing requirements, each with an example. Waiting for more ends when all of ``enough`` have failed."""
-    judge = Judge(load_life_cycle(), Claims(readings))
+    monitor = Monitor(load_life_cycle(), Ics(readings))
     found: dict[str, str] = {}
     for name, whole in scenarios(clauses, readings):
         waits = 1 if _has_burst(whole) else patience
@@ -46,7 +46,7 @@ def failing(
         assert isinstance(reply, Traced), (name, reply)
         problem = contradiction(asked, reply.events, bool(reply.stuck))
         assert problem is None, (name, problem)
-        for finding in judge.judge(asked, reply.events).findings:
+        for finding in monitor.judge(asked, reply.events).findings:
             found.setdefault(finding.requirement, _told(name, finding))
         if enough and enough <= found.keys():
             break

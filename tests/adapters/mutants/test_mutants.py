@@ -7,7 +7,7 @@ from pipeline import failing_requirements
 
 from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, Mutant, mutants_of
 from ucm_cts.harness.catalogue.requirements import load_requirements
-from ucm_cts.reference_models.verdicts import RULES
+from ucm_cts.reference_models.properties.table import PROPERTIES
 
 
 @pytest.mark.parametrize("mutant", mutants_of(CONTAINER).values(), ids=mutants_of(CONTAINER).keys())
@@ -21,7 +21,7 @@ def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:
 
 def test_every_testable_requirement_has_a_mutant() -> None:
     broken = {requirement for mutant in MUTANTS.values() for requirement in mutant.requirements}
-    testable = {r.id for r in load_requirements() if any(rule in RULES for rule in r.rules)}
+    testable = {r.id for r in load_requirements() if any(rule in PROPERTIES for rule in r.rules)}
     permissions = {r.id for r in load_requirements() if r.level == "may"}  # nothing can break them
     assert testable - broken - permissions == set()
     assert broken <= testable

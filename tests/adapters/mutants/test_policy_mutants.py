@@ -18,8 +18,8 @@ from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.statement.applicability import purposes_for
-from ucm_cts.reference_models.model.ics import Claims
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
 
 SCRIPTED = {
     "waits-for-one-who-fails",
@@ -45,14 +45,14 @@ def failing(
     adapter: type[ReferenceAdapter], readings: Mapping[str, str] = {}, enough: frozenset[str] = frozenset()
 ) -> dict[str, str]:
     """Failing requirements, each with an example. Waiting for more ends when all of ``enough`` have failed."""
-    judge = Judge(load_life_cycle(), Claims(readings))
+    monitor = Monitor(load_life_cycle(), Ics(readings))
     found: dict[str, str] = {}
     for name, asked in scenarios(*readings.items()).items():
         reply = answer(asked, adapter)
         assert isinstance(reply, Traced), (name, reply)
         problem = contradiction(asked, reply.events, bool(reply.stuck))
         assert problem is None, (name, problem)
-        for f in judge.judge(asked, reply.events).findings:
+        for f in monitor.judge(asked, reply.events).findings:
             found.setdefault(f.requirement, f"{name}: expected {f.expected}; observed {f.observed}")
         if enough and enough <= found.keys():
             break

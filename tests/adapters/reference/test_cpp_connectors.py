@@ -16,8 +16,8 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.selection import load_purposes
-from ucm_cts.reference_models.model.ics import Claims
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
 
 SHORT_PATIENCE = 500
 """Milliseconds. Scenarios that wait for what must not come take no longer."""
@@ -81,15 +81,15 @@ def scenarios(share: int, of: int) -> list[tuple[str, Scenario]]:
 def test_every_option_conforms(options: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("UCM_CTS_LWUCM_OPTIONS", options)
     readings = {**DEFAULT, **OPTIONS[options]}
-    judge = Judge(load_life_cycle(), Claims(readings))
+    monitor = Monitor(load_life_cycle(), Ics(readings))
     observed: dict[str, set[str]] = {}
     share = list(OPTIONS).index(options)
     with Driver(locate("reference-cpp"), seed=share) as driver:
         for answer in driver.run(scenarios(share, 8)):
             assert answer.incident is None, (answer.name, answer.incident)
-            ledger = judge.judge(answer.disguised, answer.trace)
-            assert ledger.findings == [], answer.name
-            for option, seen in ledger.readings.items():
+            verdicts = monitor.judge(answer.disguised, answer.trace)
+            assert verdicts.findings == [], answer.name
+            for option, seen in verdicts.readings.items():
                 observed.setdefault(option, set()).update(seen)
     for option in OPTIONS[options].keys() & observed.keys():
         assert observed[option] == {readings[option]}

@@ -24,8 +24,8 @@ from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.probes import PROBE_MODEL, load_probe_types
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.statement.files import read_statement
-from ucm_cts.reference_models.model.ics import Claims
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
 
 BODIES = "UCM_CTS_LWUCM_BODIES"
 README = FRAMEWORK / "README.md"
@@ -161,11 +161,11 @@ def told(answer: Answer) -> list[object]:
 def test_profile_container_needs_no_generic_body(typed: str, builds: Builds, monkeypatch: pytest.MonkeyPatch) -> None:
     """Typed bodies leave the traces of generic ones, wherever no threads run beside each other."""
     every = scenarios("container")
-    judge = Judge(load_life_cycle(), Claims(read_statement(TYPED_STATEMENT).readings))
+    monitor = Monitor(load_life_cycle(), Ics(read_statement(TYPED_STATEMENT).readings))
     monkeypatch.setenv(BODIES, "typed")
     compared = {}
     for answer in answers(typed, every.items()):
-        assert judge.judge(answer.disguised, answer.trace).findings == [], answer.name
+        assert monitor.judge(answer.disguised, answer.trace).findings == [], answer.name
         if not any(step.thread for step in answer.scenario.steps):
             compared[answer.name] = told(answer)
     assert len(compared) > len(every) * 0.9
@@ -176,11 +176,11 @@ def test_profile_container_needs_no_generic_body(typed: str, builds: Builds, mon
 
 
 def test_what_is_in_no_model_has_generic_bodies(typed: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    judge = Judge(load_life_cycle(), Claims(read_statement(TYPED_STATEMENT).readings))
+    monitor = Monitor(load_life_cycle(), Ics(read_statement(TYPED_STATEMENT).readings))
     every = {name: case for name, case in scenarios("core").items() if any(c.ports for c in case.components.values())}
     meeting = dict(list(every.items())[::16])
     for answer in answers(typed, [(n, msgspec.structs.replace(c, patience=500)) for n, c in meeting.items()]):
-        assert judge.judge(answer.disguised, answer.trace).findings == [], answer.name
+        assert monitor.judge(answer.disguised, answer.trace).findings == [], answer.name
     monkeypatch.setenv(BODIES, "typed")
     (name, first), *_ = meeting.items()
     with Driver(locate(typed), seed=7) as driver:

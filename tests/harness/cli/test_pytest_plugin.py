@@ -23,7 +23,7 @@ from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.purposes.selection import load_purposes
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 PURPOSES = {purpose.id.replace(" ", "-"): purpose for purpose in load_purposes("container")}
 SUBJECT, REQUIREMENT = "stops_in_startup_order", "R-11.2.2.1-13"
@@ -100,14 +100,14 @@ def suite(*arguments: str) -> Session:
 
 def broken(adapter: type[Adapter]) -> set[str]:
     """The purposes whose scenarios break a rule, found without driver, host and plugin."""
-    engine, judge = Engine(adapter), Judge(load_life_cycle())
+    engine, monitor = Engine(adapter), Monitor(load_life_cycle())
     disguise = Disguise(1, adapter.port_element_name)
     found = set()
     for name, purpose in PURPOSES.items():
         for scenario in (disguise.scenario(plain) for _, plain in purpose.scenarios):
             traced = from_host_decoder().decode(engine.answer(encode(Run(0, scenario))))
             assert isinstance(traced, Traced)
-            if judge.judge(scenario, traced.events).findings:
+            if monitor.judge(scenario, traced.events).findings:
                 found.add(name)
     return found
 

@@ -18,7 +18,7 @@ from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 SPELLING = "{port}_{element}"
 SCENARIO = msgspec.convert(
@@ -117,13 +117,13 @@ def test_payloads_are_not_found_inside_other_numbers_nor_names_made_up() -> None
 
 
 def test_framework_that_knows_the_scripts_by_heart_is_failed() -> None:
-    judge = Judge(load_life_cycle())
+    monitor = Monitor(load_life_cycle())
     spelled = SCENARIO.components['a "client"\\\n'].requires[0].replace(".", "_")
     learnt = msgspec.json.decode(encode(SCENARIO).replace(b"out.api", spelled.encode()), type=Scenario)
-    assert not judge.judge(learnt, run(learnt, Parrot)).findings, "in the scripts' own names the lie cannot be seen"
+    assert not monitor.judge(learnt, run(learnt, Parrot)).findings, "in the scripts' own names the lie cannot be seen"
     disguise = Disguise(5, SPELLING)
     disguised = disguise.scenario(SCENARIO)
-    findings = [disguise.reveal(f) for f in judge.judge(disguised, run(disguised, Parrot)).findings]
+    findings = [disguise.reveal(f) for f in monitor.judge(disguised, run(disguised, Parrot)).findings]
     assert findings
     assert "out_api" in findings[0].observed
 

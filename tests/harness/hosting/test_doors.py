@@ -25,7 +25,7 @@ from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.scripts import load_scripts
 from ucm_cts.harness.purposes.selection import load_purposes
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.monitor import Monitor
 
 GENERATED = 60
 PYTHON = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
@@ -55,17 +55,17 @@ def sample() -> tuple[tuple[str, Scenario], ...]:
 @functools.cache
 def through(endpoint: str, in_process: bool = False) -> Seen:
     """The sample run and judged, each endpoint with the same names and payloads."""
-    judge = Judge(load_life_cycle())
+    monitor = Monitor(load_life_cycle())
     seen = Seen({}, Counter(), {})
     with Driver(locate(endpoint, in_process), seed=9) as driver:
         for answer in driver.run(sample()):
             assert answer.incident is None, (answer.name, answer.incident)
-            ledger = judge.judge(answer.disguised, answer.trace)
+            verdicts = monitor.judge(answer.disguised, answer.trace)
             seen.traces[answer.name] = answer.trace
             if not any(step.thread for step in answer.disguised.steps):
-                seen.exercised.update(ledger.exercises)
-            if ledger.findings:
-                seen.broken[answer.name] = sorted(f.requirement for f in ledger.findings)
+                seen.exercised.update(verdicts.exercises)
+            if verdicts.findings:
+                seen.broken[answer.name] = sorted(f.requirement for f in verdicts.findings)
     assert len(seen.traces) == len(sample())
     return seen
 

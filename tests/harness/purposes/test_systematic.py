@@ -45,8 +45,8 @@ from ucm_cts.harness.purposes.systematic.purposes import IDENTIFIED, systematic_
 from ucm_cts.harness.purposes.systematic.settings import Setting, across, below, one, relays, two
 from ucm_cts.harness.purposes.systematic.simulation import RIGHT, can_happen, simulate
 from ucm_cts.harness.purposes.systematic.suites import Method, Suite, hsi, tour, transition_cover, w, wp
-from ucm_cts.reference_models.model.ics import Claims
-from ucm_cts.reference_models.monitor import Judge
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
 
 Build = Callable[[], Setting]
 
@@ -208,17 +208,17 @@ def test_tours_take_every_transition_and_hardly_any_twice(count: int) -> None:
 @of_settings
 def test_the_judge_finds_nothing_wrong_with_the_right_machine(build: Build, readings: dict[str, str]) -> None:
     setting, machine = build(), machine_of(build, readings)
-    judge, subject = Judge(load_life_cycle(), Claims(readings)), Subject(machine)
+    monitor, subject = Monitor(load_life_cycle(), Ics(readings)), Subject(machine)
     for word in (*hsi(machine, 0), *tour(machine)):
-        ledger = judge.judge(*simulate(setting, subject, RIGHT, word))
-        assert not ledger.findings, [machine.inputs[i] for i in word]
+        verdicts = monitor.judge(*simulate(setting, subject, RIGHT, word))
+        assert not verdicts.findings, [machine.inputs[i] for i in word]
 
 
 @of_vendors
 @of_settings
 def test_the_judge_finds_out_what_the_suite_finds_out(build: Build, readings: dict[str, str]) -> None:
     setting, subject = build(), Subject(machine_of(build, readings))
-    judge = Judge(load_life_cycle(), Claims(readings))
+    monitor = Monitor(load_life_cycle(), Ics(readings))
     tried = Tried(subject, hsi(subject.machine, 0))
     judged = 0
     faults = single_faults(subject)
@@ -227,7 +227,7 @@ def test_the_judge_finds_out_what_the_suite_finds_out(build: Build, readings: di
         assert word is not None
         if can_happen(setting, subject, fault, word):
             judged += 1
-            assert judge.judge(*simulate(setting, subject, fault, word)).findings, (fault, word)
+            assert monitor.judge(*simulate(setting, subject, fault, word)).findings, (fault, word)
     assert judged > 100
 
 
@@ -255,7 +255,7 @@ def test_more_extra_states_make_more_scenarios() -> None:
 def failing(adapter: type[Adapter], readings: dict[str, str]) -> set[str]:
     """The requirements that the systematic suites find violated."""
     engine, disguise = Engine(adapter), Disguise(1, "{port}_{element}")
-    judge = Judge(load_life_cycle(), Claims(readings))
+    monitor = Monitor(load_life_cycle(), Ics(readings))
     found: set[str] = set()
     for purpose in systematic_purposes(readings):
         for name, plain in purpose.scenarios:
@@ -263,7 +263,7 @@ def failing(adapter: type[Adapter], readings: dict[str, str]) -> set[str]:
             answer = from_host_decoder().decode(engine.answer(encode(Run(0, scenario))))
             assert isinstance(answer, Traced)
             assert contradiction(scenario, answer.events, bool(answer.stuck)) is None, name
-            found |= {finding.requirement for finding in judge.judge(scenario, answer.events).findings}
+            found |= {finding.requirement for finding in monitor.judge(scenario, answer.events).findings}
     return found
 
 

@@ -88,7 +88,7 @@ def test_a_short_statement_leaves_the_rest_as_it_is(here: Path) -> None:
     default = default_statement()
     assert statement.readings == default.readings | {"run-trigger": "once"}
     assert (statement.ixit, statement.capabilities) == (default.ixit | {"clock-rate": 0.5}, default.capabilities)
-    assert (statement.source, statement.claims.tolerance("clock-rate")) == ("ics.toml", 0.5)
+    assert (statement.source, statement.ics.tolerance("clock-rate")) == ("ics.toml", 0.5)
 
 
 GOOD = """\

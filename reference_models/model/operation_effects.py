@@ -7,71 +7,82 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Raise, Reference, Return
-from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime, Window, raises
+from ucm_cts.reference_models.model.runtime import (
+    NO_ID,
+    Connection,
+    Container,
+    Member,
+    OperationInProgress,
+    Runtime,
+    raises,
+)
 
 
-def adopt(runtime: Runtime, window: Window, end: Return | Raise) -> None:
+def apply(runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """Bring ``runtime`` up to date with the operation that just ended."""
-    if window.callbacks:
-        _linger(runtime, window, end)
-    _TAKEN_OVER[window.operation](runtime, window, window.step, end)
-    if window.lost:
-        _lose_track(window)
-    if window.callbacks:
-        for component, instance in window.by_body:
+    if ongoing.callbacks:
+        _linger(runtime, ongoing, end)
+    _TAKEN_OVER[ongoing.operation](runtime, ongoing, ongoing.step, end)
+    if ongoing.lost:
+        _lose_track(ongoing)
+    if ongoing.callbacks:
+        for component, instance in ongoing.by_body:
             member = runtime.bodies.get((component, instance or 0))
             if member is None:
                 continue
-            if window.operation in ("remove_component", "remove_container") and _in_doubt(member):
+            if ongoing.operation in ("remove_component", "remove_container") and _in_doubt(member):
                 member.suspended = True
             if member.suspended:
-                _follow(window, member)
+                _follow(ongoing, member)
 
 
-def _linger(runtime: Runtime, window: Window, end: Return | Raise) -> None:
+def _linger(runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """Whose on_shutdown raised, and the operation with it, may be operational still, until on_startup comes again or a stop returns."""
-    for (component, instance), heard in window.by_body.items():
+    for (component, instance), callbacks in ongoing.by_body.items():
         member = runtime.bodies.get((component, instance or 0))
-        phases = [c.hook for c in heard if c.hook in ("on_startup", "on_shutdown")]
+        phases = [c.hook for c in callbacks if c.hook in ("on_startup", "on_shutdown")]
         if member is None or not phases:
             continue
         member.lingering = phases[-1] == "on_shutdown" and isinstance(end, Raise) and member.raises("on_shutdown")
         if member.lingering:
             member.suspended = True
-            if window.operation in ("start", "stop"):
+            if ongoing.operation in ("start", "stop"):
                 member.container.suspend()
 
 
-def received(window: Window, member: Member, hook: s.Hook) -> list[Enter]:
-    """The ``hook`` callbacks that ``member``'s body received during the window."""
-    if hook not in window.hooks:
+def received(ongoing: OperationInProgress, member: Member, hook: s.Hook) -> list[Enter]:
+    """The ``hook`` callbacks that ``member``'s body received during the operation."""
+    if hook not in ongoing.hooks:
         return []
-    heard = window.by_body.get((member.component, member.instance))
-    return [c for c in heard if c.hook == hook] if heard is not None else []
+    callbacks = ongoing.by_body.get((member.component, member.instance))
+    return [c for c in callbacks if c.hook == hook] if callbacks is not None else []
 
 
-def _added(runtime: Runtime, window: Window, step: s.AddComponent, end: Return | Raise) -> None:
+def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent, end: Return | Raise) -> None:
     value = end.value if isinstance(end, Return) else None
     declaration = runtime.scenario.components.get(step.component)
-    seen = [*((c.component, c.instance) for c in window.callbacks), *window.created]
+    seen = [*((c.component, c.instance) for c in ongoing.callbacks), *ongoing.created]
     bodies = [body for body in seen if body not in runtime.bodies]
     own = [b for b in bodies if b[0] == step.component]
     if not isinstance(value, int) or isinstance(value, bool):
-        window.container.failed_adds += 1
-        runtime.discarded.update(body for body in bodies if body in window.by_body)
+        ongoing.container.failed_adds += 1
+        runtime.discarded.update(body for body in bodies if body in ongoing.by_body)
         return
     member = Member(
         name=step.bind or step.component,
         component=step.component,
         declaration=declaration or s.Declaration(),
-        container=window.container,
+        container=ongoing.container,
         id=value,
         instance=own[0][1] if own else None,
     )
     member.suspended = (
-        not own or declaration is None or not window.judged or raises(declaration, "on_init", "set_container_interface")
+        not own
+        or declaration is None
+        or not ongoing.judged
+        or raises(declaration, "on_init", "set_container_interface")
     )
-    twins = [m for m in window.container.live_members() if m.id == value]
+    twins = [m for m in ongoing.container.live_members() if m.id == value]
     for twin in twins:
         if twin.leaving:  # its id is free, so the removal that failed did remove it
             twin.leave()
@@ -82,32 +93,32 @@ def _added(runtime: Runtime, window: Window, step: s.AddComponent, end: Return |
         unsure.suspended = True
         unsure.doubt()
     runtime.enrol(member)
-    if received(window, member, "on_startup"):
+    if received(ongoing, member, "on_startup"):
         member.operational = True
         member.startups = 1
-        if window.container.started:
-            window.container.startup_order.append(member)
+        if ongoing.container.started:
+            ongoing.container.startup_order.append(member)
         else:
             member.suspended = True
-    window.subject = member
+    ongoing.subject = member
 
 
-def _found(runtime: Runtime, window: Window, step: s.GetPortElement, end: Return | Raise) -> None:
+def _found(runtime: Runtime, ongoing: OperationInProgress, step: s.GetPortElement, end: Return | Raise) -> None:
     if isinstance(end, Return):
         recognised = isinstance(end.value, Reference) or end.value == "opaque"
         reference: MaybeReference = end.value if recognised else None  # type: ignore[assignment]
         owner = runtime.provider_of(reference)
-        runtime.references[step.bind] = (reference, owner or window.subject)
+        runtime.references[step.bind] = (reference, owner or ongoing.subject)
         runtime.ports[step.bind] = reference.port if isinstance(reference, Reference) and owner else step.port
 
 
-def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | Raise) -> None:
-    member = window.subject
+def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, end: Return | Raise) -> None:
+    member = ongoing.subject
     if member is None:
         return
     reference, provider = runtime.reference(step.to)
     if isinstance(end, Raise):
-        if (member.component, member.instance) in window.by_body:  # it began: nobody knows what stands
+        if (member.component, member.instance) in ongoing.by_body:  # it began: nobody knows what stands
             member.suspended = True
             for earlier in member.live_connections(step.port):
                 earlier.live = None
@@ -121,7 +132,7 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
         member.suspended = True
         return
     connection = Connection(step.bind, value, member, step.port, reference, provider, runtime.ports.get(step.to, ""))
-    replaced = bool(received(window, member, "on_disconnect"))
+    replaced = bool(received(ongoing, member, "on_disconnect"))
     for earlier in member.live_connections(step.port):
         earlier.live = False if replaced or earlier.id == value else None
     of_that_id = [c for c in runtime.all_connections() if c.id == value and c.client.container is member.container]
@@ -139,13 +150,13 @@ def _connected(runtime: Runtime, window: Window, step: s.Connect, end: Return | 
     member.forget_repetitions()
     member.once_connected.add(step.port)
     runtime.connections[step.bind] = connection
-    if received(window, member, "on_startup"):
+    if received(ongoing, member, "on_startup"):
         member.handed_over = tuple(c for c in member.connections if c.live is not False)
-        if window.judged and not member.suspended:  # late connections are taken at once
+        if ongoing.judged and not member.suspended:  # late connections are taken at once
             member.operational = True
             member.startups += 1
             _forget_start(member)
-            window.container.startup_order.append(member)
+            ongoing.container.startup_order.append(member)
         else:
             member.suspended = True
 
@@ -155,37 +166,41 @@ def _forget_start(member: Member) -> None:
         member.container.startup_order.remove(member)
 
 
-def _disconnected(runtime: Runtime, window: Window, step: s.Disconnect, end: Return | Raise) -> None:
-    connection = window.connection
+def _disconnected(runtime: Runtime, ongoing: OperationInProgress, step: s.Disconnect, end: Return | Raise) -> None:
+    connection = ongoing.connection
     if connection is None:
         return
     if isinstance(end, Raise):
         if connection.live is None and end.error == "NOT_FOUND":
             connection.live = False
-        elif (connection.client.component, connection.client.instance) in window.by_body:
+        elif (connection.client.component, connection.client.instance) in ongoing.by_body:
             connection.live = None
             connection.client.suspended = True
         return
     connection.live = False
     client = connection.client
-    if received(window, client, "on_shutdown"):  # it is not left half-connected
+    if received(ongoing, client, "on_shutdown"):  # it is not left half-connected
         client.operational = False
         _forget_start(client)
     if any(c.live is None and c.port == connection.port for c in client.connections):
         client.suspended = True
 
 
-def _component_removed(runtime: Runtime, window: Window, step: s.RemoveComponent, end: Return | Raise) -> None:
-    member = window.subject
+def _component_removed(
+    runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveComponent, end: Return | Raise
+) -> None:
+    member = ongoing.subject
     if member is None:
         return
     if isinstance(end, Return):
-        _removed(runtime, window, [member])
-    elif received(window, member, "on_remove"):
+        _removed(runtime, ongoing, [member])
+    elif received(ongoing, member, "on_remove"):
         _perhaps_removed(runtime, [member])
 
 
-def _container_created(runtime: Runtime, window: Window, step: s.CreateContainer, end: Return | Raise) -> None:
+def _container_created(
+    runtime: Runtime, ongoing: OperationInProgress, step: s.CreateContainer, end: Return | Raise
+) -> None:
     if isinstance(end, Return):
         earlier = runtime.containers.get(step.bind)
         if earlier is not None:  # the variable is bound anew; the container it held is still there
@@ -194,21 +209,23 @@ def _container_created(runtime: Runtime, window: Window, step: s.CreateContainer
         runtime.containers[step.bind] = Container(step.bind, started=None if cascading else False)
 
 
-def _container_removed(runtime: Runtime, window: Window, step: s.RemoveContainer, end: Return | Raise) -> None:
+def _container_removed(
+    runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveContainer, end: Return | Raise
+) -> None:
     container = runtime.containers.get(step.container)
     known = container is not None and not container.removed and container.name != s.MANAGER
     if not known or container is None:
         return
     if isinstance(end, Return):
-        _removed(runtime, window, container.live_members())
+        _removed(runtime, ongoing, container.live_members())
         container.removed = True
-    elif window.callbacks:
+    elif ongoing.callbacks:
         _perhaps_removed(runtime, container.live_members())
         container.suspend()
         container.doubtful = True
 
 
-def _destroyed(runtime: Runtime, window: Window, step: s.Destroy, end: Return | Raise) -> None:
+def _destroyed(runtime: Runtime, ongoing: OperationInProgress, step: s.Destroy, end: Return | Raise) -> None:
     runtime.destroyed = True
     for container in runtime.containers.values():
         for member in container.members:
@@ -230,12 +247,12 @@ def _perhaps_removed(runtime: Runtime, members: Sequence[Member]) -> None:
             connection.live = None
 
 
-def _removed(runtime: Runtime, window: Window, removed: Sequence[Member]) -> None:
+def _removed(runtime: Runtime, ongoing: OperationInProgress, removed: Sequence[Member]) -> None:
     for client, used in runtime.clients_of(removed):
-        told = len(received(window, client, "on_disconnect"))
+        told = len(received(ongoing, client, "on_disconnect"))
         for connection in used:
             connection.live = False if told >= len(used) else None
-        if received(window, client, "on_shutdown"):
+        if received(ongoing, client, "on_shutdown"):
             client.operational = False
         if told < len(used) or not client.operational:
             client.suspended = client.suspended or told < len(used)
@@ -247,17 +264,17 @@ def _removed(runtime: Runtime, window: Window, removed: Sequence[Member]) -> Non
         runtime.let_go(member)
 
 
-def _started(runtime: Runtime, window: Window, step: s.Start, end: Return | Raise) -> None:
+def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end: Return | Raise) -> None:
     returned = isinstance(end, Return)
-    container = window.container
-    everywhere = [m for c in runtime.containers.values() for m in c.live_members()] if window.callbacks else []
-    reached = [m for m in everywhere if received(window, m, "on_startup")]
+    container = ongoing.container
+    everywhere = [m for c in runtime.containers.values() for m in c.live_members()] if ongoing.callbacks else []
+    reached = [m for m in everywhere if received(ongoing, m, "on_startup")]
     own = [m for m in reached if m.container is container]
     _reached_unseen(runtime, container)
     if not returned:
         failing = any(m.raises("on_startup") for m in container.live_members())
-        half_way = any(not received(window, m, "on_shutdown") for m in own)
-        unseen = window.forgiving and all(m.doubtful for m in container.live_members())
+        half_way = any(not received(ongoing, m, "on_shutdown") for m in own)
+        unseen = ongoing.forgiving and all(m.doubtful for m in container.live_members())
         unclear = container.started is not False or failing or half_way or unseen
         if unclear and (container.started is not True or own):
             container.suspend()
@@ -268,11 +285,11 @@ def _started(runtime: Runtime, window: Window, step: s.Start, end: Return | Rais
     if container.started is not True:
         container.startup_order = []
     for member in container.live_members():
-        for callback in received(window, member, "on_startup"):
+        for callback in received(ongoing, member, "on_startup"):
             _resolve(member, callback)
         unclear = member.lingering or member.doubtful or member.instance is None
         member.suspended = unclear or member.raises("on_startup")
-    order = {(c.component, c.instance): n for n, c in enumerate(window.callbacks) if c.hook == "on_startup"}
+    order = {(c.component, c.instance): n for n, c in enumerate(ongoing.callbacks) if c.hook == "on_startup"}
     for member in sorted(reached, key=lambda m: order[(m.component, m.instance or 0)]):
         member.operational = True
         member.startups += 1
@@ -283,13 +300,13 @@ def _started(runtime: Runtime, window: Window, step: s.Start, end: Return | Rais
     container.started = True
 
 
-def _stopped(runtime: Runtime, window: Window, step: s.Stop, end: Return | Raise) -> None:
+def _stopped(runtime: Runtime, ongoing: OperationInProgress, step: s.Stop, end: Return | Raise) -> None:
     returned = isinstance(end, Return)
-    container = window.container
+    container = ongoing.container
     _reached_unseen(runtime, container)
-    for other in runtime.containers.values() if window.callbacks else ():
+    for other in runtime.containers.values() if ongoing.callbacks else ():
         for member in other.live_members():
-            if received(window, member, "on_shutdown"):
+            if received(ongoing, member, "on_shutdown"):
                 member.operational = False
                 if not returned:
                     other.suspend()
@@ -346,24 +363,24 @@ def _in_doubt(member: Member) -> bool:
     return not member.gone and any(c.live is None for c in member.connections)
 
 
-def _follow(window: Window, member: Member) -> None:
+def _follow(ongoing: OperationInProgress, member: Member) -> None:
     """An instance that is not judged goes where its callbacks say."""
-    for callback in window.by_body.get((member.component, member.instance), ()):
+    for callback in ongoing.by_body.get((member.component, member.instance), ()):
         if callback.hook == "on_startup":
             member.operational = True
         elif callback.hook == "on_shutdown":
             member.operational = False
 
 
-def _lose_track(window: Window) -> None:
-    if window.operation in ("start", "stop"):
-        window.container.suspend()
-    for member, _ in window.roles:
+def _lose_track(ongoing: OperationInProgress) -> None:
+    if ongoing.operation in ("start", "stop"):
+        ongoing.container.suspend()
+    for member, _ in ongoing.roles:
         if member is not None:
             member.suspended = True
 
 
-_TAKEN_OVER: dict[str, Callable[[Runtime, Window, Any, Return | Raise], None]] = {
+_TAKEN_OVER: dict[str, Callable[[Runtime, OperationInProgress, Any, Return | Raise], None]] = {
     "add_component": _added,
     "remove_component": _component_removed,
     "get_port_element": _found,
@@ -371,7 +388,7 @@ _TAKEN_OVER: dict[str, Callable[[Runtime, Window, Any, Return | Raise], None]] =
     "disconnect": _disconnected,
     "start": _started,
     "stop": _stopped,
-    "get_components": lambda runtime, window, step, end: None,
+    "get_components": lambda runtime, ongoing, step, end: None,
     "create_container": _container_created,
     "remove_container": _container_removed,
     "destroy": _destroyed,
