@@ -7,7 +7,7 @@ import functools
 import re
 import subprocess
 import sys
-from collections.abc import Mapping, Set
+from collections.abc import Mapping
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -30,7 +30,7 @@ def module_of(path: Path) -> str:
     return ".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__")
 
 
-def imported(path: Path, modules: Set[str]) -> frozenset[str]:
+def imported(path: Path, modules: Mapping[str, Path]) -> frozenset[str]:
     """What ``path`` imports anywhere in it; modules of ours without ``ucm_cts.``."""
     found: set[str] = set()
     for node in ast.walk(ast.parse(path.read_text())):
@@ -39,7 +39,9 @@ def imported(path: Path, modules: Set[str]) -> frozenset[str]:
         elif isinstance(node, ast.ImportFrom):
             assert not node.level, f"{path}: relative import"
             module = f"{node.module}".removeprefix("ucm_cts.")
-            found |= {f"{module}.{alias.name}".removeprefix("ucm_cts.") for alias in node.names} & modules or {module}
+            found |= {f"{module}.{alias.name}".removeprefix("ucm_cts.") for alias in node.names} & modules.keys() or {
+                module
+            }
     return frozenset(found)
 
 
@@ -47,7 +49,7 @@ def imported(path: Path, modules: Set[str]) -> frozenset[str]:
 def imports() -> Mapping[str, frozenset[str]]:
     """The imports of each module of the rooms."""
     paths = {module_of(path): path for room in ALLOWED for path in sorted((PACKAGE / room).rglob("*.py"))}
-    return {module: imported(path, paths.keys()) for module, path in paths.items()}
+    return {module: imported(path, paths) for module, path in paths.items()}
 
 
 def is_in(module: str, folder: str) -> bool:
