@@ -20,11 +20,19 @@ Level = Literal["shall", "should", "may", "statement"]
 
 
 class Requirement(Value, frozen=True):
-    """One statement of the specification, in the project's own words.
+    """One statement of the specification, in the project's own words. It has exactly one of ``rules``, ``pending`` and ``untestable``.
 
-    ``observed`` says how a trace or a model shows that it was kept or broken. It has exactly one of ``rules``, the
-    rules or model checks that stand for it; ``pending``, what the rule that is to stand for it still needs; and
-    ``untestable``, why no run can show it. ``interpretations`` are ids of the files in ``suite/interpretations``.
+    ``id``: ``R-<clause>-<number>``.
+    ``clause``: the clause of the specification.
+    ``title``: a few words for lists.
+    ``level``: the force of the statement.
+    ``meaning``: what it demands.
+    ``observed``: how a trace or a model shows that it was kept or broken.
+    ``rules``: the properties or model checks that decide it.
+    ``untestable``: why no run can decide it.
+    ``interpretations``: ids of entries in ``suite/interpretations``.
+    ``profile``: the first profile that has it.
+    ``pending``: what its property still needs.
     """
 
     id: str
@@ -104,8 +112,11 @@ class Capability(Value, frozen=True):
 
 
 class Need(Value, frozen=True):
-    """What the vendor must claim, or declare (``option=value``), for the ``requirements`` to apply: all of ``needs``, and one
-    of ``one_of`` if there are any. ``requirements`` may hold ``*`` and ``[...]``.
+    """What the vendor must claim for some requirements to apply.
+
+    ``requirements``: their ids; ``*`` and ``[...]`` match as in file names.
+    ``needs``: capabilities, or readings as ``option=value``; all must be claimed.
+    ``one_of``: one of these must be claimed, if there are any.
     """
 
     requirements: tuple[str, ...]

@@ -38,9 +38,14 @@ _HOST_IS_GONE: frozenset[IncidentKind] = FRAMEWORK_INCIDENTS | {"flood", "garbag
 
 @dataclass(frozen=True)
 class Answer:
-    """One scenario and its result. ``trace`` has the names of ``disguised``; after an incident it is the known part.
+    """One scenario and its result.
 
-    With ``is_whole`` it is complete: the host sent it, with the threads that never came back.
+    ``name``: the name of the scenario.
+    ``scenario``: as it is written.
+    ``disguised``: as the framework got it, with random names.
+    ``trace``: in the names of ``disguised``; after an incident the known part.
+    ``incident``: what went wrong with the host, if anything.
+    ``is_whole``: the trace is complete, although threads never came back.
     """
 
     name: str

@@ -50,8 +50,13 @@ IN_VAIN = 64
 
 @dataclass(frozen=True)
 class Progress:
-    """How far an exploration has come: scenarios run, rows of the life-cycle table visited of all, pairs of events seen one
-    after the other, and different causes of failure.
+    """How far an exploration has come.
+
+    ``scenarios``: run so far.
+    ``rows``: of the life-cycle table, visited.
+    ``of``: rows of the life-cycle table.
+    ``events``: pairs of successive events that were seen.
+    ``failures``: different causes.
     """
 
     scenarios: int

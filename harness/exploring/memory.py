@@ -38,10 +38,14 @@ Identity = tuple[str, str, str, str]
 
 
 class Remembered(Value, frozen=True):
-    """A failure: its cause, what was observed, and the scenario that showed it.
+    """A failure, or an incident that breaks no requirement.
 
-    An incident that breaks no requirement has none; its ``rule`` is its kind, ``cause`` its detail, and ``operation`` what was
-    in progress.
+    ``requirement``: its id; empty for an incident.
+    ``rule``: the property; for an incident its kind.
+    ``cause``: the cause; for an incident its detail.
+    ``observed``: what was observed.
+    ``scenario``: the shortest one that showed it.
+    ``operation``: the operation in progress, for an incident.
     """
 
     requirement: str

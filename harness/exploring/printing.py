@@ -33,7 +33,21 @@ _STEPS = 12
 
 
 class Failure(Value, frozen=True):
-    """One cause of failure; ``file`` is the shortest scenario found, relative to the folder, ``replay`` a command for there."""
+    """One cause of failure.
+
+    ``requirement``: its id.
+    ``clause``: its clause.
+    ``title``: its title.
+    ``rule``: the property that found it.
+    ``cause``: what failures of one cause share.
+    ``expected``: one sentence.
+    ``observed``: one sentence.
+    ``occurrences``: scenarios that showed it.
+    ``steps``: of the shortest scenario.
+    ``file``: the shortest scenario, relative to the folder.
+    ``replay``: a command that runs it, in the folder.
+    ``unstable``: why it gives no verdict; empty if it was confirmed.
+    """
 
     requirement: str
     clause: str

@@ -30,9 +30,13 @@ _PAGE = os.sysconf("SC_PAGE_SIZE")
 
 @dataclass(frozen=True)
 class Limits:
-    """What a host may take: ``seconds`` an answer, waits of the scenario not counted; ``memory`` resident MiB;
-    ``line`` bytes in one message; ``welcome_seconds`` until it has sent ``welcome``. ``incident_seconds`` is what a run
-    may take for all that goes wrong with its hosts.
+    """What a host may use.
+
+    ``seconds``: for an answer, without the waits of the scenario.
+    ``memory``: MiB of resident memory.
+    ``line``: bytes of one message.
+    ``welcome_seconds``: from the start until it has sent ``welcome``.
+    ``incident_seconds``: of one run for all incidents of its hosts.
     """
 
     seconds: float = 5.0

@@ -49,10 +49,13 @@ _SHOWN = 80
 
 
 class Answer(msgspec.Struct, frozen=True):
-    """What came of the ``Run`` message with ``id``.
+    """The result of the ``Run`` message with ``id``.
 
-    ``happened`` are the events that a streamed run sent ahead: after an incident, the trace as far as it is known. ``host``
-    numbers the hosts; it was ``sent`` the message then, in nanoseconds of ``time.monotonic_ns``.
+    ``id``: of the message.
+    ``reply``: the trace, a refusal, or an incident.
+    ``happened``: events that a streamed run sent ahead: after an incident, the known part of the trace.
+    ``host``: the number of the host.
+    ``sent``: when the host got the message, in nanoseconds of ``time.monotonic_ns``.
     """
 
     id: int

@@ -34,10 +34,13 @@ class WrongUse(Exception):
 
 @dataclass(frozen=True)
 class Endpoint:
-    """Where an adapter is found: ``text`` as the user wrote it, ``target`` as the kind of endpoint needs it.
+    """Where an adapter is found.
 
-    ``python`` endpoints name a class, a module with ``answer`` or an extension module's path; ``executable`` an absolute
-    path; ``tcp`` ``HOST:PORT``; ``unix`` a path. ``in_process`` endpoints open inside the harness, for debuggers.
+    ``text``: as the user wrote it.
+    ``kind``: how it is reached.
+    ``target``: ``python``: a class, a module with ``answer``, or the path of an extension module; ``executable``: an absolute path;
+    ``tcp``: ``HOST:PORT``; ``unix``: a path.
+    ``in_process``: load it into the harness process, for debuggers.
     """
 
     text: str

@@ -15,7 +15,14 @@ is. ``unclear``: it is missing, but something is there in a spelling that the te
 
 
 class Reading(Value, frozen=True):
-    """What a declaration is like under one value of an option."""
+    """How a declaration changes under one value of an option.
+
+    ``option``: the option.
+    ``value``: its value.
+    ``attributes``: attributes that differ.
+    ``missing``: the declaration may be missing.
+    ``always``: holds whether or not the vendor declares it.
+    """
 
     option: str
     value: str

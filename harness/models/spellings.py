@@ -56,7 +56,15 @@ _SAME_WORD = {"anynumer": "anyNumber"} | {word.lower(): word for printed in _WOR
 
 @dataclass(eq=False)
 class Element:
-    """One element of a model, in the spelling that all are compared in."""
+    """One element of a model, in canonical spelling.
+
+    ``tag``: the name of its class.
+    ``attributes``: by name.
+    ``parent``: None for the root.
+    ``children``: in order.
+    ``source``: the XML element it was read from.
+    ``where``: file and line, for messages.
+    """
 
     tag: str
     attributes: dict[str, str]

@@ -18,9 +18,13 @@ from ucm_cts.reference_models.findings import Finding
 
 
 class KnownFailure(Value, frozen=True):
-    """``requirement`` fails with an observation like ``observed`` (``*`` stands for any text), because of ``reason``.
+    """A failure that is expected for now.
 
-    ``expires`` is the last day, ISO 8601, on which the entry counts. ``url`` leads to the defect's ticket.
+    ``requirement``: the id of the requirement that fails.
+    ``observed``: the observation; ``*`` matches any text.
+    ``reason``: why it is accepted.
+    ``expires``: the last day on which the entry counts, ISO 8601.
+    ``url``: the ticket of the defect.
     """
 
     requirement: str

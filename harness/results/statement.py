@@ -55,9 +55,15 @@ IXIT: Mapping[str, Quantity] = {
 class Statement(Value, frozen=True):
     """The statement (ICS and IXIT) of one product.
 
-    ``capabilities``, ``readings`` and ``ixit`` have every part, option and quantity. ``models`` are the framework's own core
-    models, as written in the statement; ``folder`` is the folder that they are relative to. ``source`` is the statement's file, empty
-    without a file; ``product`` is empty where the statement names none.
+    ``product``: its name; empty where the statement names none.
+    ``version``: its version.
+    ``profiles``: the profiles that it is for.
+    ``capabilities``: every capability, claimed or not.
+    ``readings``: the reading of every option.
+    ``ixit``: every quantity.
+    ``models``: the framework's own core models, as written in the statement.
+    ``source``: the file; empty without one.
+    ``folder``: the folder that ``models`` are relative to.
     """
 
     product: str

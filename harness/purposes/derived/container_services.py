@@ -128,7 +128,7 @@ def _trace(port: str | None, methods: str, severity: str) -> Policy:
 
 
 @dataclass
-class _Cast:
+class _Configuration:
     """A client that calls its servers through port elements of their own; ``traces`` are the policies of each component."""
 
     calls: Sequence[tuple[str, str]]
@@ -247,7 +247,7 @@ def _port_purposes() -> list[TestPurpose]:
             "port trace/several methods",
             "Two of three methods are traced.",
             _RECORDED,
-            _Cast(
+            _Configuration(
                 [("out.api", method) for method in ("alpha", "beta", "gamma", "alpha")],
                 _ONE,
                 {"server": (_trace("in.api", "alpha,gamma", "info"),)},
@@ -258,7 +258,7 @@ def _port_purposes() -> list[TestPurpose]:
             "port trace/of a component",
             "All ports of a component are traced by one policy.",
             _RECORDED,
-            _Cast(_THREE_CALLS, _ONE, {"server": (_trace(None, "alpha", "error"),)}).scenario(*_read(2)),
+            _Configuration(_THREE_CALLS, _ONE, {"server": (_trace(None, "alpha", "error"),)}).scenario(*_read(2)),
             under=_ON_COMPONENTS,
         ),
         TestPurpose(
@@ -293,14 +293,14 @@ def _sides() -> list[tuple[str, Scenario]]:
             ("where it comes in", {"server": (_trace("in.api", "alpha", severity),)}),
             ("where it is called", {"client": (_trace("out.api", "alpha", severity),)}),
         ):
-            cast = _Cast(_THREE_CALLS, _ONE, policies)
-            scenarios.append((f"port trace/{severity} {side}", cast.scenario(*_read(2))))
+            configuration = _Configuration(_THREE_CALLS, _ONE, policies)
+            scenarios.append((f"port trace/{severity} {side}", configuration.scenario(*_read(2))))
     return [*scenarios, ("port trace/both ends", _both_ends().scenario(*_read(4)))]
 
 
-def _both_ends() -> _Cast:
+def _both_ends() -> _Configuration:
     both = {"client": (_trace("out.api", "alpha", "info"),), "server": (_trace("in.api", "alpha", "info"),)}
-    return _Cast(_THREE_CALLS, _ONE, both)
+    return _Configuration(_THREE_CALLS, _ONE, both)
 
 
 def _restarted() -> Scenario:
@@ -312,33 +312,33 @@ def _restarted() -> Scenario:
 def _names_in_names() -> Iterator[tuple[str, Scenario]]:
     calls = [("out.api", method) for method in ("alpha", "alphabet", "alpha", "alphabet")]
     for traced in ("alpha", "alphabet"):
-        cast = _Cast(calls, _ONE, {"server": (_trace("in.api", traced, "info"),)})
-        yield f"port trace/{traced} of alpha and alphabet", cast.scenario(*_read(2))
+        configuration = _Configuration(calls, _ONE, {"server": (_trace("in.api", traced, "info"),)})
+        yield f"port trace/{traced} of alpha and alphabet", configuration.scenario(*_read(2))
 
 
 def _ways_of_execution() -> list[tuple[str, Scenario]]:
     traces = {"server": (_trace("in.api", "alpha", "warning"),)}
     scenarios = [
-        (f"port trace/{name}", _Cast(_THREE_CALLS, _ONE, traces, execution).scenario(*_read(2)))
+        (f"port trace/{name}", _Configuration(_THREE_CALLS, _ONE, traces, execution).scenario(*_read(2)))
         for name, execution in (
             ("protected passive", Policy(s.PROTECTED_PASSIVE)),
             ("active", Policy(s.ACTIVE, "in.api")),
             ("self-executing", Policy(s.SELF_EXECUTING)),
         )
     ]
-    elsewhere = _Cast(_THREE_CALLS, _ONE, traces, places={"server": "elsewhere"})
+    elsewhere = _Configuration(_THREE_CALLS, _ONE, traces, places={"server": "elsewhere"})
     return [*scenarios, ("port trace/elsewhere", elsewhere.scenario(*_read(2)))]
 
 
 def _other_ports() -> Scenario:
     calls = [("out.api", "alpha"), *[("aux.api", "alpha")] * 3]
     servers = {"out.api": "server", "aux.api": "other"}
-    return _Cast(calls, servers, {"server": (_trace("in.api", "alpha", "info"),)}).scenario(*_read(1))
+    return _Configuration(calls, servers, {"server": (_trace("in.api", "alpha", "info"),)}).scenario(*_read(1))
 
 
 def _nothing_to_trace() -> Scenario:
     """The client is called once for what is traced, and a second client for what is not."""
-    whole = _Cast([("out.api", "alpha")], _ONE, {"server": (_trace("in.api", "alpha", "info"),)}).scenario()
+    whole = _Configuration([("out.api", "alpha")], _ONE, {"server": (_trace("in.api", "alpha", "info"),)}).scenario()
     calls = (s.CallMethod("out.api", "beta"), s.CallMethod("out.api", "beta"))
     other = Declaration(
         ("in.api",), ("out.api",), plan={"exchange": calls}, policies=(_UNPROTECTED,), ports={"out.api": "calls"}
@@ -357,7 +357,7 @@ def _nothing_to_trace() -> Scenario:
 def _both_kinds() -> Scenario:
     """The client writes to the trace itself, too."""
     traces = (Policy(s.COMPONENT_TRACE, element=_TRACE), _trace("out.api", "alpha", "warning"))
-    whole = _Cast(_THREE_CALLS, _ONE, {"client": traces}).scenario(*_read(3))
+    whole = _Configuration(_THREE_CALLS, _ONE, {"client": traces}).scenario(*_read(3))
     client = whole.components["client"]
     written = s.CallMethod(_TRACE, "log", ("info", "calling"))
     own = msgspec.structs.replace(client, plan={"exchange": (written, *client.plan["exchange"])})
@@ -367,7 +367,7 @@ def _both_kinds() -> Scenario:
 def _two_ports() -> Scenario:
     calls = [("out.api", "alpha"), *[("aux.api", "beta")] * 2, *[("aux.api", "alpha")] * 2, *[("out.api", "beta")] * 3]
     traces = (_trace("out.api", "alpha", "info"), _trace("aux.api", "beta", "error"))
-    return _Cast(calls, {"out.api": "server", "aux.api": "other"}, {"client": traces}).scenario(*_read(3))
+    return _Configuration(calls, {"out.api": "server", "aux.api": "other"}, {"client": traces}).scenario(*_read(3))
 
 
 def _messages() -> Scenario:

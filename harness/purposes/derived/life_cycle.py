@@ -28,8 +28,14 @@ _HERMIT = Declaration()
 
 
 @dataclass(frozen=True)
-class Cast:
-    """Components, steps that change the state, and steps that only probe it."""
+class Configuration:
+    """Components, and what is done with them.
+
+    ``name``: for ids.
+    ``components``: by name.
+    ``moves``: steps that change the state.
+    ``probes``: steps that only observe it.
+    """
 
     name: str
     components: dict[str, Declaration]
@@ -38,11 +44,11 @@ class Cast:
 
 
 def generated_purposes(table: LifeCycleTable) -> list[TestPurpose]:
-    """One test purpose for each row of ``table`` that any cast can reach, in the table's order."""
+    """One test purpose for each row of ``table`` that any configuration can reach, in the table's order."""
     ways: dict[str, list[tuple[str, Scenario]]] = {}
-    for cast in _casts():
-        for row_id, count, scenario in _explore(table, cast):
-            ways.setdefault(row_id, []).append((f"{row_id}/{cast.name}/{count}", scenario))
+    for configuration in _casts():
+        for row_id, count, scenario in _explore(table, configuration):
+            ways.setdefault(row_id, []).append((f"{row_id}/{configuration.name}/{count}", scenario))
     return [
         TestPurpose(row.id, _clause(row), describe(row), (row.requirement,), tuple(ways[row.id]))
         for row in table.rows
@@ -60,17 +66,17 @@ def _clause(row: Row) -> str:
     return row.requirement.split("-")[1]
 
 
-def _explore(table: LifeCycleTable, cast: Cast) -> Iterator[tuple[str, int, Scenario]]:
+def _explore(table: LifeCycleTable, configuration: Configuration) -> Iterator[tuple[str, int, Scenario]]:
     numbers: dict[str, int] = {}
     kept: Counter[tuple[str, tuple[bool, ...]]] = Counter()
     seen: set[object] = set()
     queue: deque[tuple[ContainerCall, ...]] = deque([()])
     while queue:
         path = queue.popleft()
-        now = _replay(table, cast, path)
+        now = _replay(table, configuration, path)
         if now.runtime.destroyed:
             continue
-        for step in cast.probes + cast.moves:
+        for step in configuration.probes + configuration.moves:
             if not _bound(now, step):
                 continue
             seen_now = {(row.id, _kind(now, member)) for member, row in now.look(step).roles}
@@ -78,13 +84,13 @@ def _explore(table: LifeCycleTable, cast: Cast) -> Iterator[tuple[str, int, Scen
             kept.update(seen_now)
             for row_id in sorted(wanted):
                 numbers[row_id] = numbers.get(row_id, 0) + 1
-                yield row_id, numbers[row_id], Scenario(cast.components, (*path, step, *_afterwards(step)))
+                yield row_id, numbers[row_id], Scenario(configuration.components, (*path, step, *_afterwards(step)))
         if len(path) == _DEEPEST:
             continue
-        for step in cast.moves:
+        for step in configuration.moves:
             if not _bound(now, step) or _rebinds(now, step):
                 continue
-            then = _replay(table, cast, (*path, step))
+            then = _replay(table, configuration, (*path, step))
             key = _key(then)
             if key not in seen:
                 seen.add(key)
@@ -98,8 +104,8 @@ def _kind(now: Prediction, member: Member | None) -> tuple[bool, ...]:
     return bool(member.live_connections()), any(now.runtime.clients_of([member])), member.startups > 0
 
 
-def _replay(table: LifeCycleTable, cast: Cast, path: tuple[ContainerCall, ...]) -> Prediction:
-    prediction = Prediction(table, cast.components)
+def _replay(table: LifeCycleTable, configuration: Configuration, path: tuple[ContainerCall, ...]) -> Prediction:
+    prediction = Prediction(table, configuration.components)
     for step in path:
         prediction.perform(step)
     return prediction
@@ -157,7 +163,7 @@ def _key(prediction: Prediction) -> object:
     )
 
 
-def _casts() -> Iterator[Cast]:
+def _casts() -> Iterator[Configuration]:
     for container in (s.MANAGER, "box"):
         yield _pair(container)
     yield _fork()
@@ -176,7 +182,7 @@ def _within(container: str) -> tuple[ContainerCall, ...]:
     return () if container == s.MANAGER else (s.CreateContainer(container),)
 
 
-def _pair(container: str) -> Cast:
+def _pair(container: str) -> Configuration:
     moves: tuple[ContainerCall, ...] = (
         *_within(container),
         s.AddComponent("server", container),
@@ -209,13 +215,13 @@ def _pair(container: str) -> Cast:
     )
     if container != s.MANAGER:
         probes = (*probes, s.RemoveContainer(container), s.RemoveContainer(s.NIL), s.Start(), s.Stop())
-    return Cast(
+    return Configuration(
         "pair" if container == s.MANAGER else "pair-below", {"server": _SERVER, "client": _CLIENT}, moves, probes
     )
 
 
-def _fork() -> Cast:
-    return Cast(
+def _fork() -> Configuration:
+    return Configuration(
         "fork",
         {"server": _SERVER, "client": _FORK},
         (
@@ -238,8 +244,8 @@ def _fork() -> Cast:
     )
 
 
-def _mirror() -> Cast:
-    return Cast(
+def _mirror() -> Configuration:
+    return Configuration(
         "mirror",
         {
             "mirror": Declaration(("in.api",), ("out.api",), {}, True),
@@ -258,9 +264,9 @@ def _mirror() -> Cast:
     )
 
 
-def _kinds() -> Cast:
+def _kinds() -> Configuration:
     relay = Declaration(("in.api",), ("out.api",), {}, True)
-    return Cast(
+    return Configuration(
         "kinds",
         {"component": relay, "fragment": Declaration(("in.api",), (), {}, False, True), "plain": _HERMIT},
         (
@@ -283,9 +289,9 @@ def _kinds() -> Cast:
     )
 
 
-def _used_relay() -> Cast:
+def _used_relay() -> Configuration:
     relay = Declaration(("in.api",), ("out.api",), {}, True)
-    return Cast(
+    return Configuration(
         "used-relay",
         {"relay": relay, "client": _CLIENT},
         (
@@ -298,8 +304,8 @@ def _used_relay() -> Cast:
     )
 
 
-def _loose_client() -> Cast:
-    return Cast(
+def _loose_client() -> Configuration:
+    return Configuration(
         "not-connectable",
         {"server": _SERVER, "client": Declaration(requires=("out.api",))},
         (
@@ -315,8 +321,8 @@ def _loose_client() -> Cast:
     )
 
 
-def _containers() -> Cast:
-    return Cast(
+def _containers() -> Configuration:
+    return Configuration(
         "containers",
         {"here": _HERMIT, "there": _CLIENT, "top": _HERMIT},
         (
@@ -340,8 +346,8 @@ def _containers() -> Cast:
     )
 
 
-def _across() -> Cast:
-    return Cast(
+def _across() -> Configuration:
+    return Configuration(
         "across",
         {"server": _SERVER, "client": _CLIENT},
         (
@@ -365,9 +371,9 @@ def _across() -> Cast:
     )
 
 
-def _strangers() -> Cast:
+def _strangers() -> Configuration:
     """Identifiers are used with a container that did not give them out."""
-    return Cast(
+    return Configuration(
         "strangers",
         {"server": _SERVER, "client": Declaration(("in.api",), ("out.api",), {}, True)},
         (
@@ -389,10 +395,10 @@ def _strangers() -> Cast:
     )
 
 
-def _failing(hook: s.Hook) -> Cast:
+def _failing(hook: s.Hook) -> Configuration:
     broken = Declaration(plan={hook: (s.RaiseError(),)})
     broken_client = Declaration(requires=("out.api",), plan={hook: (s.RaiseError(),)})
-    return Cast(
+    return Configuration(
         f"failing-{hook}",
         {"raising": broken, "sound": _HERMIT, "raising-client": broken_client},
         (s.AddComponent("sound"), s.AddComponent("raising"), s.AddComponent("raising-client"), s.Start(), s.Stop()),

@@ -35,7 +35,7 @@ _INTERFACES = {_NUMBERS: message_interface(_NUMBER), _NOTES: message_interface(_
 
 
 @dataclass
-class _Cast:
+class _Configuration:
     """A scenario in the making: its components, the steps that set it up, and where each component is."""
 
     is_spread: bool
@@ -111,16 +111,18 @@ def _groups() -> list[TestPurpose]:
 
 
 def _group(emitters: int, receivers: int, is_spread: bool, at_once: bool) -> Scenario:
-    cast = _Cast(is_spread)
-    cast.link("link", _NUMBERS)
+    configuration = _Configuration(is_spread)
+    configuration.link("link", _NUMBERS)
     for number in range(receivers):
-        cast.add_receiver(f"receiver {number}", "link", receiver("got"))
+        configuration.add_receiver(f"receiver {number}", "link", receiver("got"))
     names = [f"emitter {number}" for number in range(emitters)]
     for number, name in enumerate(names):
-        cast.add_emitter(name, "link", emitter([10 * (number + 1) + k for k in range(_MESSAGES)]))
+        configuration.add_emitter(name, "link", emitter([10 * (number + 1) + k for k in range(_MESSAGES)]))
     due = emitters * _MESSAGES * receivers
     calls = [s.OpenGate("got"), *_told(names, at_once), s.ReachGate("got", total=due)]
-    return cast.scenario([*calls, *_told(names[:1], False), s.ReachGate("got", total=due + _MESSAGES * receivers)])
+    return configuration.scenario(
+        [*calls, *_told(names[:1], False), s.ReachGate("got", total=due + _MESSAGES * receivers)]
+    )
 
 
 def _told(names: Sequence[str], at_once: bool) -> list[Step]:
@@ -160,58 +162,58 @@ def _message(interface: str, number: int) -> Datum:
 
 
 def _two_connections(second: str, count: int, is_spread: bool, at_once: bool) -> Scenario:
-    cast = _Cast(is_spread)
+    configuration = _Configuration(is_spread)
     names = []
     for link, interface in (("left", _NUMBERS), ("right", second)):
-        cast.link(link, interface)
+        configuration.link(link, interface)
         for number in range(count):
-            cast.add_receiver(f"{link} receiver {number}", link, receiver(f"got {link}", interface))
+            configuration.add_receiver(f"{link} receiver {number}", link, receiver(f"got {link}", interface))
     for number, (link, interface) in itertools.product(range(count), (("left", _NUMBERS), ("right", second))):
         first = 10 * (number + 1) + 100 * (link == "right")
         names.append(f"{link} emitter {number}")
         pushed = [_message(interface, first + k) for k in range(_MESSAGES)]
-        cast.add_emitter(names[-1], link, emitter(pushed, interface))
+        configuration.add_emitter(names[-1], link, emitter(pushed, interface))
     calls: list[Step] = [s.OpenGate("got left"), s.OpenGate("got right")]
     for round_ in (1, 2):  # a late message of the first round has arrived by the end of the second
         due = round_ * count * count * _MESSAGES
         calls += [*_told(names, at_once), s.ReachGate("got left", total=due), s.ReachGate("got right", total=due)]
-    return cast.scenario(calls)
+    return configuration.scenario(calls)
 
 
 def _receiver_of_two(second: str) -> Scenario:
     """One component receives from both, through two port elements; another one emits to both."""
-    cast = _Cast(False)
+    configuration = _Configuration(False)
     both = {"in.api": _NUMBERS, "aux.api": second}
     plan = (s.HoldAtGate("got"), s.Answer(s.PUSH, ("ok",)))
-    cast.link("left", _NUMBERS)
-    cast.link("right", second)
-    cast.add("receiver", Declaration(("in.api", "aux.api"), plan={"method": plan}, ports=both))
+    configuration.link("left", _NUMBERS)
+    configuration.link("right", second)
+    configuration.add("receiver", Declaration(("in.api", "aux.api"), plan={"method": plan}, ports=both))
     pushes = (
         s.CallMethod("left.api", s.PUSH, (1,)),
         s.CallMethod("right.api", s.PUSH, (_message(second, 2),)),
     )
     ports = {"left.api": _NUMBERS, "right.api": second}
     declaration = Declaration(("in.api",), ("left.api", "right.api"), plan={"exchange": pushes}, ports=ports)
-    cast.add("emitter", declaration)
+    configuration.add("emitter", declaration)
     for link, port in (("left", "in.api"), ("right", "aux.api")):
-        cast.steps.append(s.Attach(link, "receiver", "receiver", port))
-        cast.steps.append(s.Attach(link, "emitter", "emitter", f"{link}.api"))
-    cast.steps.append(s.GetPortElement("emitter", "in.api", "tell emitter"))
+        configuration.steps.append(s.Attach(link, "receiver", "receiver", port))
+        configuration.steps.append(s.Attach(link, "emitter", "emitter", f"{link}.api"))
+    configuration.steps.append(s.GetPortElement("emitter", "in.api", "tell emitter"))
     calls: list[Step] = [s.OpenGate("got")]
     for round_ in (1, 2):
         calls += [*_told(["emitter"], False), s.ReachGate("got", total=2 * round_)]
-    return cast.scenario(calls)
+    return configuration.scenario(calls)
 
 
 def _stop_meanwhile() -> TestPurpose:
     """A receiver is stopped and started again while its emitter goes on pushing; another one gets everything."""
-    cast = _Cast(True)
-    cast.link("link", _NUMBERS)
-    cast.add_receiver("stopped", "link", receiver("got"))
-    cast.add_receiver("watch", "link", receiver("seen"))
-    cast.add_emitter("emitter", "link", emitter(range(1, _MANY + 1)))
-    cast.add_emitter("later", "link", emitter(range(101, 101 + _MANY)))
-    place = cast.places["stopped"]
+    configuration = _Configuration(True)
+    configuration.link("link", _NUMBERS)
+    configuration.add_receiver("stopped", "link", receiver("got"))
+    configuration.add_receiver("watch", "link", receiver("seen"))
+    configuration.add_emitter("emitter", "link", emitter(range(1, _MANY + 1)))
+    configuration.add_emitter("later", "link", emitter(range(101, 101 + _MANY)))
+    place = configuration.places["stopped"]
     calls: list[Step] = [
         s.OpenGate("got"),
         s.OpenGate("seen"),
@@ -228,7 +230,10 @@ def _stop_meanwhile() -> TestPurpose:
     ]
     text = "A receiver is stopped and started again while its emitter goes on pushing."
     return _purpose(
-        "messages/stop meanwhile", text, ("09", "04"), (("messages/stop meanwhile", cast.scenario(calls, 1000)),)
+        "messages/stop meanwhile",
+        text,
+        ("09", "04"),
+        (("messages/stop meanwhile", configuration.scenario(calls, 1000)),),
     )
 
 
@@ -245,18 +250,18 @@ def _bursts() -> list[TestPurpose]:
 
 
 def _burst(emitters: int, receivers: int, count: int) -> Scenario:
-    cast = _Cast(False)
-    cast.link("link", _NUMBERS)
+    configuration = _Configuration(False)
+    configuration.link("link", _NUMBERS)
     counting = Declaration(("in.api",), plan={"method": (s.CountMessages(),)}, ports={"in.api": _NUMBERS})
     for number in range(receivers):
-        cast.add_receiver(f"receiver {number}", "link", counting)
+        configuration.add_receiver(f"receiver {number}", "link", counting)
     names = [f"emitter {number}" for number in range(emitters)]
     for number, name in enumerate(names):
         plan = {"exchange": (s.Burst("out.api", number * _BLOCK, count),)}
         burst = Declaration(("in.api",), ("out.api",), plan=plan, ports={"out.api": _NUMBERS})  # type: ignore[arg-type]
-        cast.add_emitter(name, "link", burst)
+        configuration.add_emitter(name, "link", burst)
     waits: list[Step] = [s.AwaitMessages(f"receiver {number}", emitters * count) for number in range(receivers)]
-    return cast.scenario([*_told(names, True), *waits], 10_000, tuple(_worker_of(name) for name in names))
+    return configuration.scenario([*_told(names, True), *waits], 10_000, tuple(_worker_of(name) for name in names))
 
 
 def _purpose(

@@ -43,7 +43,7 @@ _PLACES: dict[str, tuple[str, ...]] = {
 
 
 @dataclass
-class _Cast:
+class _Configuration:
     """A scenario in the making: a server and its clients, in the containers that ``places`` names for each."""
 
     places: Sequence[str]
@@ -51,7 +51,7 @@ class _Cast:
     components: dict[str, Declaration] = field(default_factory=dict)
     steps: list[Step] = field(default_factory=list)
 
-    def begin(self, server: Declaration, clients: int, calls: Sequence[s.CallMethod]) -> _Cast:
+    def begin(self, server: Declaration, clients: int, calls: Sequence[s.CallMethod]) -> _Configuration:
         """Add, attach and start the server and the clients, each client with arguments of its own."""
         self.steps += [s.CreateContainer(place) for place in self.containers if place != s.MANAGER]
         self.steps.append(s.Link("simple_service_connector", "service", _LINK))
@@ -123,9 +123,9 @@ def _directions() -> TestPurpose:
         calls = [s.CallMethod("out.api", name, _numbers(len(m.arguments), 1)) for name, m in methods.items()]
         answers = tuple(s.Answer(name, _numbers(len(m.results), 51)) for name, m in methods.items())
         server = Declaration(("in.api",), plan={"method": answers}, ports={"in.api": "service"})
-        cast = _Cast(_PLACES["one container"], Interface(methods)).begin(server, 1, calls)
-        cast.steps.append(s.Invoke("tell 0", 1))
-        scenarios.append((f"services/{', '.join(chosen) or 'no parameters'}", cast.end()))
+        configuration = _Configuration(_PLACES["one container"], Interface(methods)).begin(server, 1, calls)
+        configuration.steps.append(s.Invoke("tell 0", 1))
+        scenarios.append((f"services/{', '.join(chosen) or 'no parameters'}", configuration.end()))
     text = "A client calls methods with parameters of every combination of directions."
     return _purpose("services/directions", text, ("08", "01"), scenarios)
 
@@ -143,9 +143,9 @@ def _numbers(count: int, first: int) -> tuple[Datum, ...]:
 def _one_by_one() -> TestPurpose:
     scenarios = []
     for (place, places), clients in itertools.product(_PLACES.items(), (1, 2, 3)):
-        cast = _Cast(places[: clients + 1]).begin(_echoing(), clients, [_echo(1), _echo(2)])
-        cast.steps += [s.Invoke(f"tell {number}", number + 1) for number in (*range(clients), 0)]
-        scenarios.append((f"services/{clients} of {place}, one by one", cast.end()))
+        configuration = _Configuration(places[: clients + 1]).begin(_echoing(), clients, [_echo(1), _echo(2)])
+        configuration.steps += [s.Invoke(f"tell {number}", number + 1) for number in (*range(clients), 0)]
+        scenarios.append((f"services/{clients} of {place}, one by one", configuration.end()))
     text = "Clients in one container and in several call one server, one after the other."
     return _purpose("services/one by one", text, ("03", "01"), scenarios)
 
@@ -156,10 +156,10 @@ def _at_once() -> list[TestPurpose]:
         scenarios = []
         for (place, places), clients in itertools.product(_PLACES.items(), (2, 3)):
             server = _echoing(policies, s.HoldAtGate(_GATE))
-            cast = _Cast(places[: clients + 1]).begin(server, clients, [_echo(1), _echo(2)])
-            cast.call_at_once(clients)
-            cast.let_go(clients)
-            scenarios.append((f"services/{policy}, {clients} of {place}, at once", cast.end()))
+            configuration = _Configuration(places[: clients + 1]).begin(server, clients, [_echo(1), _echo(2)])
+            configuration.call_at_once(clients)
+            configuration.let_go(clients)
+            scenarios.append((f"services/{policy}, {clients} of {place}, at once", configuration.end()))
         text = f"Clients call while the first is held inside the server, which has {policy}."
         purposes.append(_purpose(f"services/{policy}, at once", text, ("04", "11", "03"), scenarios))
     return purposes
@@ -190,15 +190,15 @@ def _in_flight() -> list[TestPurpose]:
             if (kind, place) == (kinds[0], "one container") or (place == "three containers" and clients == 1):
                 continue  # as the server's, and as elsewhere
             server = _echoing(_POLICIES[policy], s.HoldAtGate(_GATE))
-            cast = _Cast(places[: clients + 1]).begin(server, clients, [_echo(1)])
-            cast.call_at_once(clients)
+            configuration = _Configuration(places[: clients + 1]).begin(server, clients, [_echo(1)])
+            configuration.call_at_once(clients)
             step = kind.step(places)
-            cast.steps += [step, s.Settle("meanwhile")]
-            cast.let_go(clients)
-            cast.steps.append(s.Join("meanwhile"))
+            configuration.steps += [step, s.Settle("meanwhile")]
+            configuration.let_go(clients)
+            configuration.steps.append(s.Join("meanwhile"))
             stopped = (step.container,) if isinstance(step, s.Stop) else ()
             name = f"services/{kind.name} {kind.whose} of {place}, {policy}, {clients} calling"
-            scenarios.append((name, cast.end(*stopped)))
+            scenarios.append((name, configuration.end(*stopped)))
         what = "The container of {} is stopped" if kind.name == "stop" else "{} is detached"
         text = f"{what.format(f'the {kind.whose.split()[0]}')} while the server is held."
         text = text[0].upper() + text[1:]

@@ -53,7 +53,12 @@ class Move(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Machine:
-    """``moves`` has, for each state, the transition of each input that is defined there; ``outputs`` are numbered."""
+    """A finite Mealy machine.
+
+    ``inputs``: by number.
+    ``outputs``: by number.
+    ``moves``: for each state, the transition of each defined input.
+    """
 
     inputs: tuple[str, ...]
     outputs: tuple[Permitted, ...]

@@ -33,7 +33,13 @@ class Input:
 
 @dataclass(frozen=True)
 class Setting:
-    """Components by name, and the inputs; ``text`` describes it for readers."""
+    """A system that a machine is derived for.
+
+    ``name``: for ids.
+    ``text``: for readers.
+    ``components``: by name.
+    ``inputs``: of the machine.
+    """
 
     name: str
     text: str
