@@ -130,8 +130,8 @@ def tables() -> Iterator[Table]:
     )
     other.add_row("whole container run, s", *(f"{whole[n]:.2f}" for n in whole), limit(10, *whole.values()))
     each, number = _one_mutant()
-    told = f"{each / whole['reference-py']:.1f} × the run of the framework it was made of"
-    other.add_row(f"one mutant of the kill matrix, of {len(SAMPLE)}, s", "", f"{each:.2f}", told)
+    note = f"{each / whole['reference-py']:.1f} × the run of the framework it was made of"
+    other.add_row(f"one mutant of the kill matrix, of {len(SAMPLE)}, s", "", f"{each:.2f}", note)
     other.add_row(f"all {number} of these clauses, two at a time, min", "", f"{each * number / 120:.1f}", "from that")
     yield other
 

@@ -53,8 +53,8 @@ def _read(path: Path) -> None:
 
 
 def _check(path: Path) -> None:
-    _, told = reference().check(path.read_bytes(), path.name)
-    assert not told, told[:3]
+    _, problems = reference().check(path.read_bytes(), path.name)
+    assert not problems, problems[:3]
 
 
 WAYS: dict[str, Callable[[Path], None]] = {

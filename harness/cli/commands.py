@@ -208,8 +208,8 @@ def _name(identity: Welcome) -> str:
 
 
 def _tell_who(identity: Welcome, profile: str, seed: int, console: Output) -> None:
-    told = f"UCM-CTS {ucm_cts.__version__}: {_name(identity)}, profile {profile}, seed {seed}"
-    console.print(told, markup=False, soft_wrap=True)
+    text = f"UCM-CTS {ucm_cts.__version__}: {_name(identity)}, profile {profile}, seed {seed}"
+    console.print(text, markup=False, soft_wrap=True)
 
 
 def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output, which: str = "") -> None:
@@ -296,8 +296,8 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
             console.out(replay_text(execution), highlight=False)
             if execution.incident is not None:
                 failed = True
-                told = f"{clean(execution.incident.detail)}\n{clean(execution.incident.stacks, LONGEST_STACKS)}"
-                console.out(f"\n{execution.incident.kind}: {told}", highlight=False)
+                text = f"{clean(execution.incident.detail)}\n{clean(execution.incident.stacks, LONGEST_STACKS)}"
+                console.out(f"\n{execution.incident.kind}: {text}", highlight=False)
                 continue
             findings = [driver.reveal(f) for f in monitor.judge(answer.disguised, answer.trace).findings]
             for finding in findings:

@@ -40,8 +40,8 @@ def compare(reports: Sequence[Path], out: Path) -> None:
         raise WrongUse(f"'{out}' cannot be written: {error.strerror}; choose another --out") from None
     for column in comparison.columns:
         counts = count(column.report.requirements)
-        told = ", ".join(f"{number} {verdict}" for verdict, number in counts.items() if number)
-        console.print(f"{one_line(column.name, 80)}: {told}", markup=False, soft_wrap=True)
+        summary = ", ".join(f"{number} {verdict}" for verdict, number in counts.items() if number)
+        console.print(f"{one_line(column.name, 80)}: {summary}", markup=False, soft_wrap=True)
     shared = comparison.shared
     apart = sum(row.differs for row in shared)
     console.print(

@@ -56,10 +56,10 @@ def explanation(identifier: str) -> RenderableType:
     if purposes:
         lines += [Text(), Text("Scenarios that exercise it:", style="bold")]
         lines += [Text(f"  {p.id}: {p.text} ({_count(len(p.scenarios))})") for p in purposes]
-    asked = [q for q in questions() if q.requirement == requirement.id] if requirement.profile == "pim" else []
-    if asked:
+    cases = [q for q in questions() if q.requirement == requirement.id] if requirement.profile == "pim" else []
+    if cases:
         lines += [Text(), Text("Models that ask about it:", style="bold")]
-        lines += [Text(f"  {q.due} {q.name}{f': {q.because}' if q.because else ''}") for q in asked]
+        lines += [Text(f"  {q.due} {q.name}{f': {q.because}' if q.because else ''}") for q in cases]
     return Group(*lines)
 
 

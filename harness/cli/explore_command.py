@@ -173,10 +173,10 @@ def _progress(console: Output) -> Progress:
 
 
 def _show(progress: Progress, task: TaskID, far: HowFar, spent: float) -> None:
-    told = (
+    text = (
         f"{far.scenarios} scenarios, {far.rows} of {far.of} rows, {far.events} pairs of events, {far.failures} failures"
     )
-    progress.update(task, description=told, completed=spent)
+    progress.update(task, description=text, completed=spent)
 
 
 def _remember(report: Report, memory: Memory) -> None:

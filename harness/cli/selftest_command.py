@@ -104,8 +104,8 @@ def _list(
     chosen: Sequence[Subject | ToolChainSubject], cheats: Sequence[str], models: Sequence[str], console: Output
 ) -> None:
     for subject in chosen:
-        told = f"breaks {', '.join(subject.breaks)}: {subject.lie}" if subject.breaks else "is conformant"
-        console.print(f"{subject.name} {told}", markup=False, soft_wrap=True)
+        text = f"breaks {', '.join(subject.breaks)}: {subject.lie}" if subject.breaks else "is conformant"
+        console.print(f"{subject.name} {text}", markup=False, soft_wrap=True)
     for name in cheats:
         console.print(f"{name} cheats: {all_cheats()[name].lie}", markup=False, soft_wrap=True)
     for requirement in models:

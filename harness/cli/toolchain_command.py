@@ -65,8 +65,8 @@ def certify_toolchain(
     console.print(summary(report, out))
     outdated = stale(known, report.requirements) if not expression and not interrupted else []
     for entry in outdated:
-        told = f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it"
-        console.print(told, markup=False, soft_wrap=True)
+        text = f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it"
+        console.print(text, markup=False, soft_wrap=True)
     if interrupted:
         console.print("interrupted: the report holds what was measured so far")
     status = NOT_CONFORMANT if outdated or interrupted or not succeeded(report) else CONFORMANT

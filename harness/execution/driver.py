@@ -149,8 +149,8 @@ class Driver:
                     lost = incident is not None and incident.kind in _HOST_IS_GONE
                     if incident is not None and lost:
                         self._patience.spend(time.monotonic() - began, case.run.scenario, incident, trace)
-                    told = isinstance(reply.reply, Traced) and incident is not None and incident.kind == "hang"
-                    yield Answer(case.name, case.scenario, case.run.scenario, trace, incident, told)
+                    is_whole = isinstance(reply.reply, Traced) and incident is not None and incident.kind == "hang"
+                    yield Answer(case.name, case.scenario, case.run.scenario, trace, incident, is_whole)
                     if lost:
                         break
                     began = time.monotonic()
@@ -170,12 +170,12 @@ class Driver:
 
         The trace is empty if there is none that can be believed. May be called between two answers of a ``run``.
         """
-        asked = _lasting(scenario, circumstances.patience)
-        disguised = self.disguise.scenario(asked)
+        scaled = _lasting(scenario, circumstances.patience)
+        disguised = self.disguise.scenario(scaled)
         reply = self._hosts.run_again(Run(next(self._numbers), disguised), circumstances.one_core).reply
         if not isinstance(reply, Traced) or contradiction(disguised, reply.events, bool(reply.stuck)) is not None:
-            return Answer(name, asked, disguised, ())
-        return Answer(name, asked, disguised, reply.events)
+            return Answer(name, scaled, disguised, ())
+        return Answer(name, scaled, disguised, reply.events)
 
     def reveal(self, value: T) -> T:
         """``value`` in the script's own names."""

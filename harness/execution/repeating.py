@@ -80,8 +80,8 @@ def _result(results: Sequence[RequirementResult], reports: Sequence[Report], ste
     if len(verdicts) == 1:
         findings = _joined(results)
         return msgspec.structs.replace(worst, exercised=exercised, findings=findings)
-    told = ", ".join(f"{verdict} in {number}" for verdict, number in verdicts.most_common())
-    reason = f"unstable: of {len(results)} runs with other seeds {told}"
+    counts = ", ".join(f"{verdict} in {number}" for verdict, number in verdicts.most_common())
+    reason = f"unstable: of {len(results)} runs with other seeds {counts}"
     kept = [r.seed for r, result in zip(reports, results, strict=True) if result.verdict == "pass"][:SEEDS]
 
     def other(failed: FailedExecution) -> Execution | None:

@@ -66,7 +66,7 @@ class Progress:
     failures: int
 
 
-Fate = Literal["still there", "no longer shown", "not told"]
+Fate = Literal["still there", "no longer shown", "unknown"]
 """The fate of a remembered failure; None if an incident or the end of the time came first."""
 
 
@@ -191,7 +191,7 @@ def _is_told(one: Remembered, checked: Checked) -> bool:
 def _fate(is_missing: bool, is_gone: bool) -> Fate:
     if is_gone:
         return "no longer shown"
-    return "not told" if is_missing else "still there"
+    return "unknown" if is_missing else "still there"
 
 
 def _purpose(name: str, scenario: Scenario) -> TestPurpose:

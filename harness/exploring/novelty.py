@@ -58,8 +58,8 @@ class Events:
 
 
 def _kind(scenario: Scenario, event: Event) -> Kind:
-    told = [type(event).__name__]
+    features = [type(event).__name__]
     if isinstance(event, Call | Return | Raise):
-        told.append(s.operation(scenario.steps[event.step]))
-    told += [str(getattr(event, field, "")) for field in ("hook", "error", "raised", "exception")]
-    return tuple(told)
+        features.append(s.operation(scenario.steps[event.step]))
+    features += [str(getattr(event, field, "")) for field in ("hook", "error", "raised", "exception")]
+    return tuple(features)

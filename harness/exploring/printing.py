@@ -26,7 +26,7 @@ FILE = "exploration.json"
 SHOWN = 20
 """How many failures, and how many incidents, the terminal shows; the file has all."""
 
-_COLOURS: dict[Fate, str] = {"still there": "red", "no longer shown": "green", "not told": "yellow"}
+_COLOURS: dict[Fate, str] = {"still there": "red", "no longer shown": "green", "unknown": "yellow"}
 
 _STEPS = 12
 """How many steps of the shortest scenario the terminal shows."""
@@ -150,8 +150,8 @@ def _found(report: Report, far: Progress, known: Sequence[Replayed]) -> Found:
 
 def _mishap(report: Report, number: int, item: IncidentReport) -> Mishap:
     cause, file = cause_of_incident(item.execution), incident_file(number)
-    told = item.incident.kind, item.incident.detail, cause.operation, item.occurrences, _steps(item.execution)
-    return Mishap(*told, file, replay_command(file, report))
+    fields = item.incident.kind, item.incident.detail, cause.operation, item.occurrences, _steps(item.execution)
+    return Mishap(*fields, file, replay_command(file, report))
 
 
 def _known(replayed: Replayed) -> Known:
@@ -170,9 +170,9 @@ def _failures(report: Report) -> tuple[Failure, ...]:
 
 def _failure(report: Report, result: RequirementResult, number: int, failed: FailedExecution) -> Failure:
     finding, file = failed.finding, file_name(result.id, number)
-    told = result.id, result.clause, result.title, finding.rule, finding.cause, finding.expected, finding.observed
+    fields = result.id, result.clause, result.title, finding.rule, finding.cause, finding.expected, finding.observed
     steps = _steps(failed.execution) if failed.execution is not None else ()
-    return Failure(*told, failed.occurrences, steps, file, replay_command(file, report), failed.unstable)
+    return Failure(*fields, failed.occurrences, steps, file, replay_command(file, report), failed.unstable)
 
 
 def _steps(execution: Execution) -> tuple[str, ...]:
@@ -230,8 +230,8 @@ def found_text(report: Report, far: Progress, out: Path) -> RenderableType:
     for number, item in incidents[:SHOWN]:
         often = f"{item.occurrences} times" if item.occurrences > 1 else "once"
         what = f"{one_line(item.incident.detail, 160)}{during(cause_of_incident(item.execution))}"
-        told = f"  {often}  {incident_file(number)}  {what}"
-        lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), told)))
+        text = f"  {often}  {incident_file(number)}  {what}"
+        lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), text)))
     if len(incidents) > SHOWN:
         lines.append(Text(f"and {len(incidents) - SHOWN} more causes of incidents"))
     waiting = sum(item.occurrences for item in report.incidents if is_waiting(item.execution))

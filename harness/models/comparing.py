@@ -213,9 +213,9 @@ class Comparing:
             fact, there = _KEPT, theirs.attributes.get(attribute, "")
             if not self._equal(attribute, value, ours, theirs):
                 strange = _is_strange(attribute, value, there) if there else set(theirs.attributes) - KNOWN_ATTRIBUTES
-                told = f"{attribute} {there}" if there else f"no {attribute}" if value else ""
+                text = f"{attribute} {there}" if there else f"no {attribute}" if value else ""
                 status: Status = "unclear" if strange or theirs.tag not in KNOWN_TAGS else "broken"
-                fact = Fact(status, f"{attribute} {value}" if value else f"no {attribute}", f"{told} ({theirs.where})")
+                fact = Fact(status, f"{attribute} {value}" if value else f"no {attribute}", f"{text} ({theirs.where})")
             self._file(declaration.requirement, attribute, fact)
 
     def _equal(self, attribute: str, value: str, ours: Element, theirs: Element) -> bool:
@@ -246,13 +246,13 @@ class Comparing:
             strangers = [c for c in theirs.children if c.tag == tag and c not in found and (tag, c.name) not in names]
             wanted = sum(o.tag == tag and t is None and not self._may_be_missing(o) for o, t in pairs)
             requirement = declaration.beyond.get(tag) or _SPEAKS_OF.get(tag, _SPEAKS_OF_ALL_OTHERS)
-            told = ", ".join(f"{tag} {c.name} ({c.where})" for c in strangers)
-            self._note(requirement, f"{place} {tag}", f"no further {tag} in {place}", told, len(strangers) <= wanted)
+            text = ", ".join(f"{tag} {c.name} ({c.where})" for c in strangers)
+            self._note(requirement, f"{place} {tag}", f"no further {tag} in {place}", text, len(strangers) <= wanted)
         if ours.tag in ("Interface", "TechnicalPolicyDefinition"):
             for attribute in _INHERITING:
                 parent = theirs.attributes.get(attribute, "")
-                told = f"{attribute} {parent} ({theirs.where})"
-                self._note(_SPEAKS_OF_ALL_OTHERS, f"{place} {attribute}", f"{place} inherits nothing", told, not parent)
+                text = f"{attribute} {parent} ({theirs.where})"
+                self._note(_SPEAKS_OF_ALL_OTHERS, f"{place} {attribute}", f"{place} inherits nothing", text, not parent)
 
     def _may_be_missing(self, ours: Element) -> bool:
         return any(r.missing and self._accepts(r) for r in self.declarations[ours].readings)

@@ -137,10 +137,10 @@ def _results(facts: Mapping[str, Mapping[str, Fact]]) -> Iterator[ModelResult]:
 def _result(requirement: str, check: str, facts: list[Fact]) -> ModelResult:
     """The worst of ``facts`` decides; present and absent facts together count as kept."""
     for status in _WORST_FIRST:
-        telling = [fact for fact in facts if fact.status == status]
-        if telling:
-            expected = "; ".join(dict.fromkeys(fact.expected for fact in telling if fact.expected))
-            observed = "; ".join(dict.fromkeys(fact.observed for fact in telling if fact.observed))
+        decisive = [fact for fact in facts if fact.status == status]
+        if decisive:
+            expected = "; ".join(dict.fromkeys(fact.expected for fact in decisive if fact.expected))
+            observed = "; ".join(dict.fromkeys(fact.observed for fact in decisive if fact.observed))
             return ModelResult(requirement, check, status, *(("", "") if status == "kept" else (expected, observed)))
     return ModelResult(requirement, check, "absent", observed="there is no model to look at")
 

@@ -117,15 +117,15 @@ def compare(setting: Setting, readings: Mapping[str, str], extra: int, seed: int
 
 def systematic_suites(machine: Machine, extra: int) -> dict[str, Callable[[], Suite]]:
     """The one whose budget the rivals get comes first."""
-    told = {"tour": lambda: tour(machine)}
+    suites = {"tour": lambda: tour(machine)}
     if not machine.final:
-        return told
+        return suites
     return {
         f"HSI, k={extra}": lambda: hsi(machine, extra),
         f"Wp, k={extra}": lambda: wp(machine, extra),
         f"W, k={extra}": lambda: w(machine, extra),
         "transition cover": lambda: transition_cover(machine),
-        **told,
+        **suites,
     }
 
 

@@ -46,9 +46,9 @@ class _Derivation:
             state, now = waiting.popleft()
             moves.append({})
             for number, meant in enumerate(self.setting.inputs):
-                asked = _named(now.runtime, meant)
-                ongoing = now.look(asked.step)
-                after = self.after(now, state, asked, ongoing) if is_defined(now, ongoing) else None
+                given = _named(now.runtime, meant)
+                ongoing = now.look(given.step)
+                after = self.after(now, state, given, ongoing) if is_defined(now, ongoing) else None
                 if after is None:
                     continue
                 reached, then, way = after
@@ -60,9 +60,9 @@ class _Derivation:
         return Machine(tuple(i.name for i in self.setting.inputs), tuple(self.outputs), tuple(moves))
 
     def after(
-        self, now: Prediction, state: State, asked: Input, ongoing: OperationInProgress
+        self, now: Prediction, state: State, given: Input, ongoing: OperationInProgress
     ) -> tuple[State, Prediction, Way] | None:
-        """The one known state that ``asked`` leads to, the model in that state, and a way there; None unless there is
+        """The one known state that ``given`` leads to, the model in that state, and a way there; None unless there is
         just one.
         """
         reached: dict[State, tuple[Prediction, Way]] = {}
@@ -71,17 +71,17 @@ class _Derivation:
                 continue
             if ongoing.forgiving and way.answer == "UCM_ERROR":
                 return None  # perhaps for a reason that the table does not know: the judge loses track
-            if _changes_nothing(asked.step, way):
+            if _changes_nothing(given.step, way):
                 reached.setdefault(state, (now, way))
                 continue
             then = now.fork()
-            then.carry_out(asked.step, way)
+            then.carry_out(given.step, way)
             after = state_of(then.runtime)
             if after is None and not _is_half_done(way):
                 return None
             if after is None or after in reached:
                 continue
-            for step in asked.follow if way.answer == "return" else ():
+            for step in given.follow if way.answer == "return" else ():
                 then.perform(step)
             reached[after] = then, way
         if len(reached) != 1:
@@ -96,13 +96,13 @@ class _Derivation:
         return Permitted(tuple(seen), ongoing.forgiving)
 
 
-def _named(runtime: Runtime, asked: Input) -> Input:
+def _named(runtime: Runtime, given: Input) -> Input:
     """A container that does not exist is a null reference."""
-    if isinstance(asked.step, s.RemoveContainer):
-        container = runtime.containers.get(asked.step.container)
+    if isinstance(given.step, s.RemoveContainer):
+        container = runtime.containers.get(given.step.container)
         if container is None or container.removed:
-            return Input(asked.name, s.RemoveContainer(s.NIL))
-    return asked
+            return Input(given.name, s.RemoveContainer(s.NIL))
+    return given
 
 
 def is_defined(now: Prediction, ongoing: OperationInProgress) -> bool:

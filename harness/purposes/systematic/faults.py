@@ -42,31 +42,31 @@ class Subject:
 
     def __post_init__(self) -> None:
         for state, moves in enumerate(self.machine.moves):
-            for asked, move in moves.items():
-                self._usual[state, asked] = move.next, self.machine.outputs[move.output].observations[0]
+            for given, move in moves.items():
+                self._usual[state, given] = move.next, self.machine.outputs[move.output].observations[0]
 
     @cached_property
     def anywhere(self) -> dict[int, Observation]:
         """The output of an input in the first state that has it."""
         shown: dict[int, Observation] = {}
-        for (_, asked), (_, seen) in self._usual.items():
-            shown.setdefault(asked, seen)
+        for (_, given), (_, seen) in self._usual.items():
+            shown.setdefault(given, seen)
         return shown
 
-    def react(self, fault: Fault, state: int, asked: int) -> tuple[int, Observation]:
+    def react(self, fault: Fault, state: int, given: int) -> tuple[int, Observation]:
         """What the implementation with ``fault`` does in its ``state``, and where it is then."""
-        changed = fault.changes.get((state, asked))
+        changed = fault.changes.get((state, given))
         if changed is not None:
             return changed
         known = len(self.machine.moves)
-        usual = self._usual.get((fault.twins[state - known] if state >= known else state, asked))
-        return usual if usual is not None else (state, self.anywhere[asked])
+        usual = self._usual.get((fault.twins[state - known] if state >= known else state, given))
+        return usual if usual is not None else (state, self.anywhere[given])
 
     def killed_at(self, fault: Fault, word: Word) -> int:
         """After how many inputs of ``word`` something is seen that is not permitted; 0 if nothing is."""
         state = 0
-        for length, (_, asked, move) in enumerate(self.machine.path(word), 1):
-            state, seen = self.react(fault, state, asked)
+        for length, (_, given, move) in enumerate(self.machine.path(word), 1):
+            state, seen = self.react(fault, state, given)
             if not self.machine.outputs[move.output].permits(seen):
                 return length
         return 0
@@ -77,8 +77,8 @@ class Subject:
         queue = deque(seen_pairs)
         while queue:
             right, wrong = queue.popleft()
-            for asked, move in self.machine.moves[right].items():
-                after, seen = self.react(fault, wrong, asked)
+            for given, move in self.machine.moves[right].items():
+                after, seen = self.react(fault, wrong, given)
                 if not self.machine.outputs[move.output].permits(seen):
                     return True
                 if (move.next, after) not in seen_pairs:
@@ -90,14 +90,14 @@ class Subject:
         """Every transition with every wrong observation: those of other transitions, other answers, callbacks lost, doubled
         or heard by the way.
         """
-        for (state, asked), (after, _) in self._usual.items():
-            for seen in self.wrong(state, asked):
-                yield Fault("output", {(state, asked): (after, seen)})
+        for (state, given), (after, _) in self._usual.items():
+            for seen in self.wrong(state, given):
+                yield Fault("output", {(state, given): (after, seen)})
 
-    def wrong(self, state: int, asked: int) -> Iterator[Observation]:
+    def wrong(self, state: int, given: int) -> Iterator[Observation]:
         """The wrong observations of one transition."""
-        permitted = self.machine.outputs[self.machine.moves[state][asked].output]
-        usual = self._usual[state, asked][1]
+        permitted = self.machine.outputs[self.machine.moves[state][given].output]
+        usual = self._usual[state, given][1]
         returns = LISTS if usual.answer.startswith(LISTS) else "return"
         for seen in dict.fromkeys((*self._alphabet, *_altered(usual))):
             if not permitted.permits(seen) and seen.answer.split()[0] in (returns, *get_args(DeclaredError)):
@@ -109,11 +109,11 @@ class Subject:
 
     def transfer_faults(self) -> Iterator[Fault]:
         """Every transition with every other state to lead to."""
-        for (state, asked), (after, seen) in self._usual.items():
+        for (state, given), (after, seen) in self._usual.items():
             if after not in self.machine.final:
                 for other in self._lively:
                     if other != after:
-                        yield Fault("transfer", {(state, asked): (other, seen)})
+                        yield Fault("transfer", {(state, given): (other, seen)})
 
     @cached_property
     def _lively(self) -> tuple[int, ...]:
@@ -150,30 +150,30 @@ class Subject:
         number, model = known + len(twins) - 1, twins[-1]
         changes = {**changes, entry: (number, seen)}
         if keeps:
-            for asked, move in self.machine.moves[model].items():
+            for given, move in self.machine.moves[model].items():
                 if move.next == model:
-                    changes[number, asked] = number, self._usual[model, asked][1]
-        for asked in self.machine.moves[model]:
-            after, usual = self._usual[model, asked]
+                    changes[number, given] = number, self._usual[model, given][1]
+        for given in self.machine.moves[model]:
+            after, usual = self._usual[model, given]
             if len(twins) < length:
                 if after not in self.machine.final:
-                    yield from self._chains(changes, (number, asked), usual, (*twins, after), length, keeps)
+                    yield from self._chains(changes, (number, given), usual, (*twins, after), length, keeps)
                 continue
-            for wrong in itertools.islice(self.wrong(model, asked), 2):
-                yield Fault("extra state", {**changes, (number, asked): (after, wrong)}, twins)
+            for wrong in itertools.islice(self.wrong(model, given), 2):
+                yield Fault("extra state", {**changes, (number, given): (after, wrong)}, twins)
             for other in self._lively if after not in self.machine.final else ():
                 if other != after:
-                    yield Fault("extra state", {**changes, (number, asked): (other, usual)}, twins)
+                    yield Fault("extra state", {**changes, (number, given): (other, usual)}, twins)
 
     def drawn(self, kind: str, draw: random.Random) -> Fault:
         """One output or transfer fault, drawn: first the transition, then the fault."""
         while True:
-            (state, asked), (after, seen) = draw.choice(self._transitions)
+            (state, given), (after, seen) = draw.choice(self._transitions)
             if kind == "output":
-                return Fault(kind, {(state, asked): (after, draw.choice(tuple(self.wrong(state, asked))))})
+                return Fault(kind, {(state, given): (after, draw.choice(tuple(self.wrong(state, given))))})
             if after not in self.machine.final:
                 other = draw.choice([lively for lively in self._lively if lively != after])
-                return Fault(kind, {(state, asked): (other, seen)})
+                return Fault(kind, {(state, given): (other, seen)})
 
     @cached_property
     def _transitions(self) -> tuple[tuple[Where, tuple[int, Observation]], ...]:
@@ -197,8 +197,8 @@ class Tried:
         self.suite = tuple(suite)
         taking: defaultdict[Where, dict[Word, None]] = defaultdict(dict)
         for word in self.suite:
-            for state, asked, _ in subject.machine.path(word):
-                taking[state, asked][word] = None
+            for state, given, _ in subject.machine.path(word):
+                taking[state, given][word] = None
         self.taking: Mapping[Where, Mapping[Word, None]] = taking
 
     @property

@@ -1,6 +1,6 @@
 """Which words tell states apart: separating words, the characterisation set W, harmonised state identifiers.
 
-Two states are told apart by a word that is defined in both and at some point permits different things in each: nothing
+Two states are distinguished by a word that is defined in both and at some point permits different things in each: nothing
 that is right after the one is right after the other. An implementation that does right in both is then, for certain, in
 two different states of its own.
 """
@@ -26,8 +26,8 @@ class NotReduced(Exception):
 
 
 def told_apart(machine: Machine) -> Machine:
-    """The machine as far as its states can be told apart: of two that cannot, nothing more is asked in the one in which
-    less can be asked, so that it need not be identified. Transitions lead there as before.
+    """The machine as far as its states can be distinguished: of two that cannot, no input is defined in the one in which
+    fewer inputs are defined, so that it need not be identified. Transitions lead there as before.
     """
     while True:
         try:
@@ -40,23 +40,23 @@ def told_apart(machine: Machine) -> Machine:
 
 
 def _without(machine: Machine, last: int) -> Machine:
-    """Nothing is asked in state ``last``. States that are reached no other way are left out."""
+    """No input is defined in state ``last``. States that are reached no other way are left out."""
     numbers = {0: 0}
     moves: list[dict[int, Move]] = []
     waiting = deque([0])
     while waiting:
         state = waiting.popleft()
         moves.append({})
-        for asked, move in machine.moves[state].items() if state != last else ():
+        for given, move in machine.moves[state].items() if state != last else ():
             if move.next not in numbers:
                 numbers[move.next] = len(numbers)
                 waiting.append(move.next)
-            moves[-1][asked] = Move(numbers[move.next], move.output)
+            moves[-1][given] = Move(numbers[move.next], move.output)
     return Machine(machine.inputs, machine.outputs, tuple(moves))
 
 
 def separating_words(machine: Machine) -> dict[Pair, Word]:
-    """For each two states in which anything can be asked a shortest word that tells them apart. Raises ``NotReduced``."""
+    """For each two states with inputs, a shortest word that distinguishes them. Raises ``NotReduced``."""
     states = [state for state in range(len(machine.moves)) if state not in machine.final]
     open_pairs = list(itertools.combinations(states, 2))
     words: dict[Pair, Word] = {}
@@ -72,23 +72,23 @@ def separating_words(machine: Machine) -> dict[Pair, Word]:
 def _longer(machine: Machine, pair: Pair, words: dict[Pair, Word]) -> Word | None:
     """A word for ``pair``: an input that tells at once, or one that leads to two states that ``words`` tell apart."""
     moves, others = machine.moves[pair[0]], machine.moves[pair[1]]
-    shared = [asked for asked in moves if asked in others]
-    for asked in shared:
-        if machine.exclusive[moves[asked].output][others[asked].output]:
-            return (asked,)
-    for asked in shared:
-        one, other = moves[asked].next, others[asked].next
+    shared = [given for given in moves if given in others]
+    for given in shared:
+        if machine.exclusive[moves[given].output][others[given].output]:
+            return (given,)
+    for given in shared:
+        one, other = moves[given].next, others[given].next
         rest = words.get((min(one, other), max(one, other)))
         if rest is not None:
-            return (asked, *rest)
+            return (given, *rest)
     return None
 
 
 def tells_apart(machine: Machine, pair: Pair, word: Word) -> int:
     """The number of inputs of ``word`` that distinguish the states; 0 if it does not."""
     one, other = pair
-    for length, asked in enumerate(word, 1):
-        move, counterpart = machine.moves[one].get(asked), machine.moves[other].get(asked)
+    for length, given in enumerate(word, 1):
+        move, counterpart = machine.moves[one].get(given), machine.moves[other].get(given)
         if move is None or counterpart is None:
             return 0
         if machine.exclusive[move.output][counterpart.output]:
@@ -103,22 +103,22 @@ def harmonised_identifiers(machine: Machine) -> tuple[tuple[Word, ...], ...]:
     Few different words are used: the one that tells most pairs apart is chosen first, then what tells most of the others.
     """
     shortest = separating_words(machine)
-    single = {(asked,) for moves in machine.moves for asked in moves}
+    single = {(given,) for moves in machine.moves for given in moves}
     candidates = sorted(single.union(shortest.values()), key=lambda word: (len(word), word))
-    told = {word: {p: n for p in shortest if (n := tells_apart(machine, p, word))} for word in candidates}
+    distinguishes = {word: {p: n for p in shortest if (n := tells_apart(machine, p, word))} for word in candidates}
     identifiers: list[set[Word]] = [set() for _ in machine.moves]
     open_pairs = set(shortest)
     while open_pairs:
-        best = max(candidates, key=lambda word: len(open_pairs & told[word].keys()))
-        for pair in open_pairs & told[best].keys():
+        best = max(candidates, key=lambda word: len(open_pairs & distinguishes[word].keys()))
+        for pair in open_pairs & distinguishes[best].keys():
             for state in pair:
-                identifiers[state].add(best[: told[best][pair]])
-        open_pairs -= told[best].keys()
+                identifiers[state].add(best[: distinguishes[best][pair]])
+        open_pairs -= distinguishes[best].keys()
     return tuple(tuple(_without_prefixes(sorted(words))) for words in identifiers)
 
 
 def characterisation_set(machine: Machine) -> tuple[Word, ...]:
-    """W: words such that any two states are told apart by one of them."""
+    """W: words such that any two states are distinguished by one of them."""
     return tuple(_without_prefixes(sorted({w for words in harmonised_identifiers(machine) for w in words})))
 
 

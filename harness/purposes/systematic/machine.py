@@ -81,9 +81,9 @@ class Machine:
         queue = deque([0])
         while queue:
             state = queue.popleft()
-            for asked, move in self.moves[state].items():
+            for given, move in self.moves[state].items():
                 if move.next not in words:
-                    words[move.next] = (*words[state], asked)
+                    words[move.next] = (*words[state], given)
                     queue.append(move.next)
         return tuple(words[state] for state in range(len(self.moves)))
 
@@ -91,15 +91,15 @@ class Machine:
         """The transitions that ``word`` takes from ``state``: where from, by which input, and how. Raises ``KeyError``
         for an input that is not defined.
         """
-        for asked in word:
-            move = self.moves[state][asked]
-            yield state, asked, move
+        for given in word:
+            move = self.moves[state][given]
+            yield state, given, move
             state = move.next
 
     def after(self, word: Sequence[int], state: int = 0) -> int | None:
         """Where ``word`` leads from ``state``; None if it is not defined there."""
-        for asked in word:
-            move = self.moves[state].get(asked)
+        for given in word:
+            move = self.moves[state].get(given)
             if move is None:
                 return None
             state = move.next

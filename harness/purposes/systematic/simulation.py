@@ -1,7 +1,7 @@
 """Traces of implementations that exist only as machines: what the judge says of them is what a suite is worth.
 
 A simulated framework does what its machine says, and nothing else is wrong with it: ids are new, references are right,
-on_startup is told of the connections made so far. Its trace ends with the first thing that is not permitted.
+on_startup gets the connections made so far. Its trace ends with the first thing that is not permitted.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ def simulate(setting: Setting, subject: Subject, fault: Fault, word: Word) -> tu
     scenario = scenario_of(setting, subject.machine, word)
     framework = _Framework(scenario)
     state, step = 0, 0
-    for _, asked, move in subject.machine.path(word):
-        state, seen = subject.react(fault, state, asked)
+    for _, given, move in subject.machine.path(word):
+        state, seen = subject.react(fault, state, given)
         framework.go(step, seen)
-        for offset in range(1, len(setting.inputs[asked].steps)):
+        for offset in range(1, len(setting.inputs[given].steps)):
             framework.find(step + offset)
-        step += len(setting.inputs[asked].steps)
+        step += len(setting.inputs[given].steps)
         if not subject.machine.outputs[move.output].permits(seen):
             break
     return scenario, tuple(framework.events)
@@ -51,9 +51,9 @@ def can_happen(setting: Setting, subject: Subject, fault: Fault, word: Word) -> 
     """Whether only existing instances get callbacks. No trace can show anything else."""
     made: set[str] = set()
     state = 0
-    for _, asked, move in subject.machine.path(word):
-        state, seen = subject.react(fault, state, asked)
-        step = setting.inputs[asked].step
+    for _, given, move in subject.machine.path(word):
+        state, seen = subject.react(fault, state, given)
+        step = setting.inputs[given].step
         if isinstance(step, s.AddComponent) and step.component in setting.components:
             made.add(step.component)
         if not made.issuperset(name for name, _ in seen.callbacks):
@@ -85,17 +85,17 @@ class _Framework:
         assert isinstance(step, s.ContainerCall)
         self.put(Call, step=number)
         answer, *listed = seen.answer.split()
-        told = dict(seen.callbacks)
+        callbacks = dict(seen.callbacks)
         adds = isinstance(step, s.AddComponent) and step.component in self.scenario.components
         if (
             isinstance(step, s.AddComponent)
             and adds
-            and (answer == "return" or "on_init" in told.get(step.component, ()))
+            and (answer == "return" or "on_init" in callbacks.get(step.component, ()))
         ):
             self.made[step.component] = self.made.get(step.component, 0) + 1
             self.put(Create, component=step.component, instance=self.made[step.component])
-        for name in sorted(told, reverse=not isinstance(step, s.Start)):
-            for hook in told[name]:
+        for name in sorted(callbacks, reverse=not isinstance(step, s.Start)):
+            for hook in callbacks[name]:
                 self.enter(name, hook, step)
         if answer in ("return", LISTS):
             self.put(Return, step=number, value=self.result(step, listed))

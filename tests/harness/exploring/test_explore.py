@@ -232,7 +232,7 @@ def test_what_incidents_hide_is_not_forgotten() -> None:
     for adapter, seconds in (("DiesInAdd", 60.0), ("DiesInAdd", 0.0), ("DiesAtOnce", 60.0)):
         with Driver(locate(f"hostile.failing:{adapter}"), 1, Limits(incident_seconds=seconds)) as driver:
             (replayed,) = Exploration(driver, "container", default_statement(), memory).replay()
-        assert (replayed.remembered, replayed.fate) == (failure, "not told")
+        assert (replayed.remembered, replayed.fate) == (failure, "unknown")
         assert memory.recall() == [failure]
 
 
