@@ -34,6 +34,7 @@ from ucm_cts.harness.cli.options import (
     timeout_option,
     toolchain_option,
 )
+from ucm_cts.harness.cli.results_command import results
 from ucm_cts.harness.cli.selftest_command import selftest
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.cli.toolchain_command import certify_toolchain, profiles_of
@@ -312,6 +313,7 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
 cli.add_command(selftest)
 cli.add_command(explore)
 cli.add_command(compare)
+cli.add_command(results)
 
 
 def main() -> None:

@@ -62,16 +62,15 @@ def python(results: Path, limit: int | None, part: str, again: str, glance_only:
     for mutant in _left(drawn, known, again):
         with python_programs.python_door(mutant) as endpoint:
             glance = glancer.look(endpoint, python_programs.CONCERNED[mutant.file])
-        known[mutant.key] = Result(mutant, glance.outcome or Outcome("open", glance.suspect))
-        append(results, known[mutant.key])
+        known[mutant.digest] = glance.outcome or Outcome("open", glance.suspect)
+        append(results, mutant, known[mutant.digest])
     reasons = read_equivalents(python_programs.EQUIVALENTS)
     for mutant in [] if glance_only else drawn:
-        outcome = known[mutant.key].outcome
+        outcome = known[mutant.digest]
         if outcome.fate == "open" and mutant.key not in reasons:
             with python_programs.python_door(mutant) as endpoint:
                 outcome = try_out(endpoint, statement, python_programs.CONCERNED[mutant.file], outcome.by, SEED)
-            known[mutant.key] = Result(mutant, outcome)
-            append(results, known[mutant.key])
+            append(results, mutant, outcome)
             _tell(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")
 
 
@@ -97,8 +96,7 @@ def cpp(results: Path, limit: int | None, part: str, again: str, root: Path, bui
     _tell(f"{len(candidates)} mutants generated")
     for mutant in _left(_drawn(candidates, limit, part), known, again):
         outcome = _try_cpp(framework, mutant, statement)
-        known[mutant.key] = Result(mutant, outcome)
-        append(results, known[mutant.key])
+        append(results, mutant, outcome)
         if outcome.fate not in ("not compiled", "same program"):
             _tell(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")
 
@@ -118,8 +116,8 @@ def write_page(language: str, results: Path, root: Path, out: Path) -> None:
         candidates = list(CppFramework(root.absolute(), Path()).candidates())
         census = Counter({GENERATED: len(candidates)})
         listed, title = EQUIVALENTS, "Generated mutants of the C++ reference framework"
-    keys = {mutant.key for mutant in candidates}
-    told = Tally(census, len(candidates), [r for key, r in known.items() if key in keys], read_equivalents(listed))
+    tried = [Result(mutant, known[mutant.digest]) for mutant in candidates if mutant.digest in known]
+    told = Tally(census, len(candidates), tried, read_equivalents(listed))
     out.write_text(page(title, INTRO, told), encoding="utf-8")
     _tell(f"{told.rate:.1f} % killed of those that are not equivalent, {len(told.open)} open: {out}")
     sys.exit(1 if told.open or told.wrongly_listed else 0)
@@ -145,11 +143,11 @@ def _drawn(candidates: list[GeneratedMutant], limit: int | None, part: str) -> l
     return shuffled[:limit][int(number) - 1 :: int(parts)]
 
 
-def _left(drawn: list[GeneratedMutant], known: dict[str, Result], again: str) -> Iterator[GeneratedMutant]:
+def _left(drawn: list[GeneratedMutant], known: dict[str, Outcome], again: str) -> Iterator[GeneratedMutant]:
     done = 0
     for number, mutant in enumerate(drawn, 1):
-        result = known.get(mutant.key)
-        if result is None or (again and (again == result.outcome.fate or again in mutant.key)):
+        outcome = known.get(mutant.digest)
+        if outcome is None or (again and (again == outcome.fate or again in mutant.key)):
             yield mutant
             done += 1
             if done % 50 == 0:

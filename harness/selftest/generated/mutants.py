@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import io
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -36,6 +37,11 @@ class GeneratedMutant(Value, frozen=True):
         """What it is called in lists that are kept."""
         nth = f" ({self.nth})" if self.nth > 1 else ""
         return f"{self.file}: {self.line}{nth} ==> {self.becomes}"
+
+    @property
+    def digest(self) -> str:
+        """What it is called in the file of results, which is to be small."""
+        return f"{self.file} {hashlib.sha256(self.key.encode()).hexdigest()[:12]}"
 
     def source(self, original: Sequence[str]) -> str:
         """The whole file, made of the ``original`` lines (each with its end)."""

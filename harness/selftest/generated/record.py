@@ -10,7 +10,7 @@ import msgspec
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import DocumentError, read
 from ucm_cts.harness.selftest.generated.mutants import GeneratedMutant
-from ucm_cts.harness.selftest.generated.trial import Outcome
+from ucm_cts.harness.selftest.generated.trial import Fate, Outcome
 
 
 class Result(Value, frozen=True):
@@ -30,25 +30,33 @@ class Equivalent(Value, frozen=True):
     mutants: tuple[str, ...]
 
 
-def read_results(path: Path) -> dict[str, Result]:
-    """What the file at ``path`` holds, by key; the last word counts. Raises ``DocumentError``."""
-    results: dict[str, Result] = {}
+class Line(Value, frozen=True):
+    """One line of the file of results: ``mutant`` is a ``GeneratedMutant.digest``, the other fields are those of ``Outcome``."""
+
+    mutant: str
+    fate: Fate
+    by: str = ""
+
+
+def read_results(path: Path) -> dict[str, Outcome]:
+    """The outcomes in the file at ``path``, by digest; the last line of a mutant counts. Raises ``DocumentError``."""
+    results: dict[str, Outcome] = {}
     if not path.exists():
         return results
-    decoder = msgspec.json.Decoder(Result)
-    for number, line in enumerate(path.read_bytes().splitlines(), 1):
+    decoder = msgspec.json.Decoder(Line)
+    for number, text in enumerate(path.read_bytes().splitlines(), 1):
         try:
-            result = decoder.decode(line)
+            line = decoder.decode(text)
         except msgspec.DecodeError as error:
             raise DocumentError(path, number, f"is no result of a generated mutant: {error}; remove the line") from None
-        results[result.mutant.key] = result
+        results[line.mutant] = Outcome(line.fate, line.by)
     return results
 
 
-def append(path: Path, result: Result) -> None:
-    """Keep ``result``, so that a run that is broken off goes on after it."""
+def append(path: Path, mutant: GeneratedMutant, outcome: Outcome) -> None:
+    """Add a line to the file at ``path``, so that a run that is broken off goes on after ``mutant``."""
     with path.open("ab") as file:
-        file.write(msgspec.json.encode(result) + b"\n")
+        file.write(msgspec.json.encode(Line(mutant.digest, outcome.fate, outcome.by)) + b"\n")
 
 
 def read_equivalents(path: Path) -> Mapping[str, str]:

@@ -154,12 +154,9 @@ def test_results_are_kept_one_by_one_and_the_last_word_counts(tmp_path: Path) ->
     one, other = mutant("a", "b"), mutant("a", "c")
     path = tmp_path / "results.jsonl"
     assert read_results(path) == {}
-    for result in (Result(one, Outcome("open")), Result(other, Outcome("survived")), Result(one, Outcome("failed"))):
-        append(path, result)
-    assert {key: result.outcome.fate for key, result in read_results(path).items()} == {
-        one.key: "failed",
-        other.key: "survived",
-    }
+    for tried, outcome in (one, Outcome("open")), (other, Outcome("survived")), (one, Outcome("failed", "R-1")):
+        append(path, tried, outcome)
+    assert read_results(path) == {one.digest: Outcome("failed", "R-1"), other.digest: Outcome("survived")}
     with path.open("a") as file:
         file.write("{}\n")
     with pytest.raises(DocumentError, match=r"results.jsonl:4: is no result"):
