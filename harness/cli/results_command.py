@@ -20,7 +20,7 @@ DETECTION, PAGE = "detection", "README.md"
 
 
 @click.command()
-@click.argument("sources", nargs=-1, type=click.Path(exists=True, path_type=Path), metavar="[REPORT|FOLDER]...")
+@click.argument("sources", nargs=-1, type=click.Path(path_type=Path), metavar="[REPORT|FOLDER]...")
 @click.option("--out", type=click.Path(file_okay=False, path_type=Path), default=Path("results"), show_default=True,
               help="The folder of results; those of other products stay.")  # fmt: skip
 def results(sources: Sequence[Path], out: Path) -> None:

@@ -31,7 +31,12 @@ def overview(results: Sequence[PublishedResult]) -> list[str]:
 
 def product_page(results: Sequence[PublishedResult]) -> str:
     """The page of one product and version, with all its profiles."""
-    lines = [f"# {_name(results[0])}", "", "Made by `ucm-cts results` of the files beside it; do not edit it.", ""]
+    lines = [
+        f"# {_cell(_name(results[0]))}",
+        "",
+        "Made by `ucm-cts results` of the files beside it; do not edit it.",
+        "",
+    ]
     rows = [(r.profile, r.verdict, *_counts(r.requirements), _stated(r), r.suite_version) for r in results]
     lines += table(("profile", "verdict", *VERDICTS, "statement", "suite"), rows)
     lines += ["", "## By clause", "", f"{_LEGEND}.", "", *_by_clause(results)]

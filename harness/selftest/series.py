@@ -126,10 +126,14 @@ def table(title: str, told: Sequence[SeriesRun]) -> Table:
 
 
 def markdown(title: str, told: Sequence[SeriesRun]) -> str:
-    """The series as a page."""
-    lines = [f"# {title}", "", f"| {' | '.join(_COLUMNS)} |", f"|{'---|' * len(_COLUMNS)}"]
-    lines += [f"| {' | '.join(row)} |" for row in _rows(told)]
-    return "\n".join(lines) + "\n"
+    """The series as a page without times: a row for all runs that came out alike."""
+    names: dict[tuple[str, ...], list[str]] = {}
+    for name, *figures, _, flips in _rows(told):
+        names.setdefault((*figures, flips), []).append(name)
+    columns = (*_COLUMNS[1:-2], _COLUMNS[-1], "runs", "names")
+    rows = [(*figures, str(len(alike)), "; ".join(alike)) for figures, alike in names.items()]
+    lines = (columns, ["---"] * len(columns), *rows)
+    return "\n".join([f"# {title}", "", *(f"| {' | '.join(line)} |" for line in lines)]) + "\n"
 
 
 if __name__ == "__main__":

@@ -32,14 +32,15 @@ from ucm_cts.adapters.mutants.python import MUTANTS
 from ucm_cts.adapters.mutants.toolchain.registry import mutants as wrong_tool_chains
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
-from ucm_cts.harness.catalogue.profiles import PARTS, TOOLCHAIN_PROFILES
+from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_requirements
 from ucm_cts.harness.cli.commands import cli
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.probes import load_probe_types
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
+from ucm_cts.harness.report.published import by_product, read_published
 from ucm_cts.harness.results.values import Verdict
-from ucm_cts.harness.selftest.matrix import Matrix
+from ucm_cts.harness.selftest.kill_record import read_record
 from ucm_cts.harness.toolchains.description import Command, ToolChain
 from ucm_cts.reference_models.monitor import Monitor
 
@@ -47,6 +48,7 @@ FRAMEWORK = ROOT / "adapters" / "reference" / "cpp" / "framework"
 PAGES = [ROOT / "README.md", FRAMEWORK / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 ROOMS = {"suite", "reference_models", "harness", "adapters", "docs", "src", "tests"}
 PACKAGE = Path(package.__file__).parent
+TOOLCHAIN = "ucm-cts-toolchain-0.1.0"
 SCHEMA = ROOT / "adapters" / "contract" / "protocol.schema.json"
 TOX = (ROOT / "tox.ini").read_text()
 each_page = pytest.mark.parametrize("page", PAGES, ids=[str(page.relative_to(ROOT)) for page in PAGES])
@@ -183,7 +185,7 @@ def test_certify_command_leaves_what_the_readme_says(here: Path) -> None:
         command = command.replace(hole, value)
     outcome = ucm_cts(*shlex.split(command)[1:])
     assert (outcome.status, outcome.err) == (0, "")
-    (folder,) = re.findall(r"`(results/[^`]+)/`", text_of("README.md"))
+    (folder,) = re.findall(r"`(reports/[^`]+)/`", text_of("README.md"))
     for name in re.findall(r"`(report\.\w+|junit\.xml)`", text_of("README.md")):
         assert (here / folder / name).is_file()
     assert report_of(here / folder)["suite_version"] == package.__version__
@@ -397,11 +399,10 @@ def test_example_of_profile_core_serves(here: Path) -> None:
     assert [one for one, verdict in verdicts.items() if verdict == "fail"] == ["R-10.1-01"]
 
 
-def test_detection_tells_what_the_published_matrix_of_tool_chains_says() -> None:
-    matrix = msgspec.json.decode((ROOT / "results/detection/toolchains/matrix.json").read_bytes(), type=Matrix)
-    assert matrix.is_proved
-    assert matrix.is_all
-    names = {mutant.name for mutant in matrix.mutants}
+def test_detection_tells_what_the_published_self_test_of_tool_chains_says() -> None:
+    record = read_record(ROOT / "results/detection/toolchains.jsonl")
+    assert record.is_proved
+    names = {mutant.name for mutant in record.mutants}
     assert names <= wrong_tool_chains().keys()
     left_out = {name for name in names if name.startswith("without_")}
     tasks = Counter(wrong_tool_chains()[name].task for name in names - left_out)
@@ -411,35 +412,33 @@ def test_detection_tells_what_the_published_matrix_of_tool_chains_says() -> None
         "other wrong checkers": tasks["check"],
         "wrong generators of IDL": tasks["idl"],
         "wrong generators of C++11 and C++03": tasks["cpp11"] + tasks["cpp03"],
-        "testable requirements of clauses 9, 12, 13 and 14": len(matrix.testable),
-        "conformant tool chains": len(matrix.variants),
+        "testable requirements of clauses 9, 12, 13 and 14": record.self_test.testable,
+        "conformant tool chains": len(record.variants),
     }.items():
         assert f"\n| {what} | {number} | " in told, what
 
 
 @pytest.mark.parametrize("profile", TOOLCHAIN_PROFILES)
 def test_the_reference_tool_chain_is_published_as_conformant(profile: str) -> None:
-    report = json.loads((ROOT / f"results/ucm-cts-toolchain-0.1.0/{profile}/report.json").read_text())
-    assert (report["product"], report["profile"], report["verdict"]) == ("ucm-cts-toolchain", profile, "conformant")
-    parts = {r.id for r in load_requirements() if r.profile in PARTS[profile] and not r.untestable}
-    assert {r["id"] for r in report["requirements"]} == parts
+    (result,) = (r for r in by_product(read_published(ROOT / "results"))[TOOLCHAIN] if r.profile == profile)
+    assert result.verdict == "conformant"
+    assert {entry.verdict for entry in result.requirements} <= {"pass", "not applicable"}
 
 
-def test_detection_tells_what_the_published_matrix_says() -> None:
-    matrix = msgspec.json.decode((ROOT / "results" / "detection" / "matrix.json").read_bytes(), type=Matrix)
-    assert matrix.is_proved
-    assert matrix.is_all
-    names = {mutant.name for mutant in matrix.mutants}
+def test_detection_tells_what_the_published_self_test_says() -> None:
+    record = read_record(ROOT / "results/detection/frameworks.jsonl")
+    assert record.is_proved
+    names = {mutant.name for mutant in record.mutants}
     of_models = {name for name in names if name.startswith("models of ")}
-    unseen = [cheat for cheat in matrix.cheats if not cheat.due]
+    unseen = [cheat for cheat in record.cheats if not cheat.requirements]
     told = (ROOT / "docs" / "detection.md").read_text()
     for what, number in {
         "mutants of the Python reference framework": len(names & MUTANTS.keys()),
         "native mutants of the C++ reference framework": len(names - MUTANTS.keys() - of_models),
         "mutants of models": len(of_models),
-        "testable requirements": len(matrix.testable),
-        "conformant variants": len(matrix.variants),
-        "cheats": len(matrix.cheats) - len(unseen),
+        "testable requirements": record.self_test.testable,
+        "conformant variants": len(record.variants),
+        "cheats": len(record.cheats) - len(unseen),
         "cheats that no observation can show": len(unseen),
     }.items():
         assert f"\n| {what} | {number} | " in told, what

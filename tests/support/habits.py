@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import re
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from folders import ROOT
+
+from ucm_cts.harness.report.published import PublishedResult, read_published
 
 PAGE = (ROOT / "docs" / "real-frameworks.md").read_text()
 _ROW = re.compile(r"(?m)^\| (.+?) \| (R-[\d.]+-\d+) \| (pass|fail) \|(.*)\|$")
@@ -32,16 +33,15 @@ def told() -> dict[str, list[Habit]]:
     return {product: habits for product, habits in tables.items() if habits}
 
 
-def published() -> dict[str, dict[str, Any]]:
-    """The reports under results/, by product and version."""
-    reports = [json.loads(file.read_text()) for file in ROOT.glob("results/*/report.json")]
-    return {f"{report['product']} {report['version']}": report for report in reports}
+def results() -> dict[str, PublishedResult]:
+    """The published results, by product and version."""
+    return {f"{result.product} {result.version}": result for result in read_published(ROOT / "results")}
 
 
 HABITS = told()
 
 
-def check(habits: list[Habit], failing: set[str], readings: Mapping[str, Any]) -> None:
+def check(habits: list[Habit], failing: set[str], readings: Mapping[str, Sequence[str]]) -> None:
     assert failing == {habit.requirement for habit in habits if habit.verdict == "fail"}
     for habit in habits:
         option, _, reading = habit.reading.partition(" = ")

@@ -118,6 +118,7 @@ def write_page(language: str, results: Path, root: Path, out: Path) -> None:
         listed, title = EQUIVALENTS, "Generated mutants of the C++ reference framework"
     tried = [Result(mutant, known[mutant.digest]) for mutant in candidates if mutant.digest in known]
     told = Tally(census, len(candidates), tried, read_equivalents(listed))
+    out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(page(title, INTRO, told), encoding="utf-8")
     _tell(f"{told.rate:.1f} % killed of those that are not equivalent, {len(told.open)} open: {out}")
     sys.exit(1 if told.open or told.wrongly_listed else 0)

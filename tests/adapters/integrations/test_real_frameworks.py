@@ -7,7 +7,7 @@ import re
 import pytest
 from folders import ROOT
 from gstreamer_here import gstreamer_adapter
-from habits import HABITS, PAGE, check, published
+from habits import HABITS, PAGE, check, results
 from pipeline import Product
 
 from ucm_cts.adapters.contract.adapter import Adapter
@@ -25,11 +25,11 @@ def test_each_row_is_read() -> None:
 
 
 @pytest.mark.parametrize("name", HABITS)
-def test_the_published_report_shows_it(name: str) -> None:
-    report = published()[name]
-    verdicts = {result["id"]: result["verdict"] for result in report["requirements"]}
+def test_the_published_result_shows_it(name: str) -> None:
+    result = results()[name]
+    verdicts = {entry.id: entry.verdict for entry in result.requirements}
     failing = {requirement for requirement, verdict in verdicts.items() if verdict == "fail"}
-    check(HABITS[name], failing, report["readings"])
+    check(HABITS[name], failing, result.readings)
     for habit in HABITS[name]:
         assert verdicts[habit.requirement] == habit.verdict, habit
 

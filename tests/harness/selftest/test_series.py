@@ -40,9 +40,12 @@ def test_same_failure_each_time_fails(monkeypatch: pytest.MonkeyPatch) -> None:
     assert status == 1
 
 
-def test_page_has_a_row_a_run(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_page_has_a_row_for_runs_that_came_out_alike(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     page = tmp_path / "series.md"
-    status, _ = run(monkeypatch, [told("1"), told("2")], "--out", str(page))
-    assert status == 0
-    assert page.read_text() == markdown("reference-py, profile core, 2 runs", [told("1"), told("2")])
-    assert page.read_text().count("| conformant | 2 | 0 | 0 | 0 | 0 | 1.5 | none |") == 2
+    runs = [told("1"), told("2"), told("3", **{"R-2": "fail"})]
+    run(monkeypatch, runs, "--out", str(page))
+    assert page.read_text() == markdown("reference-py, profile core, 3 runs", runs)
+    assert page.read_text().splitlines()[-2:] == [
+        "| conformant | 2 | 0 | 0 | 0 | 0 | none | 2 | 1; 2 |",
+        "| conformant | 1 | 1 | 0 | 0 | 0 | R-2 | 1 | 3 |",
+    ]
