@@ -132,7 +132,7 @@ def test_hostile_texts_stay_in_their_cells(tmp_path: Path) -> None:
     save(tmp_path, msgspec.structs.replace(REPORT, product=f"{HOSTILE[:40]} | ../..", version="1|2"))
     assert ucm_cts("results", tmp_path, "--out", tmp_path / "out").status == 0
     (page,) = (tmp_path / "out").glob("*/README.md")
-    text = page.read_text() + (tmp_path / "out" / "README.md").read_text()
+    text = page.read_text() + "\n" + (tmp_path / "out" / "README.md").read_text()
     assert "<script" not in text
     tables = [block for block in text.split("\n\n") if block.startswith("|")]
     for block in tables:
