@@ -27,7 +27,7 @@ from ucm_cts.adapters.contract.metamodel.writing import write_model
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.bench.large_model import large_model
 from ucm_cts.harness.bench.measuring import limit
-from ucm_cts.harness.toolchains.schema import parser, schema
+from ucm_cts.harness.toolchains.corpus.schema import parser, schema
 
 ELEMENTS = 1_000_000
 

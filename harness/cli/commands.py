@@ -55,7 +55,7 @@ from ucm_cts.harness.results.values import Report
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import check_subject, stated_by
 from ucm_cts.harness.statement.writing import write_statement, write_toolchain_statement
-from ucm_cts.harness.toolchains.description import read_toolchain
+from ucm_cts.harness.toolchains.commands.description import read_toolchain
 from ucm_cts.reference_models.monitor import Monitor
 
 

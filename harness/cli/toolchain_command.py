@@ -17,9 +17,9 @@ from ucm_cts.harness.results.known_failures import known_today, stale, succeeded
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.statement.files import check_subject, read_statement
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
-from ucm_cts.harness.toolchains.description import ToolChain, read_toolchain
+from ucm_cts.harness.toolchains.commands.description import ToolChain, read_toolchain
+from ucm_cts.harness.toolchains.commands.processing import CommandLine
 from ucm_cts.harness.toolchains.examinations import examination_for
-from ucm_cts.harness.toolchains.processing import CommandLine
 from ucm_cts.harness.toolchains.renaming import Dress
 
 

@@ -18,9 +18,9 @@ from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.results.values import MODEL_FILE, RequirementResult
 from ucm_cts.harness.selftest.matrix import Kill, MutantResult, VariantResult
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
+from ucm_cts.harness.toolchains.commands.processing import InProcess
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.generation import mapping_models
-from ucm_cts.harness.toolchains.processing import InProcess
 from ucm_cts.harness.toolchains.renaming import Dress
 
 _REFERENCE = replace(reference(), read=functools.lru_cache(8192)(read_model))

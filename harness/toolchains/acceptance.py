@@ -16,9 +16,9 @@ import msgspec
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS
 from ucm_cts.harness.toolchains.campaign import Fact
+from ucm_cts.harness.toolchains.commands.processing import Made
 from ucm_cts.harness.toolchains.corpus.selection import Due, Question, differing_lines, questions
 from ucm_cts.harness.toolchains.minimal_refusals import Blame
-from ucm_cts.harness.toolchains.processing import Made
 from ucm_cts.harness.toolchains.related_lines import vicinity
 from ucm_cts.harness.toolchains.renaming import Dress
 from ucm_cts.harness.toolchains.unspecified_spellings import refused_for_spelling

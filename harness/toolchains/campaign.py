@@ -19,8 +19,8 @@ from ucm_cts.harness.results.known_failures import KnownFailure
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import Tally, overall
 from ucm_cts.harness.results.values import Effort, Processed, Report
-from ucm_cts.harness.toolchains.description import Task
-from ucm_cts.harness.toolchains.processing import Made, Processor
+from ucm_cts.harness.toolchains.commands.description import Task
+from ucm_cts.harness.toolchains.commands.processing import Made, Processor
 from ucm_cts.reference_models.findings import Finding
 
 TASKS: dict[str, Task] = {"pim": "check", "idl": "idl", "cpp11": "cpp11", "cpp03": "cpp03"}

@@ -11,12 +11,12 @@ from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.toolchains.acceptance import RULE_FOR, RULES, Acceptance
 from ucm_cts.harness.toolchains.campaign import TASKS, Examination
+from ucm_cts.harness.toolchains.commands.description import Command, Task
 from ucm_cts.harness.toolchains.corpus.selection import questions
-from ucm_cts.harness.toolchains.cpp import applicability as standing
+from ucm_cts.harness.toolchains.cpp import applicability
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout, can_be_run
-from ucm_cts.harness.toolchains.cpp.probes import CHECKS, GENERATED
-from ucm_cts.harness.toolchains.description import Command, Task
+from ucm_cts.harness.toolchains.cpp.probes.running import CHECKS, GENERATED
 from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.harness.toolchains.generation import Generation, mapping_models
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS
@@ -36,7 +36,7 @@ def stand_for() -> Mapping[str, frozenset[str]]:
     """The requirements that each of them stands for."""
     of_models = {rule: frozenset(q.requirement for q in questions() if RULE_FOR[q.due] == rule) for rule in RULES}
     of_idl = {rule: frozenset(requirements) for rule, requirements in STANDS_FOR.items()}
-    return {**of_models, **of_idl, **standing.stand_for()}
+    return {**of_models, **of_idl, **applicability.stand_for()}
 
 
 def examination_for(
@@ -70,7 +70,7 @@ def examination_for(
             f"no compiler '{compiler}' can be run; install it, or name another: compiler = [...] in [{task}]"
         )
     compare = functools.partial(_compare_cpp, standard, statement.readings, how)
-    return Generation(compare, GENERATED, dress, expression, models, standing.not_asked(statement))
+    return Generation(compare, GENERATED, dress, expression, models, applicability.not_asked(statement))
 
 
 WITH_NATIVES = frozenset({"idl_natives"})

@@ -13,8 +13,8 @@ from ucm_cts.harness.catalogue.documents import read_text
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Processed
 from ucm_cts.harness.toolchains.campaign import Fact
+from ucm_cts.harness.toolchains.commands.processing import Made
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
-from ucm_cts.harness.toolchains.processing import Made
 from ucm_cts.harness.toolchains.renaming import Dress
 from ucm_cts.harness.toolchains.unspecified_spellings import refused_for_spelling
 from ucm_cts.reference_models.findings import Finding

@@ -41,7 +41,7 @@ from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
 from ucm_cts.harness.report.published import by_product, read_published
 from ucm_cts.harness.results.values import Verdict
 from ucm_cts.harness.selftest.kill_record import read_record
-from ucm_cts.harness.toolchains.description import Command, ToolChain
+from ucm_cts.harness.toolchains.commands.description import Command, ToolChain
 from ucm_cts.reference_models.monitor import Monitor
 
 FRAMEWORK = ROOT / "adapters" / "reference" / "cpp" / "framework"

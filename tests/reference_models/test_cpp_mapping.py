@@ -11,7 +11,7 @@ from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.catalogue.requirements import SUITE, load_interpretations, load_requirements
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.toolchains.cpp.applicability import not_asked, stand_for
-from ucm_cts.harness.toolchains.cpp.probes import CHECKS
+from ucm_cts.harness.toolchains.cpp.probes.running import CHECKS
 from ucm_cts.reference_models.mapping.cpp import expected as claims
 from ucm_cts.reference_models.mapping.cpp.classes import Named
 from ucm_cts.reference_models.mapping.cpp.expected import Claim, ExpectedCpp, Standard

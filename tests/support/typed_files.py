@@ -9,9 +9,9 @@ from pathlib import Path
 
 from folders import ROOT
 
-from ucm_cts.adapters.reference.toolchain.cpp import generate_cpp11
-from ucm_cts.adapters.reference.toolchain.cpp_support import SUPPORT_FILE
-from ucm_cts.adapters.reference.toolchain.lwucm_glue import generate_lwucm
+from ucm_cts.adapters.reference.toolchain.cpp.generator import generate_cpp11
+from ucm_cts.adapters.reference.toolchain.cpp.lwucm_glue import generate_lwucm
+from ucm_cts.adapters.reference.toolchain.cpp.support import SUPPORT_FILE
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.purposes.probes import PROBE_MODEL
 

@@ -11,8 +11,8 @@ from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.mutants.toolchain.registry import replacing_rule, variant
 from ucm_cts.adapters.mutants.toolchain.tolerance import without
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
-from ucm_cts.adapters.reference.toolchain.policy_use import aspect_of, uses
 from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.reference.toolchain.rules.components.policy_use import aspect_of, uses
 
 
 @variant(

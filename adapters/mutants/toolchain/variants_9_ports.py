@@ -27,8 +27,8 @@ from ucm_cts.adapters.contract.metamodel.names import MEMBER, Scope
 from ucm_cts.adapters.mutants.toolchain.registry import replacing_rule, variant
 from ucm_cts.adapters.mutants.toolchain.tolerance import without
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, Rule
-from ucm_cts.adapters.reference.toolchain.part_ports import Specified, port_of, port_of_end, specified
 from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import Specified, port_of, port_of_end, specified
 
 Reference = tuple[str, type[Named], str]
 """What is written, what may own the member, and the field that holds it."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from ucm_cts.adapters.mutants.toolchain.registry import variant
 from ucm_cts.adapters.mutants.toolchain.rewriting_cpp import Edit, Files, edited, regenerated
-from ucm_cts.adapters.reference.toolchain.cpp_support import SUPPORT_FILE
+from ucm_cts.adapters.reference.toolchain.cpp.support import SUPPORT_FILE
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 BOTH = ("cpp11", "cpp03")

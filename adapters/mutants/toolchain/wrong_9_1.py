@@ -16,7 +16,7 @@ from ucm_cts.adapters.mutants.toolchain.strictness import refusing
 from ucm_cts.adapters.mutants.toolchain.tolerance import deaf, lacks, without
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
 from ucm_cts.adapters.reference.toolchain.program import Program
-from ucm_cts.adapters.reference.toolchain.rules_references import Typed
+from ucm_cts.adapters.reference.toolchain.rules.contracts.references import Typed
 
 
 @breaks("R-9-01", task="check")

@@ -27,10 +27,10 @@ from ucm_cts.adapters.contract.metamodel.reading import Problem
 from ucm_cts.adapters.mutants.toolchain.registry import breaks, replacing_rule
 from ucm_cts.adapters.mutants.toolchain.strictness import refusing
 from ucm_cts.adapters.mutants.toolchain.tolerance import deaf, lacks, without
-from ucm_cts.adapters.reference.toolchain.actual_types import actual_type
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
 from ucm_cts.adapters.reference.toolchain.program import Program
-from ucm_cts.adapters.reference.toolchain.rules_references import OF_ONE_CLASS, Typed, index_kind
+from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
+from ucm_cts.adapters.reference.toolchain.rules.contracts.references import OF_ONE_CLASS, Typed, index_kind
 
 Indexed = Enumeration | Sequence
 

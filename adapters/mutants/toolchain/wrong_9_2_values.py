@@ -10,11 +10,11 @@ from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.mutants.toolchain.registry import breaks, replacing_rule
 from ucm_cts.adapters.mutants.toolchain.strictness import refusing
 from ucm_cts.adapters.mutants.toolchain.tolerance import deaf, lacks, without
-from ucm_cts.adapters.reference.toolchain.actual_types import actual_type
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
-from ucm_cts.adapters.reference.toolchain.constant_syntax import NotAConstant
-from ucm_cts.adapters.reference.toolchain.constant_values import NoValueOfType, Ranges, fit
 from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
+from ucm_cts.adapters.reference.toolchain.rules.contracts.constant_syntax import NotAConstant
+from ucm_cts.adapters.reference.toolchain.rules.contracts.constant_values import NoValueOfType, Ranges, fit
 
 Fits = Callable[[Constant, Scope], None]
 

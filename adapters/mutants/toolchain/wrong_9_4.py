@@ -21,8 +21,8 @@ from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.mutants.toolchain.registry import breaks, replacing_rule
 from ucm_cts.adapters.mutants.toolchain.strictness import overhearing, refusing, refusing_text
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
-from ucm_cts.adapters.reference.toolchain.policy_use import aspect_of, uses
 from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.reference.toolchain.rules.components.policy_use import aspect_of, uses
 
 
 @breaks(

@@ -11,8 +11,8 @@ from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, member_of
 from ucm_cts.adapters.mutants.toolchain.registry import breaks
 from ucm_cts.adapters.mutants.toolchain.strictness import overhearing, refusing, refusing_text
-from ucm_cts.adapters.reference.toolchain.part_ports import component_type, part_called
 from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import component_type, part_called
 
 Composite = CompositeComponentImplementation
 

@@ -18,8 +18,8 @@ from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
 from ucm_cts.adapters.mutants.toolchain.registry import breaks
 from ucm_cts.adapters.mutants.toolchain.strictness import refusing
-from ucm_cts.adapters.reference.toolchain.part_ports import COMPONENTS, part_called
 from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import COMPONENTS, part_called
 
 Composite = CompositeComponentImplementation
 

@@ -16,8 +16,8 @@ from ucm_cts.adapters.contract.metamodel.contracts import (
 )
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.mutants.toolchain.registry import MUTANTS, Holds, Mutant, complaining_where
-from ucm_cts.adapters.reference.toolchain.actual_types import actual_type
 from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
 
 
 def _seldom(name: str, lie: str, requirement: str, rule: str, holds: Holds, *also: str) -> None:

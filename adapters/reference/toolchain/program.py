@@ -41,9 +41,10 @@ class Program:
 
 
 def all_rules() -> Mapping[str, Rule]:
-    """The rules of all modules ``rules_*.py``."""
-    for path in sorted(Path(__file__).parent.glob("rules_*.py")):
-        import_module(f"ucm_cts.adapters.reference.toolchain.{path.stem}")
+    """The rules of all modules in ``rules``."""
+    here = Path(__file__).parent
+    for path in sorted(here.glob("rules/**/*.py")):
+        import_module(".".join(("ucm_cts.adapters.reference.toolchain", *path.relative_to(here).with_suffix("").parts)))
     return RULES
 
 
@@ -53,10 +54,10 @@ def reference() -> Program:
 
 
 _GENERATORS = {
-    "idl": ("idl", "generate"),
-    "cpp11": ("cpp", "generate_cpp11"),
-    "cpp03": ("cpp", "generate_cpp03"),
-    "lwucm": ("lwucm_glue", "generate_lwucm"),
+    "idl": ("idl.generator", "generate"),
+    "cpp11": ("cpp.generator", "generate_cpp11"),
+    "cpp03": ("cpp.generator", "generate_cpp03"),
+    "lwucm": ("cpp.lwucm_glue", "generate_lwucm"),
 }
 
 

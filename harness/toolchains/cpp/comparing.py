@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.harness.toolchains.cpp.compiling import LAYOUT, Compiler, Layout
 from ucm_cts.harness.toolchains.cpp.linking import matches
-from ucm_cts.harness.toolchains.cpp.probes import check_files
+from ucm_cts.harness.toolchains.cpp.probes.running import check_files
 from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.reference_models.mapping.cpp.expected import ExpectedCpp, Standard
 from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from ucm_cts.adapters.contract.value import Value
-from ucm_cts.harness.toolchains import bounded
-from ucm_cts.harness.toolchains.bounded import Ended
+from ucm_cts.harness.toolchains.commands import bounded
+from ucm_cts.harness.toolchains.commands.bounded import Ended
 from ucm_cts.harness.toolchains.cpp.disguise import TAG, Disguise
 
 STANDARDS = {"cpp11": "-std=c++11", "cpp03": "-std=c++03"}

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from ucm_cts.harness.toolchains.idl.reading import Files, NotIdl, read_expression
+from ucm_cts.harness.toolchains.idl.language.reading import Files, NotIdl, read_expression
+from ucm_cts.harness.toolchains.idl.language.scopes import Entry, Scope, every
+from ucm_cts.harness.toolchains.idl.language.showing import show, show_worth
+from ucm_cts.harness.toolchains.idl.language.values import Worth, equal, model_worth, worth
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
-from ucm_cts.harness.toolchains.idl.scopes import Entry, Scope, every
-from ucm_cts.harness.toolchains.idl.showing import show, show_worth
 from ucm_cts.harness.toolchains.idl.subject import here
-from ucm_cts.harness.toolchains.idl.values import Worth, equal, model_worth, worth
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
 from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,

@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator, Mapping
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.harness.toolchains.idl.annotations import applied
 from ucm_cts.harness.toolchains.idl.facts import FACTS, MISPLACED
+from ucm_cts.harness.toolchains.idl.language.reading import Files, read_files
+from ucm_cts.harness.toolchains.idl.language.scopes import build
 from ucm_cts.harness.toolchains.idl.omniidl import Opinion
-from ucm_cts.harness.toolchains.idl.reading import Files, read_files
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
-from ucm_cts.harness.toolchains.idl.scopes import build
 from ucm_cts.harness.toolchains.idl.standard import standard_differences
 from ucm_cts.harness.toolchains.idl.validity import building_blocks, invalid
 from ucm_cts.harness.toolchains.idl.vendor import Vendor

@@ -19,11 +19,11 @@ from ucm_cts.harness.toolchains.idl.facts_of_interfaces import (
     takes,
     takes_type,
 )
+from ucm_cts.harness.toolchains.idl.language.scopes import Entry, Hit, Scope, every, resolve
+from ucm_cts.harness.toolchains.idl.language.showing import show, show_kind, show_worth, type_of
+from ucm_cts.harness.toolchains.idl.language.values import Chosen, equal, model_worth, worth
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
-from ucm_cts.harness.toolchains.idl.scopes import Entry, Hit, Scope, every, resolve
-from ucm_cts.harness.toolchains.idl.showing import show, show_kind, show_worth, type_of
 from ucm_cts.harness.toolchains.idl.subject import here, nearest
-from ucm_cts.harness.toolchains.idl.values import Chosen, equal, model_worth, worth
 from ucm_cts.harness.toolchains.idl.vendor import Vendor, spelled
 from ucm_cts.reference_models.mapping.idl.declarations import (
     Attribute,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from ucm_cts.harness.toolchains.idl.language.scopes import Hit, base_names, bases, resolve
+from ucm_cts.harness.toolchains.idl.language.showing import show
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
-from ucm_cts.harness.toolchains.idl.scopes import Hit, base_names, bases, resolve
-from ucm_cts.harness.toolchains.idl.showing import show
 from ucm_cts.harness.toolchains.idl.subject import here
 from ucm_cts.harness.toolchains.idl.vendor import Vendor, spelled
 from ucm_cts.reference_models.mapping.idl.declarations import Attribute, Interface, Operation, kind_of

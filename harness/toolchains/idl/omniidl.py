@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from ucm_cts.harness.toolchains.idl.preprocessing import Preprocessed
-from ucm_cts.harness.toolchains.idl.problems import Problem
-from ucm_cts.harness.toolchains.idl.reading import read_files
-from ucm_cts.harness.toolchains.idl.scopes import build, every
-from ucm_cts.harness.toolchains.idl.showing import type_of
+from ucm_cts.harness.toolchains.idl.language.preprocessing import Preprocessed
+from ucm_cts.harness.toolchains.idl.language.problems import Problem
+from ucm_cts.harness.toolchains.idl.language.reading import read_files
+from ucm_cts.harness.toolchains.idl.language.scopes import build, every
+from ucm_cts.harness.toolchains.idl.language.showing import type_of
 from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,
     ArrayOf,

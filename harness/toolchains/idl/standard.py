@@ -11,9 +11,9 @@ import functools
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ucm_cts.harness.toolchains.idl.language.scopes import Entry, build, every, resolve
+from ucm_cts.harness.toolchains.idl.language.showing import show_declaration
 from ucm_cts.harness.toolchains.idl.results import Wrong
-from ucm_cts.harness.toolchains.idl.scopes import Entry, build, every, resolve
-from ucm_cts.harness.toolchains.idl.showing import show_declaration
 from ucm_cts.harness.toolchains.idl.vendor import Meaning, Vendor
 from ucm_cts.reference_models.mapping.idl.declarations import (
     Attribute,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from ucm_cts.harness.toolchains.idl.language.scopes import Hit
 from ucm_cts.harness.toolchains.idl.results import NotExercised
-from ucm_cts.harness.toolchains.idl.scopes import Hit
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
 from ucm_cts.reference_models.mapping.idl.declarations import Declaration, Place
 from ucm_cts.reference_models.mapping.idl.expectations import Path

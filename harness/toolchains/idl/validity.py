@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ucm_cts.harness.toolchains.idl.reading import Files
+from ucm_cts.harness.toolchains.idl.language.reading import Files
+from ucm_cts.harness.toolchains.idl.language.scopes import Entry, Scope, every, resolve
+from ucm_cts.harness.toolchains.idl.language.showing import type_of
 from ucm_cts.harness.toolchains.idl.results import Wrong
-from ucm_cts.harness.toolchains.idl.scopes import Entry, Scope, every, resolve
-from ucm_cts.harness.toolchains.idl.showing import type_of
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
 from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,

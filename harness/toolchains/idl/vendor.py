@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from ucm_cts.harness.toolchains.idl.scopes import (
+from ucm_cts.harness.toolchains.idl.language.scopes import (
     MOST_STEPS,
     NOTHING,
     Bound,
@@ -17,7 +17,7 @@ from ucm_cts.harness.toolchains.idl.scopes import (
     member,
     resolve,
 )
-from ucm_cts.harness.toolchains.idl.values import worth
+from ucm_cts.harness.toolchains.idl.language.values import worth
 from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotated,
     Annotation,

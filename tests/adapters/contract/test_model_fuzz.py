@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from ucm_cts.adapters.contract.metamodel.common import walk
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.spelling import SPELLINGS
-from ucm_cts.harness.toolchains import strategies
-from ucm_cts.harness.toolchains.fuzzing import PRINTED, PROPERTIES
-from ucm_cts.harness.toolchains.schema import second_opinion, violations
+from ucm_cts.harness.toolchains.corpus import strategies
+from ucm_cts.harness.toolchains.corpus.fuzzing import PRINTED, PROPERTIES
+from ucm_cts.harness.toolchains.corpus.schema import second_opinion, violations
 
 quick = settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
 

@@ -14,8 +14,8 @@ from ucm_cts.adapters.contract.metamodel.spelling import IGNORED, SPELLINGS, Spe
 from ucm_cts.adapters.contract.metamodel.writing import write_model
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.models.core_models import CORE
+from ucm_cts.harness.toolchains.corpus.schema import SCHEMA, second_opinion, violations
 from ucm_cts.harness.toolchains.corpus.selection import questions
-from ucm_cts.harness.toolchains.schema import SCHEMA, second_opinion, violations
 
 MAPPING = SUITE / "models" / "mapping"
 XS = "{http://www.w3.org/2001/XMLSchema}"

@@ -12,8 +12,8 @@ from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Names, Scope
 from ucm_cts.adapters.contract.metamodel.reading import read_model
-from ucm_cts.adapters.reference.toolchain.constant_syntax import LONGEST, NotAConstant, parsed
-from ucm_cts.adapters.reference.toolchain.constant_values import NoValueOfType, fit
+from ucm_cts.adapters.reference.toolchain.rules.contracts.constant_syntax import LONGEST, NotAConstant, parsed
+from ucm_cts.adapters.reference.toolchain.rules.contracts.constant_values import NoValueOfType, fit
 
 TYPES = """
 <ContractModule name="m">

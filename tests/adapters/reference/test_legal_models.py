@@ -12,8 +12,8 @@ from ucm_cts.adapters.contract.metamodel.writing import write_model
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.bench.large_model import large_model
 from ucm_cts.harness.toolchains.corpus.legal_models import legal_models
+from ucm_cts.harness.toolchains.corpus.schema import violations
 from ucm_cts.harness.toolchains.idl.comparing import compare
-from ucm_cts.harness.toolchains.schema import violations
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
 some = settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))

@@ -12,12 +12,12 @@ from cpp_subjects import NO_HEADERS, model
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.results.statement import default_statement
+from ucm_cts.harness.toolchains.commands.description import Command, ToolChain, read_toolchain
+from ucm_cts.harness.toolchains.commands.processing import CommandLine
 from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import LAYOUT, Compiler, Layout, compile_text
-from ucm_cts.harness.toolchains.description import Command, ToolChain, read_toolchain
 from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.harness.toolchains.examinations import examination_for
-from ucm_cts.harness.toolchains.processing import CommandLine
 from ucm_cts.harness.toolchains.renaming import Dress
 
 DEMONSTRATION = '#include "constants.hpp"\nint main() { return 0; }\n'

@@ -9,9 +9,9 @@ from idl_subjects import TELLER, TELLER_IDL, model_of
 
 from ucm_cts.harness.toolchains.differences import Difference
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS, compare
-from ucm_cts.harness.toolchains.idl.scopes import Scope
+from ucm_cts.harness.toolchains.idl.language.scopes import Scope
+from ucm_cts.harness.toolchains.idl.language.values import worth as value_of
 from ucm_cts.harness.toolchains.idl.standard import printed
-from ucm_cts.harness.toolchains.idl.values import worth as value_of
 from ucm_cts.reference_models.mapping.idl.declarations import Literal
 from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF, STANDS_FOR, Declares, Getter, Templated
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl

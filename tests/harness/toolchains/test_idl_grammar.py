@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ucm_cts.harness.toolchains.idl.omniidl import opinion, without_annotations
-from ucm_cts.harness.toolchains.idl.reading import (
+from ucm_cts.harness.toolchains.idl.language.reading import (
     DEEPEST,
     LARGEST,
     LONGEST_CHAIN,
@@ -16,8 +15,9 @@ from ucm_cts.harness.toolchains.idl.reading import (
     read_files,
     read_idl,
 )
-from ucm_cts.harness.toolchains.idl.scopes import build
-from ucm_cts.harness.toolchains.idl.values import Worth, worth
+from ucm_cts.harness.toolchains.idl.language.scopes import build
+from ucm_cts.harness.toolchains.idl.language.values import Worth, worth
+from ucm_cts.harness.toolchains.idl.omniidl import opinion, without_annotations
 from ucm_cts.reference_models.mapping.idl.declarations import (
     Annotation,
     ArrayOf,

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ucm_cts.harness.toolchains.idl.language.preprocessing import DEEPEST_INCLUDES, preprocessed
+from ucm_cts.harness.toolchains.idl.language.reading import NotIdl, read_files, read_idl
 from ucm_cts.harness.toolchains.idl.omniidl import opinion
-from ucm_cts.harness.toolchains.idl.preprocessing import DEEPEST_INCLUDES, preprocessed
-from ucm_cts.harness.toolchains.idl.reading import NotIdl, read_files, read_idl
 from ucm_cts.reference_models.mapping.idl.declarations import Typedef
 
 

@@ -14,8 +14,8 @@ from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.toolchains.corpus.legal_models import legal_models
 from ucm_cts.harness.toolchains.idl.comparing import compare
+from ucm_cts.harness.toolchains.idl.language.reading import read_files
 from ucm_cts.harness.toolchains.idl.omniidl import opinion
-from ucm_cts.harness.toolchains.idl.reading import read_files
 from ucm_cts.reference_models.mapping.idl.declarations import Module
 from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from ucm_cts.harness.toolchains import bounded
-from ucm_cts.harness.toolchains.description import Command, ToolChain
-from ucm_cts.harness.toolchains.processing import CommandLine, Made
+from ucm_cts.harness.toolchains.commands import bounded
+from ucm_cts.harness.toolchains.commands.description import Command, ToolChain
+from ucm_cts.harness.toolchains.commands.processing import CommandLine, Made
 
 NESTS = """
 for _ in range(1100):

@@ -1,0 +1,238 @@
+"""What lwucm, the C++ reference framework, needs to host typed bodies (13.9): a header beside the one of ``cpp11``.
+
+It has a glue for each abstract class of component bodies, which asks the body by numbers for what lwucm asks by names, and a
+stand-in for each interface of their port elements, which policies of execution and trace put before port elements.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from ucm_cts.adapters.contract.metamodel import components, contracts
+from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.names import Declared, Names, each_element, lineage
+from ucm_cts.adapters.reference.toolchain.cpp.components import Body, Used, body_of
+from ucm_cts.adapters.reference.toolchain.cpp.generator import header_name, is_ours
+from ucm_cts.adapters.reference.toolchain.cpp.interfaces import (
+    PREFIX,
+    Bindings,
+    base_interfaces,
+    passed,
+    qualified_class,
+    resolve,
+    value_type,
+)
+from ucm_cts.adapters.reference.toolchain.cpp.names import identifier, instance, qualified
+from ucm_cts.adapters.reference.toolchain.cpp.types import CPP11, DATA, find
+
+SELF_EXECUTING, SELF_EXECUTION_API = "protected_self-executing_component", "self-execution_api"
+"""The policy of 10.1.3 by which a component provides ``run`` to its container, and the port element that has it."""
+
+
+def generate_lwucm(model: Model) -> Mapping[str, str]:
+    """The header by its path; it includes what ``generate_cpp11`` makes of the same model."""
+    names = Names(model)
+    bodies = [
+        body_of(Declared(element, scope))
+        for element, scope in each_element(model, names)
+        if isinstance(element, components.AtomicComponentImplementation) and is_ours(element)
+    ]
+    header = header_name(model)
+    guard = f"{header.upper()}_LWUCM_HPP"
+    stand_ins = {qualified_class(i, b): _stand_in(i, b) for body in bodies for i, b in _interfaces(body)}
+    pieces = [*stand_ins.values(), *map(_glue, bodies)]
+    text = (
+        f"#ifndef {guard}\n#define {guard}\n\n#include <lwucm/typed.hpp>\n\n"
+        f'#include "{header}.hpp"\n\nnamespace lwucm {{\n\n' + "\n".join(pieces) + "\n}\n\n#endif\n"
+    )
+    return {f"{header}_lwucm.hpp": text}
+
+
+def _interfaces(body: Body) -> Iterator[tuple[Declared, Bindings]]:
+    """Those of the body's own port elements; its policies' are the container's."""
+    for used in body.used:
+        if used.interface is not None and not used.of_policy:
+            yield used.interface, used.bindings
+
+
+def _stand_in(interface: Declared, bindings: Bindings) -> str:
+    type_ = qualified_class(interface, bindings)
+    target = f"::std::shared_ptr< {type_} >"
+    lines = [
+        "template <>",
+        f"class {instance('TypedStandIn', type_)} final : public {type_} {{",
+        "  public:",
+        f"    TypedStandIn(const {target}& target, const ::std::shared_ptr<Interceptor>& interceptor)",
+        "        : target_(target), interceptor_(interceptor) {}",
+        *_operations(interface, bindings, []),
+        "",
+        "  private:",
+        f"    const {target} target_;",
+        "    const ::std::shared_ptr<Interceptor> interceptor_;",
+        "};",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _operations(interface: Declared, bindings: Bindings, seen: list[str]) -> Iterator[str]:
+    """All functions of ``interface``, those it inherits first; what is inherited twice is one."""
+    if interface.path in seen:
+        return
+    seen.append(interface.path)
+    for base in base_interfaces(interface):
+        yield from _operations(base, bindings, seen)
+    element, scope = interface.element, interface.scope
+    assert isinstance(element, contracts.Interface)
+    for attribute in element.attributes:
+        found = resolve(attribute.type, scope, bindings)
+        yield from _operation(attribute.name, value_type(found, bindings, CPP11), [])
+        if attribute.mode != "READ":
+            yield from _operation(attribute.name, "void", [(passed(found, "IN", bindings, CPP11), "value")])
+    for method in element.methods:
+        result, taken = "void", []
+        for parameter in method.parameters:
+            found = resolve(parameter.type, scope, bindings)
+            if parameter.direction == "RETURN":
+                result = value_type(found, bindings, CPP11)
+            else:
+                taken.append((passed(found, parameter.direction, bindings, CPP11), identifier(parameter.name)))
+        yield from _operation(method.name, result, taken)
+
+
+def _operation(name: str, result: str, taken: Sequence[tuple[str, str]]) -> Iterator[str]:
+    parameters = ", ".join(f"{type_} {parameter}" for type_, parameter in taken)
+    call = f"this->target_->{identifier(name)}({', '.join(parameter for _, parameter in taken)})"
+    yield f"    {result} {identifier(name)}({parameters}) override {{"
+    if result == "void":
+        yield f'        this->interceptor_->call("{name}", [&] {{ {call}; }});'
+    else:
+        local = "result"
+        while local in (parameter for _, parameter in taken):
+            local += "_"
+        yield f"        {result} {local} = {result}();"
+        yield f'        this->interceptor_->call("{name}", [&] {{ {local} = {call}; }});'
+        yield f"        return {local};"
+    yield "    }"
+
+
+def _glue(body: Body) -> str:
+    class_ = qualified(body.declared, PREFIX)
+    provided = [u for u in body.used if u.kind == "PROVIDED" and u.interface is not None and not u.of_policy]
+    lines = [
+        "template <>",
+        f"struct {instance('TypedGlue', class_)} {{",
+        f"    typedef {class_} Body;",
+        "",
+        *_names(body, provided),
+        *_provided(provided),
+        *_startup(body),
+        *_set_attribute(body),
+        *_execution(body),
+        *_intercept("intercept_provided", provided),
+        *_intercept("intercept_required", [u for u in body.required if not u.of_policy]),
+        "};",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _names(body: Body, provided: Sequence[Used]) -> Iterator[str]:
+    required = [u.called for u in body.required if not u.of_policy]
+    services = [u.called for u in body.required if u.of_policy]
+    attributes = [a.name for a, _ in _written(body)]
+    lists = ", ".join(_list(names) for names in ([u.called for u in provided], required, attributes, services))
+    yield f"    static TypedNames names() {{ return {{{lists}}}; }}"
+
+
+def _list(names: Sequence[str]) -> str:
+    return "{" + ", ".join(f'"{name}"' for name in names) + "}"
+
+
+def _written(body: Body) -> Iterator[tuple[contracts.Attribute, Declared]]:
+    """The attributes that can be configured, and what their types are."""
+    for ancestor in reversed(lineage(body.component_type)):
+        assert isinstance(ancestor.element, components.ComponentType)
+        for attribute in ancestor.element.attributes:
+            if attribute.mode != "READ":
+                yield attribute, find(attribute.type, ancestor.scope, *DATA)
+
+
+def _choice(head: str, parameter: str, cases: Sequence[str], otherwise: str) -> Iterator[str]:
+    """A function of a body and a number; ``cases`` are statements by number."""
+    if not cases:
+        yield f"    static {head.format(body='', n='', value='')} {{{f' {otherwise} ' if otherwise else ''}}}"
+        return
+    yield f"    static {head.format(body=' body', n=' n', value=parameter)} {{"
+    yield "        switch (n) {"
+    for number, statement in enumerate(cases):
+        yield f"            case {number}: {statement}"
+    yield "        }"
+    if otherwise:
+        yield f"        {otherwise}"
+    yield "    }"
+
+
+def _provided(provided: Sequence[Used]) -> Iterator[str]:
+    head = "::std::shared_ptr<PortElementObject> provided(Body&{body}, ::std::size_t{n})"
+    yield from _choice(head, "", [f"return body.get_{u.name}();" for u in provided], "return nullptr;")
+
+
+def _set_attribute(body: Body) -> Iterator[str]:
+    head = "void set_attribute(Body&{body}, ::std::size_t{n}, const ::std::string&{value})"
+    cases = [
+        f"body.{identifier(a.name)}({instance('attribute_value', qualified(type_))}(value)); return;"
+        for a, type_ in _written(body)
+    ]
+    yield from _choice(head, " value", cases, "")
+
+
+def _startup(body: Body) -> Iterator[str]:
+    numbers = {True: 0, False: 0}
+    given = []
+    for used in body.required:
+        assert used.interface is not None
+        asked = "service" if used.of_policy else "required"
+        type_ = qualified_class(used.interface, used.bindings)
+        given.append(f"connections.{instance(asked, type_)}({numbers[used.of_policy]})")
+        numbers[used.of_policy] += 1
+    name = " connections" if given else ""
+    yield f"    static void on_startup(Body& body, const TypedConnections&{name}) {{"
+    yield f"        body.on_startup({', '.join(given)});"
+    yield "    }"
+
+
+def _execution(body: Body) -> Iterator[str]:
+    getters = [f"get_tp_{u.name}" for u in body.used if u.of_policy and u.called in set(_self_executions(body))]
+    result = f"as_execution(body.{getters[0]}())" if getters else "nullptr"
+    name = " body" * bool(getters)
+    yield f"    static ::std::shared_ptr<component_execution_intf> execution(Body&{name}) {{ return {result}; }}"
+
+
+def _self_executions(body: Body) -> Iterator[str]:
+    """The port element by which a body provides ``run``, as ``Used`` names it."""
+    implementation, scope = body.declared.element, body.declared.scope
+    assert isinstance(implementation, components.AtomicComponentImplementation)
+    for named in implementation.policies:
+        policy = find(named.name, scope, components.ComponentTechnicalPolicy)
+        assert isinstance(policy.element, components.ComponentTechnicalPolicy)
+        definition = find(policy.element.technical_policy_definition, policy.scope, TechnicalPolicyDefinition)
+        if definition.element.name == SELF_EXECUTING:
+            yield f"{policy.element.name}_{SELF_EXECUTION_API}"
+
+
+def _intercept(which: str, used: Sequence[Used]) -> Iterator[str]:
+    """A function that puts a stand-in before a port element, which is the number of ``used``."""
+    pointers = [f"const ::std::shared_ptr<{type_}>&" for type_ in ("PortElementObject", "Interceptor")]
+    named = zip(pointers, (" target", " interceptor") if used else ("", ""), strict=True)
+    taken = ", ".join(("::std::size_t" + " n" * bool(used), *(type_ + name for type_, name in named)))
+    yield f"    static ::std::shared_ptr<PortElementObject> {which}({taken}) {{"
+    if used:
+        yield "        switch (n) {"
+    for number, one in enumerate(used):
+        assert one.interface is not None
+        stand_in = instance("stand_in", qualified_class(one.interface, one.bindings))
+        yield f"            case {number}: return {stand_in}(target, interceptor);"
+    if used:
+        yield "        }"
+    yield "        return nullptr;"
+    yield "    }"

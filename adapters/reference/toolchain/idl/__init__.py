@@ -1,0 +1,1 @@
+"""Generates IDL from models (clause 12)."""

@@ -1,0 +1,245 @@
+"""Generates IDL 4 of a well-formed model (clause 12): one file for the model, and one for the container programming model.
+
+IDL wants declarations before their use and UCM does not, so declarations are put in an order of their own and modules are opened
+again as often as that needs; interfaces that only appear in signatures are announced. Template modules cannot be
+opened again, so they are written in one piece.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
+from ucm_cts.adapters.contract.metamodel.common import Named, children, walk
+from ucm_cts.adapters.contract.metamodel.components import (
+    AtomicComponentImplementation,
+    ComponentTechnicalPolicy,
+    ComponentType,
+    PortTypeSpec,
+)
+from ucm_cts.adapters.contract.metamodel.contracts import Constant, DataType, Exception_, Interface
+from ucm_cts.adapters.contract.metamodel.interactions import PortType
+from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
+from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, lineage
+from ucm_cts.adapters.reference.toolchain.idl.components import PORT_ELEMENT_OBJECT, Components, port_element_interfaces
+from ucm_cts.adapters.reference.toolchain.idl.names import Templates, identifier, parameter
+from ucm_cts.adapters.reference.toolchain.idl.standard import STANDARD
+from ucm_cts.adapters.reference.toolchain.idl.types import Lines, constant, data_type, exception, interface
+
+DECLARED = (DataType, Constant, Exception_, Interface, ComponentType, AtomicComponentImplementation)
+"""What becomes a declaration."""
+
+HEAD = ["#ifndef MODEL_IDL", "#define MODEL_IDL", '#include "ucm.idl"', ""]
+
+
+def generate(model: Model) -> Mapping[str, str]:
+    """The files of ``model``, by their names."""
+    writer = Writer(model)
+    lines = [*HEAD, *writer.written(), "", "#endif", ""]
+    return {"ucm.idl": STANDARD, "model.idl": "\n".join(lines)}
+
+
+@dataclass(eq=False)
+class Unit:
+    """What is written in one piece in the modules of ``path``: a declaration, or a template module with all that it holds."""
+
+    path: tuple[str, ...]
+    element: Named
+    scope: Scope
+    inside: list[Unit] = field(default_factory=list)
+
+
+class Writer:
+    """Puts the declarations of a model in order and writes them."""
+
+    def __init__(self, model: Model) -> None:
+        self._names = Names(model)
+        self._templates = Templates(self._names)
+        self._components = Components(model, self._names, self._templates)
+        self._with_base = port_element_interfaces(model, self._names)
+        self._units: dict[int, Unit] = {}
+        self._top = [unit for module in model.modules for unit in self._of_module(module, self._names.root, ())]
+        self._done: set[int] = set()
+        self._announced: set[int] = set()
+
+    def _of_module(self, module: Module, around: Scope, path: tuple[str, ...]) -> Iterator[Unit]:
+        """The units of a module: itself if it is a template, else those of what it holds."""
+        scope = self._names.inside(module)
+        inner = (*path, identifier(module.name))
+        template = bool(self._templates.parameters(module))
+        units: list[Unit] = []
+        for child in children(module):
+            if isinstance(child, MODULES):
+                units += self._of_module(child, scope, () if template else inner)
+            elif isinstance(child, DECLARED):
+                units.append(Unit(() if template else inner, child, scope))
+        if template:
+            units = [Unit(path, module, around, units)]
+        for unit in units:
+            self._enter(unit, unit)
+        yield from units
+
+    def _enter(self, unit: Unit, whole: Unit) -> None:
+        self._units[id(unit.element)] = whole
+        for one in unit.inside:
+            self._enter(one, whole)
+
+    def written(self) -> Lines:
+        """All declarations of the model."""
+        return self._wrapped(self._ordered(self._top))
+
+    def _ordered(self, units: list[Unit]) -> Iterator[tuple[tuple[str, ...], Lines]]:
+        """Units with all that they need before them, each with the modules around it."""
+        here = {id(unit) for unit in units}
+        waiting = [(unit, False) for unit in reversed(units)]
+        begun: set[int] = set()
+        while waiting:
+            unit, ready = waiting.pop()
+            if id(unit) in self._done or (not ready and id(unit) in begun):
+                continue
+            if ready:
+                self._done.add(id(unit))
+                yield from self._announcements(unit, here)
+                yield unit.path, self._text(unit)
+                continue
+            begun.add(id(unit))
+            waiting.append((unit, True))
+            needed = [one for one in self._needed(unit) if id(one) in here]
+            waiting += [(one, False) for one in reversed(needed)]
+
+    def _needed(self, unit: Unit) -> list[Unit]:
+        """The units that must stand before ``unit``; interfaces in signatures need only be announced."""
+        found = []
+        for declared, strong in self._references(unit):
+            whole = self._units.get(id(declared.element))
+            if whole is not None and whole is not unit and (strong or whole.inside):
+                found.append(whole)
+        return found
+
+    def _announcements(self, unit: Unit, here: set[int]) -> Iterator[tuple[tuple[str, ...], Lines]]:
+        for declared, strong in self._references(unit):
+            whole = self._units.get(id(declared.element))
+            if whole is None or strong or whole.inside or id(whole) not in here or whole is unit:
+                continue
+            if id(whole) not in self._done | self._announced:
+                self._announced.add(id(whole))
+                yield whole.path, [f"interface {identifier(declared.element.name)};"]
+
+    def _references(self, unit: Unit) -> Iterator[tuple[Declared, bool]]:
+        """What the elements of ``unit`` refer to, and whether that must be declared in full."""
+        for part in unit.inside:
+            yield from self._references(part)
+        if not unit.inside:
+            yield from references(unit.element, unit.scope)
+        if isinstance(unit.element, AtomicComponentImplementation):
+            for policy, scope in self._components.policies(unit.element, unit.scope):
+                yield from references(policy, scope)
+
+    def _text(self, unit: Unit) -> Lines:
+        element, scope = unit.element, unit.scope
+        match element:
+            case DataType():
+                return data_type(element, scope)
+            case Constant():
+                return constant(element, scope)
+            case Exception_():
+                return exception(element, scope)
+            case Interface():
+                bases = [PORT_ELEMENT_OBJECT] if self._is_first_with_base(Declared(element, scope)) else []
+                return interface(element, scope, bases)
+            case ComponentType():
+                return self._components.component_type(element, scope)
+            case AtomicComponentImplementation():
+                return self._components.body(element, scope)
+        return self._template(unit)
+
+    def _is_first_with_base(self, declared: Declared) -> bool:
+        """Whether a port element uses the interface and none of its ancestors is used so."""
+        return declared.path in self._with_base and not any(one.path in self._with_base for one in _ancestors(declared))
+
+    def _template(self, unit: Unit) -> Lines:
+        module = unit.element
+        assert isinstance(module, MODULES)
+        lines = self._wrapped(self._ordered(unit.inside))
+        if not lines:
+            return []
+        given = ", ".join(
+            f"{'interface' if type(one.element).__name__ == 'AbstractInterface' else 'typename'} {parameter(one.element)}"
+            for one in self._templates.parameters(module)
+        )
+        return [f"module {identifier(module.name)}<{given}> {{", *(f"    {line}" for line in lines), "};"]
+
+    def _wrapped(self, pieces: Iterator[tuple[tuple[str, ...], Lines]]) -> Lines:
+        """The pieces in their modules; neighbours share those that they have in common."""
+        lines, around = Lines(), tuple[str, ...]()
+        for path, text in pieces:
+            if not text:
+                continue
+            common = 0
+            while common < min(len(path), len(around)) and path[common] == around[common]:
+                common += 1
+            lines += [f"{'    ' * level}}};" for level in range(len(around) - 1, common - 1, -1)]
+            lines += [f"{'    ' * level}module {path[level]} {{" for level in range(common, len(path))]
+            lines += [f"{'    ' * len(path)}{line}" for line in text]
+            around = path
+        return lines + [f"{'    ' * level}}};" for level in range(len(around) - 1, -1, -1)]
+
+
+def _ancestors(declared: Declared) -> list[Declared]:
+    found: dict[str, Declared] = {}
+    waiting = [declared]
+    while waiting:
+        element, scope = waiting.pop()
+        assert isinstance(element, Interface)
+        for one in element.inherited_interfaces:
+            base = scope.find(one.interface, Interface)
+            if base is not None and base.path not in found:
+                found[base.path] = base
+                waiting.append(base)
+    return list(found.values())
+
+
+_REFERENCES = ("type", "selector_type", "exception", "actual_type", "index_type")
+"""Fields that refer to data types, interfaces and exceptions."""
+
+
+def references(element: Named, scope: Scope) -> Iterator[tuple[Declared, bool]]:
+    """What ``element`` refers to, and whether that must be declared in full before it."""
+    kinds = (DataType, Interface, Exception_, ComponentType)
+    for part in walk(element):
+        for name in _REFERENCES:
+            found = scope.find(getattr(part, name, "") or "", *kinds)
+            if found is not None:
+                yield found, not isinstance(found.element, Interface)
+        base = scope.find(
+            getattr(part, "interface", "") or getattr(part, "refines", "") or "", Interface, ComponentType
+        )
+        if base is not None:
+            yield base, True
+    if isinstance(element, Constant):
+        yield from _constants(element.value, scope)
+    if isinstance(element, ComponentType):
+        specs = [spec for port in element.ports for spec in port.specs if isinstance(spec, PortTypeSpec)]
+        yield from _elements([scope.find(spec.type, PortType) for spec in specs])
+    if isinstance(element, ComponentTechnicalPolicy):
+        definition = scope.find(element.technical_policy_definition, TechnicalPolicyDefinition)
+        yield from _elements(lineage(definition) if definition is not None else [])
+
+
+def _constants(value: str, scope: Scope) -> Iterator[tuple[Declared, bool]]:
+    words = "".join(c if c.isalnum() or c in "_:" else " " for c in value).split()
+    for word in words:
+        found = scope.find(word, Constant)
+        if found is not None:
+            yield found, True
+
+
+def _elements(owners: Sequence[Declared | None]) -> Iterator[tuple[Declared, bool]]:
+    """The interfaces of port elements, which getters return."""
+    for owner in owners:
+        if owner is not None and isinstance(owner.element, (PortType, TechnicalPolicyDefinition)):
+            for one in owner.element.port_elements:
+                found = owner.scope.find(one.interface, Interface)
+                if found is not None:
+                    yield found, False

@@ -1,0 +1,1 @@
+"""The rules of 9.5: components, their implementations and composites."""

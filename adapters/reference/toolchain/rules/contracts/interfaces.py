@@ -1,0 +1,148 @@
+"""Rules of 9.2.7 and 9.2.8: interfaces, methods, exceptions and abstract types."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from ucm_cts.adapters.contract.metamodel.contracts import (
+    AbstractDataType,
+    AbstractInterface,
+    Alias,
+    Array,
+    Attribute,
+    Constant,
+    DataType,
+    Exception_,
+    Interface,
+    Method,
+    Sequence,
+    StructureField,
+    UnionCase,
+)
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
+from ucm_cts.adapters.reference.toolchain.rules.circles import circle
+
+_DATA_TYPES = (DataType, AbstractDataType)
+
+
+@rule("R-9.2.7-11", Method)
+def at_most_one_return_value(method: Method, _scope: Scope) -> Iterator[Complaint]:
+    """A method returns one thing."""
+    for parameter in [p for p in method.parameters if p.direction == "RETURN"][1:]:
+        yield (
+            parameter,
+            f"parameter {parameter.name} is a second RETURN of method {method.name}; give it another direction",
+        )
+
+
+@rule("R-9.2.7.1-02", Interface)
+def inherits_from_interfaces(interface: Interface, scope: Scope) -> Iterator[Complaint]:
+    """What is inherited is an interface that is there."""
+    for inherited in interface.inherited_interfaces:
+        if scope.find(inherited.interface, Interface, AbstractInterface) is None:
+            yield (
+                inherited,
+                f"interface {interface.name} inherits from '{inherited.interface}', which is no interface; declare it",
+            )
+
+
+@rule("R-9.2.7.1-05", Model)
+def interfaces_do_not_inherit_from_themselves(model: Model, root: Scope) -> Iterator[Complaint]:
+    """Inheriting comes to an end."""
+    found = circle(root, Interface, parents)
+    if found:
+        way = " inherits from ".join(one.name for one in (*found, found[0]))
+        yield found[0], f"interface {way}; let it inherit from others only"
+
+
+def parents(declared: Declared) -> Iterator[Declared]:
+    """The interfaces that an interface names as its ancestors, as far as they are there."""
+    if isinstance(declared.element, Interface):
+        for inherited in declared.element.inherited_interfaces:
+            found = declared.scope.find(inherited.interface, Interface)
+            if found is not None:
+                yield found
+
+
+def ancestors(declared: Declared) -> Iterator[Declared]:
+    """All interfaces that an interface inherits from, at whatever distance, each once and itself never."""
+    seen = {id(declared.element)}
+    waiting = [declared]
+    while waiting:
+        for parent in parents(waiting.pop()):
+            if id(parent.element) not in seen:
+                seen.add(id(parent.element))
+                waiting.append(parent)
+                yield parent
+
+
+@rule("R-9.2.7.1-04", Interface, under="inherited-names=refused")
+def inherited_names_differ(interface: Interface, scope: Scope) -> Iterator[Complaint]:
+    """One name does not stand for two things of an interface and its ancestors."""
+    if not interface.inherited_interfaces:
+        return
+    known = {member.name: interface.name for member in _members(interface)}
+    for ancestor in ancestors(Declared(interface, scope)):
+        assert isinstance(ancestor.element, Interface)
+        for member in _members(ancestor.element):
+            other = known.setdefault(member.name, ancestor.element.name)
+            if other != ancestor.element.name:
+                yield (
+                    interface,
+                    f"interface {interface.name} has {member.name} from {other} and from {ancestor.element.name}; "
+                    "rename one of them",
+                )
+
+
+def _members(interface: Interface) -> Iterator[Method | Attribute]:
+    yield from interface.methods
+    yield from interface.attributes
+
+
+@rule("R-9.2.7.2-02", Interface)
+def methods_are_not_repeated(interface: Interface, _scope: Scope) -> Iterator[Complaint]:
+    """Two methods differ in their names or in their parameters."""
+    seen: set[tuple[object, ...]] = set()
+    for method in interface.methods:
+        signature = _signature(method)
+        if signature in seen:
+            yield method, f"interface {interface.name} has method {method.name} twice; take one of them out"
+        seen.add(signature)
+
+
+@rule("R-9.2.7.2-02", Interface, under="method-overloading=refused")
+def methods_differ_in_name(interface: Interface, _scope: Scope) -> Iterator[Complaint]:
+    """No mapping to IDL can tell two methods of one name apart."""
+    seen: dict[str, tuple[object, ...]] = {}
+    for method in interface.methods:
+        signature = _signature(method)
+        if seen.setdefault(method.name, signature) != signature:
+            yield method, f"interface {interface.name} has several methods {method.name}; give them names of their own"
+
+
+def _signature(method: Method) -> tuple[object, ...]:
+    return (method.name, *((p.name, p.direction, p.type) for p in method.parameters))
+
+
+@rule("R-9.2.7.2-03", Method)
+def raises_exceptions(method: Method, scope: Scope) -> Iterator[Complaint]:
+    """What a method raises is an exception that is there."""
+    for raised in method.raised_exceptions:
+        if scope.find(raised.exception, Exception_) is None:
+            yield raised, f"method {method.name} raises '{raised.exception}', which is no exception; declare it"
+
+
+Typed = StructureField | UnionCase | Alias | Array | Sequence | Constant
+
+
+@rule(
+    "R-9.2.8-03", StructureField, UnionCase, Alias, Array, Sequence, Constant, under="abstract-types-elsewhere=refused"
+)
+def abstract_types_serve_interfaces_only(typed: Typed, scope: Scope) -> Iterable[Complaint]:
+    """Nothing would ever bind an abstract type inside another type or a constant."""
+    found = scope.find_one_of(typed.type, _DATA_TYPES)
+    if found is None or not isinstance(found.element, AbstractDataType):
+        return ()
+    return [(typed, f"{typed.name} is of the abstract type {typed.type}; give it an actual one")]

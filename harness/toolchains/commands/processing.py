@@ -1,0 +1,239 @@
+"""Does one task of a tool chain with models, and says what became of them."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
+
+from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.harness.results.values import MODEL_FILE, OUT_FOLDER, Incident, Processed
+from ucm_cts.harness.toolchains.commands.bounded import Ended, own_folder, run
+from ucm_cts.harness.toolchains.commands.description import MODEL, MODELS, OUT, Command, Task, ToolChain, program
+
+SEVERAL = 40
+"""Models for one call that takes several."""
+
+_OUTPUT = 1 << 18
+_FILES = 2_000
+_FILES_BYTES = 64 << 20
+_ENTRIES = 20_000
+_DEEPEST = 50
+"""Levels of folders below the folder for files that are looked into."""
+
+
+@dataclass(frozen=True)
+class Made:
+    """What became of a model: the evidence, whether the tool accepted it (None: it came to no answer), the lines that its
+    diagnostics name, and the text files it wrote, by path.
+    """
+
+    processed: Processed
+    accepted: bool | None
+    lines: frozenset[int] = frozenset()
+    files: Mapping[str, str] = field(default_factory=dict)
+
+
+class Processor(Protocol):
+    """Whoever can be asked to do a task with a model."""
+
+    def process(self, task: Task, name: str, text: str) -> Made:
+        """Do ``task`` with the model ``text``; ``name`` is the question's. Never raises for what the tool does."""
+
+    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made]:
+        """The same for several models, each with its name."""
+
+    def at_once(self, task: Task) -> int:
+        """How many models ``process_all`` is best given."""
+
+
+class CommandLine:
+    """A tool chain behind its command lines; each call gets a folder and a process group of its own."""
+
+    def __init__(self, toolchain: ToolChain) -> None:
+        """Raises ``DocumentError`` if a program is not there."""
+        self._toolchain = toolchain
+        self._programs: dict[Task, tuple[Command, list[str]]] = {}
+        for task in ("check", "idl", "cpp11", "cpp03"):
+            command = toolchain.command_for(task)
+            if command is not None:
+                self._programs[task] = (command, program(toolchain, command))
+
+    def at_once(self, task: Task) -> int:
+        return SEVERAL if self._toolchain.takes_several(task) else 1
+
+    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made]:
+        """Where one call takes several models it must be clear which it refuses; if it is not, each gets a call of its own."""
+        made = self._together(task, models) if len(models) > 1 else None
+        return made or [self.process(task, name, text) for name, text in models]
+
+    def _together(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made] | None:
+        command, words = self._programs[task]
+        with own_folder() as folder:
+            files = [folder / f"model-{number}.xml" for number in range(len(models))]
+            for file, (_, text) in zip(files, models, strict=True):
+                file.write_text(text, encoding="utf-8")
+            filled = [str(f) for word in words for f in (files if word == MODELS else (word,))]
+            ended = run(filled, folder, self._toolchain)
+        if ended.incident or _odd_status(ended.status, command) or _died(ended):
+            return None
+        told: dict[str, list[str]] = {str(file): [] for file in files}
+        for line in ended.output.splitlines():
+            found = re.match(command.diagnostic, line)
+            if (
+                found
+                and not _REMARK.match(line[found.end() :])
+                and (named := str(Path(folder, found["file"] or ""))) in told
+            ):
+                told[named].append(line.replace(named, MODEL_FILE))
+        if (ended.status == 0) == any(told.values()):
+            return None
+        shown = tuple(word.replace(MODELS, MODEL_FILE) for word in _by_hand(command, words))
+        made = []
+        for (name, text), lines in zip(models, told.values(), strict=True):
+            output = "".join(f"{line}\n" for line in lines)
+            processed = Processed(name, task, text, shown, ended.status if lines else 0, output)
+            made.append(Made(processed, not lines, named_lines(output, command.diagnostic, text)))
+        return made
+
+    def process(self, task: Task, name: str, text: str) -> Made:
+        command, words = self._programs[task]
+        with own_folder() as folder:
+            model, out = folder / MODEL_FILE, folder / OUT_FOLDER
+            model.write_text(text, encoding="utf-8")
+            out.mkdir()
+            filled = [_filled(word, str(model), str(out)) for word in words]
+            ended = run(filled, folder, self._toolchain)
+            output = ended.output.replace(f"{folder}/", "")
+            shown = tuple(_filled(word, MODEL_FILE, OUT_FOLDER) for word in _by_hand(command, words))
+            incident = ended.incident or _odd_status(ended.status, command) or _died(ended)
+            processed = Processed(name, task, text, shown, ended.status, output, incident)
+            if incident is not None:
+                return Made(processed, None)
+            accepted = ended.status == 0
+            lines = named_lines(output, command.diagnostic, text)
+            return Made(processed, accepted, lines, _files(out) if accepted else {})
+
+
+def _by_hand(command: Command, words: Sequence[str]) -> tuple[str, ...]:
+    """``command`` as it can be typed in any folder; ``words`` are the same with the program as it was found."""
+    name = command.command[0]
+    on_the_path = "/" not in name and shutil.which(name) is not None
+    return (name if on_the_path else words[0], *words[1:])
+
+
+def _filled(word: str, model: str, out: str) -> str:
+    return word.replace(MODELS, model).replace(MODEL, model).replace(OUT, out)
+
+
+class InProcess:
+    """A tool chain of ours in this very process, for the self-test: quick, and not isolated."""
+
+    def __init__(self, program: Program) -> None:
+        self._program = program
+
+    def at_once(self, task: Task) -> int:
+        return SEVERAL
+
+    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made]:
+        return [self.process(task, name, text) for name, text in models]
+
+    def process(self, task: Task, name: str, text: str) -> Made:
+        files: Mapping[str, str] = {}
+        try:
+            if task == "check":
+                _, told = self._program.check(text.encode(), MODEL_FILE)
+            else:
+                files, told = self._program.generate(task, text.encode(), MODEL_FILE)
+        except Exception as problem:  # noqa: BLE001 - a mutant may do anything
+            incident = Incident("crash", f"{type(problem).__name__}: {problem}")
+            return Made(Processed(name, task, text, ("ucm-cts-toolchain", task), None, "", incident), None)
+        output = "".join(f"{diagnostic}\n" for diagnostic in told)
+        status = 1 if told else 0
+        processed = Processed(name, task, text, ("ucm-cts-toolchain", task, MODEL_FILE), status, output)
+        return Made(processed, not told, frozenset(diagnostic.line for diagnostic in told), files)
+
+
+def named_lines(output: str, diagnostic: str, model: str) -> frozenset[int]:
+    """The lines of ``model`` that ``output`` names; numbers beside the name of another file are of no interest."""
+    last = model.count("\n") + 1
+    lines: set[int] = set()
+    for match in re.finditer(diagnostic, output[:_OUTPUT], re.MULTILINE):
+        file = (match.groupdict().get("file") or MODEL_FILE).strip()
+        number = match["line"] or ""
+        if Path(file).name == MODEL_FILE and number.isdecimal() and len(number) < 10 and 0 < int(number) <= last:
+            lines.add(int(number))
+    return frozenset(lines)
+
+
+def _odd_status(status: int | None, command: Command) -> Incident | None:
+    if status is None or status == 0 or status in command.refuses:
+        return None
+    if status < 0:
+        return Incident("crash", f"killed by {_signal_name(-status)}")
+    listed = ", ".join(map(str, command.refuses))
+    return Incident("exit", f"exit status {status}, which neither accepts (0) nor refuses ({listed})")
+
+
+def _signal_name(number: int) -> str:
+    """Real-time signals have no names of their own."""
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        beyond = number - signal.SIGRTMIN
+        return f"SIGRTMIN+{beyond}" if beyond > 0 else f"signal {number}"
+
+
+_REMARK = re.compile(r"\s*(warning|note|info|information|remark|hint)\b", re.IGNORECASE)
+"""What begins a diagnostic that refuses nothing."""
+
+_DEATHS = re.compile(
+    r"^(Traceback \(most recent call last\):|Exception in thread |panic: |thread '.*' panicked at |.*Segmentation fault"
+    r"|terminate called |=+[0-9]+=+ERROR: \w+Sanitizer)",
+    re.MULTILINE,
+)
+"""What run-time systems print when a program dies; its exit status may be one that refuses a model."""
+
+
+def _died(ended: Ended) -> Incident | None:
+    found = _DEATHS.search(ended.output) if ended.status else None
+    return Incident("crash", f"it died: {found[0].strip()}") if found else None
+
+
+def _files(out: Path) -> dict[str, str]:
+    """The text files below ``out``; links, what cannot be read and what is beyond the limits are left out."""
+    found: dict[str, str] = {}
+    left = _FILES_BYTES
+    for path in sorted(_paths(out)):
+        if len(found) == _FILES:
+            break
+        with suppress(OSError):
+            left -= path.stat().st_size
+            if left < 0:
+                break
+            name = os.fsencode(path.relative_to(out)).decode(errors="backslashreplace")
+            found[name] = path.read_text(encoding="utf-8", errors="replace")
+    return found
+
+
+def _paths(out: Path) -> Iterator[Path]:
+    """The plain files below ``out``, as far as its folders nest and hold entries within the limits."""
+    waiting = [] if out.is_symlink() else [(out, 0)]
+    entries = 0
+    while waiting:
+        folder, depth = waiting.pop()
+        with suppress(OSError), os.scandir(folder) as inside:
+            for entry in inside:
+                entries += 1
+                if entries > _ENTRIES:
+                    return
+                if entry.is_dir(follow_symlinks=False) and depth < _DEEPEST:
+                    waiting.append((Path(entry.path), depth + 1))
+                elif entry.is_file(follow_symlinks=False):
+                    yield Path(entry.path)

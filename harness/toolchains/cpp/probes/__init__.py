@@ -1,0 +1,1 @@
+"""Probes: claims about C++ declarations as code that a compiler accepts or refuses."""

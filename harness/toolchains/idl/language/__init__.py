@@ -1,0 +1,1 @@
+"""Reads the IDL of a vendor: preprocessor, grammar, names and values."""
