@@ -9,170 +9,61 @@ identifier the framework never gave out, ``NIL`` a null reference. ``MANAGER`` i
 
 from __future__ import annotations
 
-from typing import Literal, get_args
+from collections.abc import Callable
+from typing import Annotated, ClassVar, Literal, get_args
 
-from ucm_cts.adapters.contract.data_types import Datum, Interface
+from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.declarations import *  # their names are names of this module, too
+from ucm_cts.adapters.contract.declarations import Declaration, PortElementName
+from ucm_cts.adapters.contract.traits import Binds, Kind, Lasts, Names, Uses, fields
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
 
 MANAGER = "manager"
 UNKNOWN = "unknown"
 NIL = "nil"
 
-PortElementName = str
-"""How a port element is spelled at the Container API, ``<port>_<element>`` unless the adapter says otherwise."""
+UsedComponent = Annotated[str, Uses("component", (UNKNOWN,))]
+UsedConnection = Annotated[str, Uses("connection", (UNKNOWN,))]
+UsedReference = Annotated[str, Uses("reference", (NIL,))]
+UsedContainer = Annotated[str, Uses("container")]
+UsedLink = Annotated[str, Uses("link")]
+"""Variables that a step reads. ``traits`` tells what traits of fields are."""
 
+KnownAs = Callable[[str, Kind], str]
 
-class RaiseError(Value, frozen=True, tag_field="do", tag="raise"):
-    """The probe leaves the hook with an exception that no interface declares."""
-
-
-class ReturnValue(Value, frozen=True, tag_field="do", tag="return"):
-    """The probe's ``exchange`` returns ``value`` instead of its own computation."""
-
-    value: Int32
-
-
-class CallPort(Value, frozen=True, tag_field="do", tag="call"):
-    """The probe calls ``exchange(value)`` on every reference it holds for its required port element ``port``."""
-
-    port: PortElementName
-    value: Int32
-
-
-class HoldAtGate(Value, frozen=True, tag_field="do", tag="hold"):
-    """The probe waits inside the hook until the scenario opens ``gate``."""
-
-    gate: str
-
-
-class QuerySiblings(Value, frozen=True, tag_field="do", tag="siblings"):
-    """A fragment asks the container interface it was given for ``get_components`` (11.2.1.4)."""
-
-
-class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
-    """The probe calls ``method`` with ``arguments`` (IN and INOUT) on every reference it holds for required port element
-    ``port``: one of its own, or of a technical policy (its ``element``).
-    """
-
-    port: PortElementName
-    method: str
-    arguments: tuple[Datum, ...] = ()
-
-
-class Answer(Value, frozen=True, tag_field="do", tag="answer"):
-    """How the probe answers ``method``: with ``results`` (OUT, INOUT and RETURN), with its own arguments if there are
-    none given, or with the declared ``exception`` whose fields are ``results``. Without an answer it gives no results.
-
-    With ``overwrite`` it then overwrites what it was given, as the owner of an IN parameter may.
-    """
-
-    method: str
-    results: tuple[Datum, ...] | None = None
-    exception: str | None = None
-    overwrite: bool = False
-
-
-class Burst(Value, frozen=True, tag_field="do", tag="burst"):
-    """The probe pushes ``count`` messages through ``port``: the ULONGs ``first``, ``first + 1``, ... One event tells of all."""
-
-    port: PortElementName
-    first: Int64
-    count: Int64
-
-
-class CountMessages(Value, frozen=True, tag_field="do", tag="count"):
-    """The probe counts the ULONGs that are pushed to it and records nothing of each; answers ``ok``."""
-
-
-Action = RaiseError | ReturnValue | CallPort | HoldAtGate | QuerySiblings | CallMethod | Answer | Burst | CountMessages
-
-Hook = Literal[
-    "on_init",
-    "on_startup",
-    "on_shutdown",
-    "on_remove",
-    "on_connect",
-    "on_disconnect",
-    "set_container_interface",
-    "exchange",
-    "run",
-    "method",
-]
-"""Where a probe is entered: the callbacks of clause 11.2.1, ``exchange``, the one business method of port elements without
-interface, ``run`` of a self-executing component (10.1.3), and ``method``, any method of a port element with interface.
-"""
-
-
-SELF_EXECUTING = "protected_self-executing_component"
-ACTIVE = "protected_active_component"
-PROTECTED_PASSIVE = "protected_passive_component"
-UNPROTECTED_PASSIVE = "unprotected_passive_component"
-"""The four execution policies of 10.1.3."""
-
-SELF_EXECUTION_API = "self-execution_api"
-"""The port element that a self-executing component provides to its container."""
-
-
-CLOCK = "clock"
-COMPONENT_TRACE = "component_trace"
-PORT_TRACE = "port_trace"
-"""The policies of the container services (10.1.4)."""
-
-REQUIRED_ELEMENTS = {CLOCK: "clock_api", COMPONENT_TRACE: "trace_api"}
-"""The port element that a component requires by such a policy."""
-
-SERVICE_CONNECTOR = "simple_service_connector"
-MESSAGE_CONNECTOR = "simple_message_connector"
-"""The connectors of 10.1.5 and 10.1.6."""
-
-PUSH = "push"
-STANDARD_METHODS = frozenset((PUSH, "get_local_time", "get_synchronized_time", "log"))
-"""The methods of 10.1's interfaces: of messages, the clock and the trace."""
-
-METHODS_TO_TRACE, LOG_SEVERITY = "methods_to_trace", "log_severity"
-"""The parameters of port_trace."""
-
-
-class Policy(Value, frozen=True):
-    """A technical policy of a component implementation (9.5.4.3): its ``definition`` and, of some, the ``port`` element.
-
-    ``element`` is the name under which the component gets the port element that it requires by the policy
-    (``REQUIRED_ELEMENTS``): the policy instance and the element.
-    """
-
-    definition: str
-    port: PortElementName | None = None
-    parameters: dict[str, str] = {}
-    element: PortElementName | None = None
-
-
-class Declaration(Value, frozen=True):
-    """One component implementation the framework shall be able to instantiate: a probe body and its plan.
-
-    ``provides`` and ``requires`` list port element names; ``attributes`` maps attribute names to configured values;
-    ``connectable`` bodies implement Connectable (11.2.1.3), ``fragment`` bodies FragmentObject (11.2.1.4).
-    ``policies`` are its technical policies. ``plan`` lists, per hook, the actions the probe performs each time it is
-    entered there. ``ports`` names the interface of each port element that has one. No port element twice.
-    """
-
-    provides: tuple[PortElementName, ...] = ()
-    requires: tuple[PortElementName, ...] = ()
-    attributes: dict[str, str] = {}
-    connectable: bool = False
-    fragment: bool = False
-    plan: dict[Hook, tuple[Action, ...]] = {}
-    policies: tuple[Policy, ...] = ()
-    ports: dict[PortElementName, str] = {}
-
-    def __post_init__(self) -> None:
-        if len({*self.provides, *self.requires}) < len(self.provides) + len(self.requires):
-            raise ValueError("a port element is declared twice")
+Ending = Literal["return", "opened", "settled", "counted", "paused", "stressed", ""]
+Returns = Literal["id", "ids", "reference", "value", "records"]
 
 
 class StepBase(Value, frozen=True, kw_only=True):
     """Common to all steps. With ``thread`` the step runs on that worker thread and the scenario goes on at once."""
 
+    ends_with: ClassVar[Ending] = "return"
+    """The kind of event that ends the step. A step that ends with ``return`` is a call: ``call`` begins it, and it may end
+    with ``raise`` instead. Empty: no event tells that the step has succeeded."""
+
+    returns: ClassVar[Returns | None] = None
+    """What the call gives back."""
+
+    optional: ClassVar[bool] = False
+    """The adapter may not offer the call. Then the step is skipped: ``skip`` follows ``call``."""
+
+    waits: ClassVar[int] = 0
+    """How many times the host may let patience pass before the step ends."""
+
+    wording: ClassVar[str] = ""
+    """The arguments as people read them, a format of the fields. Variables are replaced by what they hold."""
+
     thread: str | None = None
+
+    def words(self, known_as: KnownAs = lambda variable, kind: variable) -> str:
+        """The arguments as people read them; ``known_as`` says how they know a variable that holds a thing of a kind."""
+        read = {field: getattr(self, field) for field in self.__struct_fields__}
+        for field, trait in fields(type(self)):
+            if isinstance(trait, Uses):
+                variables = (read[field],) if isinstance(read[field], str) else read[field]
+                read[field] = ", ".join(known_as(variable, trait.kind) for variable in variables)
+        return self.wording.format(**read)
 
 
 class AddComponent(StepBase, frozen=True, tag_field="op", tag="add_component"):
@@ -181,72 +72,94 @@ class AddComponent(StepBase, frozen=True, tag_field="op", tag="add_component"):
     A ``component`` that the scenario does not declare asks for an implementation nobody registered.
     """
 
-    component: str
-    container: str = MANAGER
-    bind: str = ""
+    returns = "id"
+
+    component: Annotated[str, Names("implementation")]
+    container: UsedContainer = MANAGER
+    bind: Annotated[str, Binds("component", "component")] = ""
+
+    def words(self, known_as: KnownAs = lambda variable, kind: variable) -> str:
+        """``as`` only where the variable has a name of its own."""
+        return self.component + (f" as {self.bind}" if self.bind not in ("", self.component) else "")
 
 
 class RemoveComponent(StepBase, frozen=True, tag_field="op", tag="remove_component"):
     """``remove_component`` of the component bound to ``id``."""
 
-    id: str
-    container: str = MANAGER
+    wording = "{id}"
+
+    id: UsedComponent
+    container: UsedContainer = MANAGER
 
 
 class GetPortElement(StepBase, frozen=True, tag_field="op", tag="get_port_element"):
     """``get_port_element``; the reference is bound to ``bind``."""
 
-    id: str
+    returns = "reference"
+    wording = "{id}.{port}"
+
+    id: UsedComponent
     port: PortElementName
-    bind: str
-    container: str = MANAGER
+    bind: Annotated[str, Binds("reference")]
+    container: UsedContainer = MANAGER
 
 
 class Connect(StepBase, frozen=True, tag_field="op", tag="connect"):
     """``connect`` required port element ``port`` of ``id`` to the reference bound to ``to``; binds the connection id."""
 
-    id: str
+    returns = "id"
+    wording = "{id}.{port} → {to}"
+
+    id: UsedComponent
     port: PortElementName
-    to: str
-    bind: str
-    container: str = MANAGER
+    to: UsedReference
+    bind: Annotated[str, Binds("connection")]
+    container: UsedContainer = MANAGER
 
 
 class Disconnect(StepBase, frozen=True, tag_field="op", tag="disconnect"):
     """``disconnect`` the connection bound to ``connection``."""
 
-    connection: str
-    container: str = MANAGER
+    wording = "{connection}"
+
+    connection: UsedConnection
+    container: UsedContainer = MANAGER
 
 
 class Start(StepBase, frozen=True, tag_field="op", tag="start"):
     """``start`` the container."""
 
-    container: str = MANAGER
+    container: UsedContainer = MANAGER
 
 
 class Stop(StepBase, frozen=True, tag_field="op", tag="stop"):
     """``stop`` the container."""
 
-    container: str = MANAGER
+    container: UsedContainer = MANAGER
 
 
 class GetComponents(StepBase, frozen=True, tag_field="op", tag="get_components"):
     """``get_components`` of the container."""
 
-    container: str = MANAGER
+    returns = "ids"
+
+    container: UsedContainer = MANAGER
 
 
 class CreateContainer(StepBase, frozen=True, tag_field="op", tag="create_container"):
     """``create_container`` on the manager; the new container is bound to ``bind``."""
 
-    bind: str
+    wording = "{bind}"
+
+    bind: Annotated[str, Binds("container")]
 
 
 class RemoveContainer(StepBase, frozen=True, tag_field="op", tag="remove_container"):
     """``remove_container`` of the container bound to ``container``."""
 
-    container: str
+    wording = "{container}"
+
+    container: Annotated[str, Uses("container", (NIL,))]
 
 
 class Destroy(StepBase, frozen=True, tag_field="op", tag="destroy"):
@@ -256,14 +169,20 @@ class Destroy(StepBase, frozen=True, tag_field="op", tag="destroy"):
 class Invoke(StepBase, frozen=True, tag_field="op", tag="invoke"):
     """Stimulus: call ``exchange(value)`` on the provided port element reference bound to ``ref``."""
 
-    ref: str
-    value: Int32
+    returns = "value"
+    wording = "{ref} exchange({value})"
+
+    ref: UsedReference
+    value: Annotated[Int32, Names("payload")]
 
 
 class OpenGate(StepBase, frozen=True, tag_field="op", tag="open"):
     """Let every probe held at ``gate`` go on, now and later."""
 
-    gate: str
+    ends_with = "opened"
+    wording = "{gate}"
+
+    gate: Annotated[str, Names("gate")]
 
 
 class ReachGate(StepBase, frozen=True, tag_field="op", tag="reach"):
@@ -272,7 +191,11 @@ class ReachGate(StepBase, frozen=True, tag_field="op", tag="reach"):
     With ``more`` so many must arrive after the step has begun, with ``total`` since the scenario has begun.
     """
 
-    gate: str
+    ends_with = ""
+    waits = 1
+    wording = "{gate}"
+
+    gate: Annotated[str, Names("gate")]
     more: Int32 = 0
     total: Int32 = 0
 
@@ -280,13 +203,21 @@ class ReachGate(StepBase, frozen=True, tag_field="op", tag="reach"):
 class Settle(StepBase, frozen=True, tag_field="op", tag="settle"):
     """Wait until worker ``worker`` is done, held at a gate or seen to be blocked, at most the scenario's patience."""
 
-    worker: str
+    ends_with = "settled"
+    waits = 1
+    wording = "{worker}"
+
+    worker: Annotated[str, Names("worker")]
 
 
 class Join(StepBase, frozen=True, tag_field="op", tag="join"):
     """Wait until worker ``worker`` has done all its steps, for at most the scenario's patience."""
 
-    worker: str
+    ends_with = ""
+    waits = 1
+    wording = "{worker}"
+
+    worker: Annotated[str, Names("worker")]
 
 
 class Link(StepBase, frozen=True, tag_field="op", tag="link"):
@@ -295,9 +226,12 @@ class Link(StepBase, frozen=True, tag_field="op", tag="link"):
     Of the message connector ``interface`` is message_intf bound to a type: ``push`` alone.
     """
 
+    optional = True
+    wording = "{bind}: {connector} of {interface}"
+
     connector: Literal["simple_service_connector", "simple_message_connector"]
-    interface: str
-    bind: str
+    interface: Annotated[str, Names("interface")]
+    bind: Annotated[str, Binds("link")]
 
 
 class Attach(StepBase, frozen=True, tag_field="op", tag="attach"):
@@ -305,51 +239,78 @@ class Attach(StepBase, frozen=True, tag_field="op", tag="attach"):
     element, servers and receivers as provided one.
     """
 
-    link: str
+    optional = True
+    wording = "{role} {id}.{port} to {link}"
+
+    link: UsedLink
     role: Literal["client", "server", "emitter", "receiver"]
-    id: str
+    id: UsedComponent
     port: PortElementName
-    container: str = MANAGER
+    container: UsedContainer = MANAGER
 
 
 class Detach(StepBase, frozen=True, tag_field="op", tag="detach"):
     """``port`` of ``id`` is no longer an end of ``link``."""
 
-    link: str
-    id: str
+    optional = True
+    wording = "{id}.{port} from {link}"
+
+    link: UsedLink
+    id: UsedComponent
     port: PortElementName
-    container: str = MANAGER
+    container: UsedContainer = MANAGER
 
 
 class Break(StepBase, frozen=True, tag_field="op", tag="break"):
     """Break ``link``: its ``transport``, so that nothing can be transmitted, or the connector ``inside``."""
 
-    link: str
+    optional = True
+    wording = "{where} of {link}"
+
+    link: UsedLink
     where: Literal["transport", "inside"] = "transport"
 
 
 class Mend(StepBase, frozen=True, tag_field="op", tag="mend"):
     """Mend what was broken in ``link``."""
 
-    link: str
+    optional = True
+    wording = "{link}"
+
+    link: UsedLink
 
 
 class ReadLog(StepBase, frozen=True, tag_field="op", tag="read_log"):
     """Read the trace (10.1.4.2) back, again and again until it has ``records`` records or patience runs out."""
 
+    returns = "records"
+    optional = True
+    waits = 1
+
     records: Int32 = 0
+
+    def words(self, known_as: KnownAs = lambda variable, kind: variable) -> str:
+        """How many records it waits for, if any."""
+        return f"until {self.records} records are there" if self.records else ""
 
 
 class Pause(StepBase, frozen=True, tag_field="op", tag="pause"):
     """Let time pass: clocks are to be compared."""
 
-    milliseconds: Int32
+    ends_with = "paused"
+    wording = "{milliseconds} ms"
+
+    milliseconds: Annotated[Int32, Lasts()]
 
 
 class AwaitMessages(StepBase, frozen=True, tag_field="op", tag="await_messages"):
     """Wait until ``instance`` of ``component`` has counted ``count`` messages, at most patience; tells what it counted."""
 
-    component: str
+    ends_with = "counted"
+    waits = 1
+    wording = "{count} at {component}"
+
+    component: Annotated[str, Names("component")]
     count: Int64
     instance: Int64 = 1
 
@@ -359,37 +320,13 @@ class Stress(StepBase, frozen=True, tag_field="op", tag="stress"):
     same beside it to a body that nobody protects. Bodies count who meets whom and record nothing.
     """
 
-    refs: tuple[str, ...]
-    milliseconds: Int32 = 100
+    ends_with = "stressed"
+    waits = 2
+    wording = "{refs} for {milliseconds} ms"
 
+    refs: Annotated[tuple[str, ...], Uses("reference", (NIL,))]
+    milliseconds: Annotated[Int32, Lasts(2)] = 100
 
-Step = (
-    AddComponent
-    | RemoveComponent
-    | GetPortElement
-    | Connect
-    | Disconnect
-    | Start
-    | Stop
-    | GetComponents
-    | CreateContainer
-    | RemoveContainer
-    | Destroy
-    | Invoke
-    | OpenGate
-    | ReachGate
-    | Settle
-    | Join
-    | Link
-    | Attach
-    | Detach
-    | Break
-    | Mend
-    | ReadLog
-    | Pause
-    | AwaitMessages
-    | Stress
-)
 
 ContainerCall = (
     AddComponent
@@ -407,7 +344,21 @@ ContainerCall = (
 """The steps that are operations of Container or ContainerManager (12.10)."""
 
 ConnectorCall = Link | Attach | Detach | Break | Mend
-"""The steps that an adapter offers for connectors; one that does not skips them."""
+"""The steps that are calls for connectors."""
+
+Step = (
+    ContainerCall
+    | Invoke
+    | OpenGate
+    | ReachGate
+    | Settle
+    | Join
+    | ConnectorCall
+    | ReadLog
+    | Pause
+    | AwaitMessages
+    | Stress
+)
 
 
 class Scenario(Value, frozen=True):

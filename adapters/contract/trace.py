@@ -48,10 +48,14 @@ class EventBase(Value, frozen=True, tag_field="kind"):
     thread: Int64
 
 
-class Call(EventBase, frozen=True, tag="call"):
-    """Scenario step number ``step`` (from 0) is handed to the framework."""
+class StepEvent(EventBase, frozen=True):
+    """Common to events about scenario step number ``step`` (from 0)."""
 
     step: Int64
+
+
+class Call(StepEvent, frozen=True, tag="call"):
+    """Scenario step number ``step`` (from 0) is handed to the framework."""
 
 
 class LogRecord(Value, frozen=True):
@@ -61,37 +65,32 @@ class LogRecord(Value, frozen=True):
     message: str
 
 
-class Return(EventBase, frozen=True, tag="return"):
+class Return(StepEvent, frozen=True, tag="return"):
     """The step's operation came back; ``value`` is an id, a list of ids, a reference, or a business result, ``records``
     what was read from the trace.
     """
 
-    step: Int64
     value: Int64 | tuple[Int64, ...] | Reference | Opaque | None = None
     records: tuple[LogRecord, ...] | None = None
 
 
-class Raise(EventBase, frozen=True, tag="raise"):
+class Raise(StepEvent, frozen=True, tag="raise"):
     """The step's operation ended with an exception; ``detail`` is its text, for people."""
 
-    step: Int64
     error: ErrorName
     detail: str = ""
 
 
-class Skip(EventBase, frozen=True, tag="skip"):
+class Skip(StepEvent, frozen=True, tag="skip"):
     """The step was not tried, because ``variable`` was never bound, or the adapter does not offer the operation of that
     name.
     """
 
-    step: Int64
     variable: str
 
 
-class Timeout(EventBase, frozen=True, tag="timeout"):
+class Timeout(StepEvent, frozen=True, tag="timeout"):
     """A wait step ran out of patience."""
-
-    step: Int64
 
 
 class BodyEvent(EventBase, frozen=True):
@@ -199,13 +198,12 @@ class Settled(EventBase, frozen=True, tag="settled"):
     where: Literal["done", "held", "blocked", "running"]
 
 
-class Counted(EventBase, frozen=True, tag="counted"):
+class Counted(StepEvent, frozen=True, tag="counted"):
     """What ``instance`` of ``component`` had counted when step ``step`` was done: how many messages it ``received``, how
     many of them for the first time (``distinct``), how many after a greater one (``disordered``), and the least and the
     greatest.
     """
 
-    step: Int64
     component: str
     instance: Int64
     received: Int64
@@ -215,19 +213,17 @@ class Counted(EventBase, frozen=True, tag="counted"):
     greatest: Int64 = 0
 
 
-class Paused(EventBase, frozen=True, tag="paused"):
+class Paused(StepEvent, frozen=True, tag="paused"):
     """Time has passed. ``calendar`` is the host's calendar clock in nanoseconds, read together with ``t``."""
 
-    step: Int64
     calendar: Int64
 
 
-class Stressed(EventBase, frozen=True, tag="stressed"):
+class Stressed(StepEvent, frozen=True, tag="stressed"):
     """What a stress found: ``calls`` made through the framework, how many ``failed``, how many ``overlaps`` bodies
     counted, and the same for the body that nobody protects.
     """
 
-    step: Int64
     calls: Int64
     overlaps: Int64
     control_calls: Int64
@@ -257,3 +253,8 @@ Event = (
 )
 
 Trace = tuple[Event, ...]
+
+
+def kind_of(event: Event) -> str:
+    """How the kind of ``event`` is called on the wire."""
+    return str(type(event).__struct_config__.tag)

@@ -18,6 +18,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.data_values import read_spelled
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
+from ucm_cts.adapters.contract.traits import Binds, Names, fields
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.purposes.payloads import EDGES, LARGEST
 
@@ -172,20 +173,20 @@ class Disguise:
                 return call.arguments
 
     def _step(self, step: Step) -> Step:
-        replace = msgspec.structs.replace
-        match step:
-            case s.AddComponent():
-                return replace(step, component=self._name(step.component), bind=step.bind or step.component)
-            case s.GetPortElement() | s.Connect() | s.Attach() | s.Detach():
-                return replace(step, port=self._port(step.port))
-            case s.Link():
-                return replace(step, interface=self._name(step.interface))
-            case s.AwaitMessages():
-                return replace(step, component=self._name(step.component))
-            case s.Invoke():
-                return replace(step, value=self._value(step.value))
-            case _:
-                return step
+        """Variables, gates and workers keep their names, which no framework sees."""
+        changed: dict[str, str | int] = {}
+        for field, trait in fields(type(step)):
+            plain = getattr(step, field)
+            match trait:
+                case Binds(otherwise=named_by) if named_by and not plain:
+                    changed[field] = getattr(step, named_by)
+                case Names("implementation" | "component" | "interface"):
+                    changed[field] = self._name(plain)
+                case Names("port element"):
+                    changed[field] = self._port(plain)
+                case Names("payload"):
+                    changed[field] = self._value(plain)
+        return msgspec.structs.replace(step, **changed)
 
 
 def _found(disguised: str) -> str:

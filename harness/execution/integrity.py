@@ -27,20 +27,14 @@ from ucm_cts.adapters.contract.trace import (
     Settled,
     Siblings,
     Skip,
+    StepEvent,
     Stressed,
     Timeout,
+    kind_of,
 )
+from ucm_cts.adapters.contract.traits import bound_by, used_by
 from ucm_cts.harness.execution.body_behaviour import Acting, Frame, Thread
 from ucm_cts.harness.execution.step_order import Turns
-from ucm_cts.harness.purposes.scripts import bound_by, used_by
-
-_WAITS = (s.ReachGate, s.Join)
-_TOLD = {Counted: s.AwaitMessages, Paused: s.Pause, Stressed: s.Stress}
-"""What tells that such a step is done."""
-_OF_SCENARIO = frozenset((*_WAITS, s.OpenGate, s.Settle, s.AwaitMessages, s.Pause))
-_OPTIONAL = (s.Link, s.Attach, s.Detach, s.Break, s.Mend, s.ReadLog)
-"""What an adapter need not offer."""
-_ID_GIVING = (s.AddComponent, s.Connect, s.Invoke)
 
 _PUNCTUALITY, _GRAIN = 0.9, 5_000_000
 """A wait for patience that ends after this part of it, less so many nanoseconds, is believed: clocks differ."""
@@ -120,12 +114,13 @@ class _Check(Acting):
         held = self.waiting.pop(event.thread, None)
         if held is None or held.gate in self.opened or event.t - held.t >= self.shortest_wait:
             return None
-        if all(self.done.get(number) for number in self.turns.steps[None] if not self.is_wait(number)):
+        if all(self.done.get(number) for number in self.turns.steps[None] if not self.is_silent(number)):
             return None
         return f"{held.component} goes on although gate {held.gate!r} is closed"
 
-    def is_wait(self, number: int) -> bool:
-        return isinstance(self.scenario.steps[number], _WAITS)
+    def is_silent(self, number: int) -> bool:
+        """No event tells that the step has succeeded."""
+        return not self.scenario.steps[number].ends_with
 
     def check_turn(self, number: int, thread: Thread) -> str | None:
         """A thread takes its steps one by one, in order; what it leaves behind without a trace must be over."""
@@ -140,7 +135,7 @@ class _Check(Acting):
                 if passed not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
                     return f"step {number} comes after step {passed} (reach), which has met nobody at {step.gate!r}"
             elif isinstance(step, s.Join):
-                before = [n for n in self.turns.steps.get(step.worker, ()) if n < passed and not self.is_wait(n)]
+                before = [n for n in self.turns.steps.get(step.worker, ()) if n < passed and not self.is_silent(n)]
                 if passed not in self.done and not all(self.done.get(n) for n in before):
                     return f"step {number} comes after step {passed} (join), and '{step.worker}' is not done"
             elif passed not in self.done:
@@ -151,10 +146,10 @@ class _Check(Acting):
         step = self.step(event)
         if isinstance(step, str):
             return step
-        if type(step) in _OF_SCENARIO:
+        if step.ends_with != "return" and (isinstance(event, Call) or not used_by(step)):
             return f"step {event.step} is no operation"
         frames = thread.frames
-        if isinstance(event, Skip) and isinstance(step, _OPTIONAL) and event.variable == s.operation(step) and frames:
+        if isinstance(event, Skip) and step.optional and event.variable == s.operation(step) and frames:
             top = frames.pop().event
             self.done[event.step] = True
             is_own = isinstance(top, Call) and top.step == event.step
@@ -182,7 +177,7 @@ class _Check(Acting):
         step = self.step(event)
         if isinstance(step, str):
             return step
-        if not isinstance(step, _WAITS) or event.step in self.done:
+        if step.ends_with or event.step in self.done:
             return f"step {event.step} is not a wait"
         if thread.clock is not None and event.t - thread.clock < self.shortest_wait:
             return f"step {event.step} runs out of patience too early"
@@ -194,7 +189,7 @@ class _Check(Acting):
         step = self.step(event)
         if isinstance(step, str):
             return step
-        if not isinstance(step, _TOLD[type(event)]) or event.step in self.done:
+        if step.ends_with != kind_of(event) or event.step in self.done:
             return f"step {event.step} is not what was done"
         if isinstance(step, s.Pause) and thread.clock is not None:
             due = step.milliseconds * _NANOSECONDS * _PUNCTUALITY - _GRAIN
@@ -221,7 +216,7 @@ class _Check(Acting):
             return f"'{event.worker}' is looked for where no step does so"
         problem = self.check_turn(number, thread)
         self.done[number] = True
-        before = [n for n in self.turns.steps.get(event.worker, ()) if n < number and not self.is_wait(n)]
+        before = [n for n in self.turns.steps.get(event.worker, ()) if n < number and not self.is_silent(n)]
         if event.where == "done" and not all(self.done.get(n) for n in before):
             return f"'{event.worker}' is said to be done and is not"
         return problem
@@ -230,7 +225,7 @@ class _Check(Acting):
         step = self.step(event)
         if isinstance(step, str):
             return step
-        if type(step) in _OF_SCENARIO:
+        if step.ends_with != "return":
             return f"step {event.step} is no operation"
         frames = thread.frames
         top = frames[-1].event if frames else None
@@ -250,7 +245,7 @@ class _Check(Acting):
             (self.null.add if event.value is None else self.null.discard)(step.bind)
         return self.check_value(step, event)
 
-    def step(self, event: Call | Skip | Return | Raise | Timeout | Counted | Paused | Stressed) -> s.Step | str:
+    def step(self, event: StepEvent) -> s.Step | str:
         """The event's step, or that there is none."""
         if not 0 <= event.step < len(self.scenario.steps):
             return f"there is no step {event.step}"
@@ -258,17 +253,9 @@ class _Check(Acting):
 
     def check_value(self, step: s.Step, event: Return) -> str | None:
         value = event.value
-        if isinstance(step, s.ReadLog) != (event.records is not None):
+        if (step.returns == "records") != (event.records is not None):
             return f"{s.operation(step)} returned {'no ' if event.records is None else ''}records"
-        if isinstance(step, _ID_GIVING):
-            fits = isinstance(value, int)
-        elif isinstance(step, s.GetComponents):
-            fits = isinstance(value, tuple)
-        elif isinstance(step, s.GetPortElement):
-            fits = value is None or value == "opaque" or isinstance(value, Reference)
-        else:
-            fits = value is None
-        if not fits:
+        if not _fits(value, step.returns):
             return f"{s.operation(step)} cannot return {value!r}"
         if isinstance(value, Reference) and value.instance > len(self.made.get(value.component, ())):
             return f"a reference to {value.component}#{value.instance}, which was never made"
@@ -278,6 +265,19 @@ class _Check(Acting):
         self.arrivals[event.gate] += 1
         self.waiting[event.thread] = event
         return self.check_act(event, thread)
+
+
+def _fits(value: object, returns: s.Returns | None) -> bool:
+    """Can a call that returns such a thing have returned ``value``?"""
+    match returns:
+        case "id" | "value":
+            return isinstance(value, int)
+        case "ids":
+            return isinstance(value, tuple)
+        case "reference":
+            return value is None or value == "opaque" or isinstance(value, Reference)
+        case _:
+            return value is None
 
 
 _CHECKS: dict[type, Callable[[_Check, Any, Thread], str | None]] = {

@@ -8,7 +8,8 @@ import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Scenario, Step
-from ucm_cts.harness.purposes.scripts import bound_by, overlaps, used_by
+from ucm_cts.adapters.contract.traits import bound_by, named, used_by
+from ucm_cts.harness.purposes.scripts import overlaps
 
 ROUNDS = 40
 """How often the candidates of a shorter scenario are tried; each round leaves out at least one thing."""
@@ -95,11 +96,7 @@ def _without_port(scenario: Scenario, component: str, port: str) -> Iterator[Sce
     its = {step.bind or component for step in steps if isinstance(step, s.AddComponent) and step.component == component}
     for index in range(len(steps) - 1, -1, -1):
         step = steps[index]
-        if (
-            isinstance(step, s.Connect | s.GetPortElement | s.Attach | s.Detach)
-            and step.port == port
-            and step.id in its
-        ):
+        if port in named(step, "port element") and its.intersection(used_by(step)):
             steps = without_step(steps, index)
     yield tidied(msgspec.structs.replace(scenario, components={**scenario.components, component: simpler}), steps)
 
@@ -138,10 +135,10 @@ def without_step(steps: tuple[Step, ...], index: int) -> tuple[Step, ...]:
 def tidied(scenario: Scenario, steps: tuple[Step, ...]) -> Scenario:
     """The scenario with these steps, less waits for nothing, gates that hold nobody and components that nobody adds."""
     workers = {step.thread for step in steps if step.thread}
-    steps = tuple(x for x in steps if not isinstance(x, s.Join | s.Settle) or x.worker in workers)
+    steps = tuple(x for x in steps if workers.issuperset(named(x, "worker")))
     added = {step.component for step in steps if isinstance(step, s.AddComponent)}
     components = {name: d for name, d in scenario.components.items() if name in added}
     plans = (actions for d in components.values() for actions in d.plan.values())
     gates = {action.gate for actions in plans for action in actions if isinstance(action, s.HoldAtGate)}
-    steps = tuple(x for x in steps if not isinstance(x, s.OpenGate | s.ReachGate) or x.gate in gates)
+    steps = tuple(x for x in steps if gates.issuperset(named(x, "gate")))
     return msgspec.structs.replace(scenario, components=components, steps=steps)

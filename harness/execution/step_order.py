@@ -65,6 +65,6 @@ class Turns:
                 step = self._scenario.steps[number]
                 if wanted(step):
                     return number
-                if not isinstance(step, s.ReachGate | s.Join):
+                if step.ends_with:
                     break
         return None

@@ -8,6 +8,7 @@ import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario, Step
+from ucm_cts.adapters.contract.traits import Uses, bindings, fields
 from ucm_cts.harness.execution.shrink import tidied, without_step
 from ucm_cts.harness.exploring.writer import Choose, Writer
 from ucm_cts.harness.purposes.scripts import overlaps
@@ -77,17 +78,15 @@ def _elsewhere(scenario: Scenario, choose: Choose) -> Scenario:
 
 def _others(scenario: Scenario, place: int, step: Step) -> Iterator[tuple[str, tuple[str, ...]]]:
     """What a step could name instead of what it names, by field."""
-    before = scenario.steps[:place]
-    boxes = (s.MANAGER, *(b.bind for b in before if isinstance(b, s.CreateContainer)))
-    there = {
-        "container": boxes[1:] if isinstance(step, s.RemoveContainer) else boxes,
-        "id": tuple(b.bind or b.component for b in before if isinstance(b, s.AddComponent)),
-        "connection": tuple(b.bind for b in before if isinstance(b, s.Connect)),
-    }
-    for field, values in there.items():
-        others = tuple(dict.fromkeys(v for v in values if v != getattr(step, field, v)))
-        if others:
-            yield field, others
+    bound = [one for before in scenario.steps[:place] for one in bindings(before)]
+    if not isinstance(step, s.RemoveContainer):  # nobody removes the root container
+        bound.insert(0, (s.MANAGER, "container"))
+    for field, trait in fields(type(step)):
+        if isinstance(trait, Uses) and trait.kind in ("container", "component", "connection"):
+            mine = getattr(step, field)
+            others = [variable for variable, kind in bound if kind == trait.kind and variable != mine]
+            if others:
+                yield field, tuple(dict.fromkeys(others))
 
 
 def _other_body(scenario: Scenario, choose: Choose) -> Scenario:

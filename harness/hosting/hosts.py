@@ -37,6 +37,7 @@ from ucm_cts.adapters.contract.messages import (
     from_host_decoder,
 )
 from ucm_cts.adapters.contract.trace import Event
+from ucm_cts.adapters.contract.traits import duration
 from ucm_cts.adapters.sdk.python.loading import CannotLoad, load
 from ucm_cts.harness.hosting.host_channels import HostUnavailable, Opener, opener
 from ucm_cts.harness.hosting.host_watch import Deadline, Host, HostIncident, InProcessHost, Limits, WatchedHost
@@ -241,19 +242,12 @@ def waits(scenario: s.Scenario) -> float:
     threads = False
     for step in scenario.steps:
         threads = threads or step.thread is not None
-        waiting += type(step) in _WAITING_STEPS
-        if isinstance(step, s.Pause):
-            milliseconds += step.milliseconds
-        elif isinstance(step, s.Stress):
-            milliseconds += 2 * step.milliseconds
-            waiting += 2
+        waiting += step.waits
+        milliseconds += duration(step)
     for declaration in scenario.components.values():
         for actions in declaration.plan.values():
             waiting += sum(isinstance(action, s.HoldAtGate) for action in actions)
     return ((waiting + threads) * scenario.patience + milliseconds) / 1000
-
-
-_WAITING_STEPS = (s.ReachGate, s.Settle, s.Join, s.AwaitMessages, s.ReadLog)
 
 
 def _decode(host: Host, line: bytes) -> FromHost:

@@ -9,6 +9,7 @@ from pathlib import Path
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Interface, message_interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Policy, Scenario, Step
+from ucm_cts.adapters.contract.traits import bindings, named, uses
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import DocumentError, read, read_lines
 from ucm_cts.harness.purposes.probes import ProbeType, load_probe_types
@@ -143,31 +144,33 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
     gates = {a.gate for a in actions if isinstance(a, s.HoldAtGate)}
     for index, step in enumerate(script.steps):
         where = f".steps[{index}]"
-        for variable, kind in uses(step):
+        for variable, use in uses(step):
+            kind = use.kind
             if variable in (s.UNKNOWN, s.NIL):
-                if not _may_stand_for(variable, kind, step):
+                if variable not in use.stand_ins:
                     found.append((where, f"'{variable}' is no {kind} here; name one that an earlier step binds"))
             elif variable not in bound:
                 there = ", ".join(sorted(bound))
                 found.append((where, f"'{variable}' is not bound by an earlier step; there are {there}"))
             elif bound[variable] != kind:
                 found.append((where, f"'{variable}' holds a {bound[variable]}, not a {kind}"))
-        for variable in bound_by(step):
-            kind = kind_bound_by(step)
+        for variable, kind in bindings(step):
             if bound.setdefault(variable, kind) != kind:
                 found.append(
                     (where, f"'{variable}' holds a {bound[variable]} already; bind the {kind} to another name")
                 )
-        if isinstance(step, s.OpenGate | s.ReachGate) and step.gate not in gates:
-            found.append(
-                (where, f"no plan holds at gate '{step.gate}'; there are {', '.join(sorted(gates)) or 'none'}")
-            )
-        if isinstance(step, s.Link) and step.interface not in interfaces:
-            found.append((where, f"no interface '{step.interface}'; there are {_list(interfaces)}"))
-        if isinstance(step, s.AwaitMessages) and step.component not in script.components:
-            found.append((where, f"no component '{step.component}'; there are {_list(script.components)}"))
-        if isinstance(step, s.Join | s.Settle) and step.worker not in workers:
-            found.append((where, f"no earlier step runs on thread '{step.worker}'"))
+        for gate in named(step, "gate"):
+            if gate not in gates:
+                found.append((where, f"no plan holds at gate '{gate}'; there are {_list(gates)}"))
+        for interface in named(step, "interface"):
+            if interface not in interfaces:
+                found.append((where, f"no interface '{interface}'; there are {_list(interfaces)}"))
+        for component in named(step, "component"):
+            if component not in script.components:
+                found.append((where, f"no component '{component}'; there are {_list(script.components)}"))
+        for worker in named(step, "worker"):
+            if worker not in workers:
+                found.append((where, f"no earlier step runs on thread '{worker}'"))
         if step.thread:
             workers.add(step.thread)
     for index, worker in overlaps(script.steps):
@@ -177,13 +180,6 @@ def problems(script: Script, probes: dict[str, ProbeType] | None = None) -> list
 
 def _list(names: Iterable[str]) -> str:
     return ", ".join(sorted(names)) or "none"
-
-
-def _may_stand_for(variable: str, kind: str, step: Step) -> bool:
-    """Nobody operates a container that is nil; only to remove it can be asked for."""
-    if variable == s.UNKNOWN:
-        return kind in ("component", "connection")
-    return kind == "reference" or isinstance(step, s.RemoveContainer)
 
 
 def overlaps(steps: tuple[Step, ...]) -> Iterator[tuple[int, str]]:
@@ -196,53 +192,3 @@ def overlaps(steps: tuple[Step, ...]) -> Iterator[tuple[int, str]]:
             busy.update([step.thread] if step.thread else [])
         elif isinstance(step, s.Join):
             busy.discard(step.worker)
-
-
-def uses(step: Step) -> tuple[tuple[str, str], ...]:
-    """The variables a step reads, each with the kind of thing it must hold."""
-    match step:
-        case s.RemoveComponent() | s.GetPortElement():
-            return (step.container, "container"), (step.id, "component")
-        case s.Connect():
-            return (step.container, "container"), (step.id, "component"), (step.to, "reference")
-        case s.Disconnect():
-            return (step.container, "container"), (step.connection, "connection")
-        case s.AddComponent() | s.Start() | s.Stop() | s.GetComponents() | s.RemoveContainer():
-            return ((step.container, "container"),)
-        case s.Invoke():
-            return ((step.ref, "reference"),)
-        case s.Attach() | s.Detach():
-            return (step.link, "link"), (step.container, "container"), (step.id, "component")
-        case s.Break() | s.Mend():
-            return ((step.link, "link"),)
-        case s.Stress():
-            return tuple((ref, "reference") for ref in step.refs)
-        case _:
-            return ()
-
-
-def used_by(step: Step) -> tuple[str, ...]:
-    """The variables a step reads."""
-    return tuple(variable for variable, _ in uses(step))
-
-
-def kind_bound_by(step: Step) -> str:
-    """The kind of thing that a step binds."""
-    kinds = {
-        s.AddComponent: "component",
-        s.GetPortElement: "reference",
-        s.Connect: "connection",
-        s.Link: "link",
-    }
-    return kinds.get(type(step), "container")
-
-
-def bound_by(step: Step) -> tuple[str, ...]:
-    """The variables a step binds."""
-    match step:
-        case s.AddComponent():
-            return (step.bind or step.component,)
-        case s.GetPortElement() | s.Connect() | s.CreateContainer() | s.Link():
-            return (step.bind,)
-        case _:
-            return ()

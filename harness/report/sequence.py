@@ -248,9 +248,6 @@ class _Walk:
         step = event.step
         words = self.words
         words.called(step)
-        if words.is_wait(step):
-            self._add("note", TEST, TEST, words.step(step), event)
-            return
         value = words.invoked(step)
         if value is None:
             self._begin(f"step {step}", TEST, self._container(words.container(step)), words.step(step), event)

@@ -9,31 +9,17 @@ from ucm_cts.adapters.contract.scenario import (
     MANAGER,
     NIL,
     AddComponent,
-    Attach,
-    AwaitMessages,
-    Break,
     Connect,
     CreateContainer,
     Destroy,
-    Detach,
-    Disconnect,
     GetPortElement,
     Invoke,
-    Join,
-    Link,
-    Mend,
-    OpenGate,
-    Pause,
-    ReachGate,
-    ReadLog,
-    RemoveComponent,
     RemoveContainer,
-    Settle,
     Step,
-    Stress,
     operation,
 )
 from ucm_cts.adapters.contract.trace import Enter, Exit, MaybeReference, Reference, Reply, Request
+from ucm_cts.adapters.contract.traits import Kind
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Execution
 
@@ -95,10 +81,6 @@ class Wording:
     def _step(self, number: int) -> Step | None:
         return self._steps[number] if 0 <= number < len(self._steps) else None
 
-    def is_wait(self, number: int) -> bool:
-        """Whether the step concerns gates, threads and time only, and no framework."""
-        return isinstance(self._step(number), OpenGate | ReachGate | Join | Settle | Pause | AwaitMessages | Stress)
-
     def invoked(self, number: int) -> int | None:
         """The value that an ``invoke`` step sends; None for other steps."""
         step = self._step(number)
@@ -130,60 +112,20 @@ class Wording:
         step = self._step(number)
         if step is None:
             return f"step {number}"
-        return one_line(f"{operation(step)} {self._arguments(step)}".rstrip(), 90)
+        return one_line(f"{operation(step)} {step.words(self._known_as)}".rstrip(), 90)
 
     def operation(self, number: int) -> str:
         """The operation alone."""
         step = self._step(number)
         return operation(step) if step is not None else ""
 
-    def _arguments(self, step: Step) -> str:
-        match step:
-            case AddComponent():
-                return step.component + (f" as {step.bind}" if step.bind and step.bind != step.component else "")
-            case RemoveComponent():
-                return step.id
-            case GetPortElement():
-                return f"{step.id}.{step.port}"
-            case Connect():
-                return f"{step.id}.{step.port} → {self._element(step.to)}"
-            case Disconnect():
-                made = self._connections.get(step.connection)
-                return f"{made.id}.{made.port} → {self._element(made.to)}" if made else step.connection
-            case CreateContainer():
-                return step.bind
-            case RemoveContainer():
-                return step.container
-            case Invoke():
-                return f"{self._element(step.ref)} exchange({step.value})"
-            case OpenGate() | ReachGate():
-                return step.gate
-            case Join() | Settle():
-                return step.worker
-            case Link():
-                return f"{step.bind}: {step.connector} of {step.interface}"
-            case Attach():
-                return f"{step.role} {step.id}.{step.port} to {step.link}"
-            case Detach():
-                return f"{step.id}.{step.port} from {step.link}"
-            case Break():
-                return f"{step.where} of {step.link}"
-            case Mend():
-                return step.link
-            case Pause():
-                return f"{step.milliseconds} ms"
-            case ReadLog():
-                return f"until {step.records} records are there" if step.records else ""
-            case AwaitMessages():
-                return f"{step.count} at {step.component}"
-            case Stress():
-                return f"{', '.join(map(self._element, step.refs))} for {step.milliseconds} ms"
-            case _:
-                return ""
-
-    def _element(self, variable: str) -> str:
-        element = self._elements.get(variable)
-        return variable if element is None or variable == NIL else f"{element.id}.{element.port}"
+    def _known_as(self, variable: str, kind: Kind) -> str:
+        """References are known by the port element, connections by both of their ends, others by the variable."""
+        made = self._connections.get(variable) if kind == "connection" else None
+        if made is not None:
+            return made.words(self._known_as)
+        element = self._elements.get(variable) if kind == "reference" and variable != NIL else None
+        return variable if element is None else element.words()
 
     # callbacks and values
 

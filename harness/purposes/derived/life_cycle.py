@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import ContainerCall, Declaration, Scenario, Step
-from ucm_cts.harness.purposes.scripts import TestPurpose, used_by
+from ucm_cts.adapters.contract.traits import used_by
+from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
 from ucm_cts.reference_models.model.prediction import Prediction
 from ucm_cts.reference_models.model.runtime import Member

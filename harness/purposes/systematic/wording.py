@@ -6,7 +6,7 @@ import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import ContainerCall, Scenario, Step
-from ucm_cts.harness.purposes.scripts import bound_by, uses
+from ucm_cts.adapters.contract.traits import bound_by, uses
 from ucm_cts.harness.purposes.systematic.machine import Machine, Word
 from ucm_cts.harness.purposes.systematic.settings import Setting
 
@@ -24,7 +24,7 @@ def scenario_of(setting: Setting, machine: Machine, word: Word) -> Scenario:
 
 
 def _named(step: ContainerCall, bound: set[str]) -> ContainerCall:
-    missing = {kind for variable, kind in uses(step) if variable not in bound}
+    missing = {use.kind for variable, use in uses(step) if variable not in bound}
     if isinstance(step, s.Disconnect):
         return msgspec.structs.replace(step, connection=s.UNKNOWN) if "connection" in missing else step
     if isinstance(step, s.RemoveContainer):

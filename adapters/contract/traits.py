@@ -1,0 +1,118 @@
+"""Traits: what the fields of a step mean, said once where the step is defined and read wherever steps are handled.
+
+    id: Annotated[str, Uses("component")]
+    bind: Annotated[str, Binds("connection")]
+
+Traits of a whole step (how often it waits, which event ends it, its wording) are class variables of ``StepBase``.
+"""
+
+from __future__ import annotations
+
+import functools
+import typing
+from dataclasses import dataclass
+from typing import Literal
+
+from ucm_cts.adapters.contract.value import Value
+
+Kind = Literal["link", "container", "component", "reference", "connection"]
+"""The kinds of things that variables hold."""
+
+Subject = Literal["implementation", "component", "port element", "interface", "gate", "worker", "payload"]
+"""What a field may refer to beside variables. An ``implementation`` need not be declared, a ``component`` must be."""
+
+
+@dataclass(frozen=True)
+class Uses:
+    """The field names a variable that must hold a thing of this ``kind``, or one of ``stand_ins`` (``unknown``, ``nil``)."""
+
+    kind: Kind
+    stand_ins: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Binds:
+    """The field names the variable that the step binds to a thing of this ``kind``.
+
+    If it is empty, the field ``otherwise`` names the variable.
+    """
+
+    kind: Kind
+    otherwise: str = ""
+
+
+@dataclass(frozen=True)
+class Names:
+    """The field refers to a ``subject`` that is no variable."""
+
+    subject: Subject
+
+
+@dataclass(frozen=True)
+class Lasts:
+    """The field is how many milliseconds the step takes; it takes them so many ``times``."""
+
+    times: int = 1
+
+
+Trait = Uses | Binds | Names | Lasts
+
+
+@functools.cache
+def fields(step: type[Value]) -> tuple[tuple[str, Trait], ...]:
+    """The fields of a type of step that have a trait, each with its trait.
+
+    Used variables come in the order in which a host looks them up: link, container, component, reference, connection.
+    """
+    hints = typing.get_type_hints(step, include_extras=True)
+    found = [
+        (name, trait)
+        for name, hint in hints.items()
+        for trait in getattr(hint, "__metadata__", ())
+        if isinstance(trait, Trait)
+    ]
+    order = typing.get_args(Kind)
+    return tuple(sorted(found, key=lambda one: order.index(one[1].kind) if isinstance(one[1], Uses) else -1))
+
+
+def uses(step: Value) -> tuple[tuple[str, Uses], ...]:
+    """The variables that ``step`` reads, each with what it must hold."""
+    found: list[tuple[str, Uses]] = []
+    for field, trait in fields(type(step)):
+        if isinstance(trait, Uses):
+            value = getattr(step, field)
+            found += [(variable, trait) for variable in ((value,) if isinstance(value, str) else value)]
+    return tuple(found)
+
+
+def used_by(step: Value) -> tuple[str, ...]:
+    """The variables that ``step`` reads."""
+    return tuple(variable for variable, _ in uses(step))
+
+
+def bindings(step: Value) -> tuple[tuple[str, Kind], ...]:
+    """The variables that ``step`` binds, each with the kind of thing that it then holds."""
+    return tuple(
+        (getattr(step, field) or getattr(step, trait.otherwise), trait.kind)
+        for field, trait in fields(type(step))
+        if isinstance(trait, Binds)
+    )
+
+
+def bound_by(step: Value) -> tuple[str, ...]:
+    """The variables that ``step`` binds."""
+    return tuple(variable for variable, _ in bindings(step))
+
+
+def named(step: Value, subject: Subject) -> tuple[str, ...]:
+    """The things of this sort that ``step`` refers to."""
+    return tuple(
+        getattr(step, field)
+        for field, trait in fields(type(step))
+        if isinstance(trait, Names) and trait.subject == subject
+    )
+
+
+def duration(step: Value) -> int:
+    """How many milliseconds ``step`` takes at least, whatever it waits for beside."""
+    return sum(trait.times * getattr(step, field) for field, trait in fields(type(step)) if isinstance(trait, Lasts))
