@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.traits import Names
@@ -114,8 +114,8 @@ PORT_TRACE = "port_trace"
 REQUIRED_ELEMENTS = {CLOCK: "clock_api", COMPONENT_TRACE: "trace_api"}
 """The port element that a component requires by such a policy."""
 
-SERVICE_CONNECTOR = "simple_service_connector"
-MESSAGE_CONNECTOR = "simple_message_connector"
+SERVICE_CONNECTOR: Final = "simple_service_connector"
+MESSAGE_CONNECTOR: Final = "simple_message_connector"
 """The connectors of 10.1.5 and 10.1.6."""
 
 PUSH = "push"

@@ -13,6 +13,15 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter, message_interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
 from ucm_cts.harness.exploring.writer import Choose
+from ucm_cts.harness.purposes.connections import (
+    MESSAGE,
+    PROVIDER,
+    REQUIRER,
+    SERVICE,
+    Connector,
+    provided_end,
+    required_end,
+)
 
 _NUMBER = Integer("LONG")
 _INTERFACES = {
@@ -24,8 +33,7 @@ _INTERFACES = {
     ),
     "numbers": message_interface(Integer("ULONG")),
 }
-_CONNECTORS = {"service": s.SERVICE_CONNECTOR, "numbers": s.MESSAGE_CONNECTOR}
-_ROLES = {"service": ("server", "client"), "numbers": ("receiver", "emitter")}
+_CONNECTORS: dict[str, Connector] = {"service": SERVICE, "numbers": MESSAGE}
 _METHODS = ("echo", "tell")
 _CLOCK_API = "clock.clock_api"
 _TRACE_API = "trace.trace_api"
@@ -33,9 +41,9 @@ _SEVERITIES = ("debug", "info", "warning", "error")
 _OPERATIONS = (
     *["tell"] * 10,
     *["restart", "stop", "start"] * 2,
-    "detach",
-    "attach",
-    "attach",
+    "remove_end",
+    "add_end",
+    "add_end",
     "remove",
     "look",
     "meet",
@@ -84,7 +92,7 @@ class CoreWriter:
     def cast(self, kind: str) -> list[str]:
         """Those who serve or get, then those who call or push."""
         names = []
-        serving, calling = _ROLES[kind]
+        serving, calling = PROVIDER[_CONNECTORS[kind]], REQUIRER[_CONNECTORS[kind]]
         for role, most in ((serving, 1 if kind == "service" else 2), (calling, 3)):
             for _ in range(self.choose(range(1, most + 1))):
                 name = f"{role} {sum(r == role for r in self.roles.values()) + 1}"
@@ -171,10 +179,7 @@ class CoreWriter:
         boxes = [s.MANAGER, *(f"box{n}" for n in range(1, self.choose((1, 1, 2, 3))))]
         self.steps += [s.CreateContainer(box) for box in boxes[1:]]
         self.steps += [s.OpenGate(f"gate of {name}") for name in self.come]
-        self.steps += [
-            s.Link(_CONNECTORS[kind], kind, line)  # type: ignore[arg-type]
-            for line, kind in self.lines.items()
-        ]
+        self.steps += [s.Link(_CONNECTORS[kind], kind, line) for line, kind in self.lines.items()]
         for name in self.components:
             self.places[name] = self.choose(boxes)
             self.steps.append(s.AddComponent(name, self.places[name]))
@@ -188,9 +193,9 @@ class CoreWriter:
             self.start_in(box)
 
     def attachment(self, name: str) -> Step:
-        line, role = self.ends[name], self.roles[name]
-        port = "out.api" if name in self.pushes else "in.api"
-        return s.Attach(line, role, name, port, self.places[name])  # type: ignore[arg-type]
+        line = self.ends[name]
+        end = required_end if name in self.pushes else provided_end
+        return end(_CONNECTORS[self.lines[line]], line, name, container=self.places[name])
 
     def start_in(self, box: str) -> None:
         self.steps.append(s.Start(box))
@@ -288,7 +293,7 @@ class CoreWriter:
     def look(self) -> None:
         self.steps.append(s.GetComponents(self.choose(tuple(self.started))))
 
-    def detach(self) -> None:
+    def remove_end(self) -> None:
         """Of a container that is not started: whoever is detached must not be left without what it requires."""
         idle = self.idle(self.ends)
         if idle:
@@ -296,7 +301,7 @@ class CoreWriter:
             port = "out.api" if name in self.pushes else "in.api"
             self.steps.append(s.Detach(self.ends.pop(name), name, port, self.places[name]))
 
-    def attach(self) -> None:
+    def add_end(self) -> None:
         loose = self.idle([name for name in self.places if name not in self.ends])
         if loose:
             name = self.choose(loose)

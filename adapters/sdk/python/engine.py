@@ -228,10 +228,10 @@ class Performance(metaclass=KeptClass):
             detail = _text(error) if declared else _describe(error)
             record(Raise, step=number, error=declared or "UNDECLARED", detail=detail)
         else:
-            if isinstance(step, s.ReadLog):
+            if step.returns == "records":
                 record(Return, step=number, records=value)
             else:
-                record(Return, step=number, value=value if isinstance(step, _WITH_RESULT) else None)
+                record(Return, step=number, value=value if step.returns else None)
 
     # Each looks up what its step needs, raising Unbound, and returns the call that is then made and recorded.
 
@@ -379,9 +379,6 @@ _OPERATIONS: dict[type[Any], Callable[[Performance, Any], Callable[[], Any]]] = 
     s.Mend: Performance._mend,
     s.ReadLog: Performance._read_log,
 }
-
-
-_WITH_RESULT = (s.AddComponent, s.GetPortElement, s.Connect, s.GetComponents, s.Invoke)
 
 
 _BETWEEN_READINGS = 0.001

@@ -25,6 +25,7 @@ from ucm_cts.adapters.contract.data_types import (
 )
 from ucm_cts.adapters.contract.data_values import SCALARS, kind_name, parts, spell
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Scenario, Step
+from ucm_cts.harness.purposes.connections import PROVIDER, REQUIRER, provided_end, required_end
 from ucm_cts.harness.purposes.data.catalogue import CATALOGUE, ULONG, TypesUnderTest
 from ucm_cts.harness.purposes.data.corner_values import UNDECLARED, Readings, corners
 from ucm_cts.harness.purposes.data.typed_values import draw
@@ -189,12 +190,10 @@ def _emitter_and_receiver(name: str, of: AnyType, values: Sequence[Datum]) -> _P
 _Planned = tuple[str, Interface, tuple[Action, ...], tuple[Action, ...], int]
 """Name, interface, what the caller does, how the other end answers, and how many messages are to be waited for."""
 
-_ROLES = {s.SERVICE_CONNECTOR: ("client", "server"), s.MESSAGE_CONNECTOR: ("emitter", "receiver")}
-
 
 def _scenario(connector: str, planned: Sequence[_Planned], pause: int = 0) -> Scenario:
     """A pair of components for each interface; all are linked and started, then each caller is sent off once."""
-    sender, taker = _ROLES[connector]
+    sender, taker = REQUIRER[connector], PROVIDER[connector]
     components: dict[str, Declaration] = {}
     configure: list[Step] = []
     perform: list[Step] = []
@@ -211,11 +210,10 @@ def _scenario(connector: str, planned: Sequence[_Planned], pause: int = 0) -> Sc
 
 
 def _linked(connector: str, name: str, caller: str, other: str, link: str) -> Iterator[Step]:
-    sender, taker = _ROLES[connector]
     yield from (s.AddComponent(other), s.AddComponent(caller))
     yield s.Link(connector, name, link)  # type: ignore[arg-type]
-    yield s.Attach(link, taker, other, _PROVIDED)  # type: ignore[arg-type]
-    yield s.Attach(link, sender, caller, _REQUIRED)  # type: ignore[arg-type]
+    yield provided_end(connector, link, other, _PROVIDED)
+    yield required_end(connector, link, caller, _REQUIRED)
     yield s.GetPortElement(caller, _PROVIDED, f"{name} stimulus")
 
 

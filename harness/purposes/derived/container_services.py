@@ -14,6 +14,7 @@ import msgspec
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, message_interface
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
+from ucm_cts.harness.purposes.connections import MESSAGE, SERVICE, provided_end, required_end
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _CLAUSE = "10.1.4.2"
@@ -166,9 +167,9 @@ class _Configuration:
         if self.through_connectors:
             link = f"link of {port}"
             return [
-                s.Link("simple_service_connector", "calls", link),
-                s.Attach(link, "server", server, "in.api", place),
-                s.Attach(link, "client", "client", port),
+                s.Link(SERVICE, "calls", link),
+                provided_end(SERVICE, link, server, container=place),
+                required_end(SERVICE, link, "client", port),
             ]
         goal = f"goal of {port}"
         to_goal = s.Connect("client", port, goal, f"connection of {port}")
@@ -386,9 +387,9 @@ def _messages() -> Scenario:
     steps = (
         s.AddComponent("emitter"),
         s.AddComponent("receiver"),
-        s.Link("simple_message_connector", "n", "link"),
-        s.Attach("link", "emitter", "emitter", "out.api"),
-        s.Attach("link", "receiver", "receiver", "in.api"),
+        s.Link(MESSAGE, "n", "link"),
+        required_end(MESSAGE, "link", "emitter"),
+        provided_end(MESSAGE, "link", "receiver"),
         s.GetPortElement("emitter", "go.api", "api"),
         s.Start(),
         s.Invoke("api", 1),

@@ -14,6 +14,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum, Integer, Interface, String, Structure, message_interface
 from ucm_cts.adapters.contract.data_types import Sequence as SequenceType
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario, Step
+from ucm_cts.harness.purposes.connections import MESSAGE, provided_end, required_end
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _CLAUSE = "10.1.6.1"
@@ -47,7 +48,7 @@ class _Configuration:
     def link(self, name: str, interface: str) -> None:
         """A message connection."""
         self.interfaces[interface] = _INTERFACES[interface]
-        self.steps.append(s.Link("simple_message_connector", interface, name))
+        self.steps.append(s.Link(MESSAGE, interface, name))
 
     def add(self, name: str, declaration: Declaration) -> None:
         """A component, in a container of its own if they are spread."""
@@ -60,12 +61,12 @@ class _Configuration:
     def add_receiver(self, name: str, link: str, declaration: Declaration) -> None:
         """A receiver of ``link``."""
         self.add(name, declaration)
-        self.steps.append(s.Attach(link, "receiver", name, "in.api", self.places[name]))
+        self.steps.append(provided_end(MESSAGE, link, name, container=self.places[name]))
 
     def add_emitter(self, name: str, link: str, declaration: Declaration) -> None:
         """An emitter of ``link``; a call through the reference of its name makes it push."""
         self.add(name, declaration)
-        self.steps.append(s.Attach(link, "emitter", name, "out.api", self.places[name]))
+        self.steps.append(required_end(MESSAGE, link, name, container=self.places[name]))
         self.steps.append(s.GetPortElement(name, "in.api", f"tell {name}", self.places[name]))
 
     def scenario(self, calls: Sequence[Step], patience: int = 2000, may_stay: tuple[str, ...] = ()) -> Scenario:
@@ -196,8 +197,8 @@ def _receiver_of_two(second: str) -> Scenario:
     declaration = Declaration(("in.api",), ("left.api", "right.api"), plan={"exchange": pushes}, ports=ports)
     configuration.add("emitter", declaration)
     for link, port in (("left", "in.api"), ("right", "aux.api")):
-        configuration.steps.append(s.Attach(link, "receiver", "receiver", port))
-        configuration.steps.append(s.Attach(link, "emitter", "emitter", f"{link}.api"))
+        configuration.steps.append(provided_end(MESSAGE, link, "receiver", port))
+        configuration.steps.append(required_end(MESSAGE, link, "emitter", f"{link}.api"))
     configuration.steps.append(s.GetPortElement("emitter", "in.api", "tell emitter"))
     calls: list[Step] = [s.OpenGate("got")]
     for round_ in (1, 2):

@@ -9,11 +9,11 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter, message_interface
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
+from ucm_cts.harness.purposes.connections import MESSAGE, SERVICE, Connector, provided_end, required_end
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _PORTS = ("in.api", "aux.api")
@@ -30,14 +30,7 @@ _A_WHILE = 50
 
 _INTERFACES = {"service": _SERVICE, "message": _MESSAGE}
 _INTERFACE_OF = {_SERVICE_PORT: "service", _MESSAGE_PORT: "message"}
-_CONNECTOR_OF: dict[str, Literal["simple_service_connector", "simple_message_connector"]] = {
-    _SERVICE_PORT: "simple_service_connector",
-    _MESSAGE_PORT: "simple_message_connector",
-}
-_ROLES: dict[str, tuple[Literal["server", "receiver"], Literal["client", "emitter"]]] = {
-    _SERVICE_PORT: ("server", "client"),
-    _MESSAGE_PORT: ("receiver", "emitter"),
-}
+_CONNECTOR_OF: dict[str, Connector] = {_SERVICE_PORT: SERVICE, _MESSAGE_PORT: MESSAGE}
 
 
 @dataclass(frozen=True)
@@ -272,7 +265,7 @@ def _scenario(server: Declaration, ways: tuple[_Way, ...], calls: list[Step]) ->
         steps.append(s.CreateContainer("elsewhere"))
     for port, interface in server.ports.items():
         steps.append(s.Link(_CONNECTOR_OF[port], interface, f"line of {port}"))
-        steps.append(s.Attach(f"line of {port}", _ROLES[port][0], "server", port))
+        steps.append(provided_end(_CONNECTOR_OF[port], f"line of {port}", "server", port))
     for number, way in enumerate(ways):
         if not way.client:
             steps.append(s.GetPortElement("server", way.port, f"way {number}"))
@@ -281,7 +274,7 @@ def _scenario(server: Declaration, ways: tuple[_Way, ...], calls: list[Step]) ->
         components[client] = _client(way, number)
         if way.port in _INTERFACE_OF:
             steps.append(s.AddComponent(client, container))
-            steps.append(s.Attach(f"line of {way.port}", _ROLES[way.port][1], client, "out.api", container))
+            steps.append(required_end(_CONNECTOR_OF[way.port], f"line of {way.port}", client, container=container))
         else:
             steps.append(s.GetPortElement("server", way.port, f"goal {number}"))
             steps.append(s.AddComponent(client, container))

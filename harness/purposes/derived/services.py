@@ -14,6 +14,7 @@ from typing import Literal, get_args
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum, Integer, Interface, Method, Parameter
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
+from ucm_cts.harness.purposes.connections import SERVICE, provided_end, required_end
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _CLAUSE = "10.1.5.1"
@@ -54,15 +55,15 @@ class _Configuration:
     def begin(self, server: Declaration, clients: int, calls: Sequence[s.CallMethod]) -> _Configuration:
         """Add, attach and start the server and the clients, each client with arguments of its own."""
         self.steps += [s.CreateContainer(place) for place in self.containers if place != s.MANAGER]
-        self.steps.append(s.Link("simple_service_connector", "service", _LINK))
+        self.steps.append(s.Link(SERVICE, "service", _LINK))
         self._add("server", server, self.places[0])
-        self.steps.append(s.Attach(_LINK, "server", "server", "in.api", self.places[0]))
+        self.steps.append(provided_end(SERVICE, _LINK, "server", container=self.places[0]))
         for number in range(clients):
             name, place = f"client {number}", self.places[number + 1]
             own = tuple(_of_client(call, number) for call in calls)
             ports = {"out.api": "service"}
             self._add(name, Declaration(("in.api",), ("out.api",), plan={"exchange": own}, ports=ports), place)
-            self.steps.append(s.Attach(_LINK, "client", name, "out.api", place))
+            self.steps.append(required_end(SERVICE, _LINK, name, container=place))
             self.steps.append(s.GetPortElement(name, "in.api", f"tell {number}", place))
         self.steps += map(s.Start, self.containers)
         return self
