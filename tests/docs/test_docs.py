@@ -137,8 +137,10 @@ def test_every_module_says_what_it_is_for() -> None:
 
 
 def test_former_module_of_the_python_host_still_serves() -> None:
-    command = "echo x | python -m ucm_cts.adapters.python.host subjects:stops_in_startup_order 2> warning"
-    assert json.loads(shell(command, PYTHONPATH=str(ROOT / "tests")))["type"] == "refused"
+    command = (
+        "echo x | python -m ucm_cts.adapters.python.host ucm_cts.adapters.mutants.python:serialises_calls 2> warning"
+    )
+    assert json.loads(shell(command))["type"] == "refused"
     assert Path("warning").read_text().endswith("is deprecated: use ucm_cts.adapters.sdk.python.host\n")
 
 
