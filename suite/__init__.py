@@ -1,1 +1,1 @@
-"""What is checked: requirement catalogue, interpretations, life-cycle table, probe models, scenarios, pytest modules."""
+"""What is checked: requirement catalogue, interpretations, life-cycle table, probe models, scenarios, pytest module."""

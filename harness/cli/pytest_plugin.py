@@ -10,7 +10,7 @@ import argparse
 import math
 import random
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import pytest
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 
 _PROFILE = "container"
+_SUITE = "ucm_cts.suite.test_conformance"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -67,29 +68,23 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """Each suite module asks for the purposes of its clauses: ``CLAUSES`` is a tuple of prefixes."""
-    if not metafunc.module.__name__.startswith("ucm_cts.suite."):
+    """One node a test purpose of the profile, named by its clause and its id.
+
+    For ``-k``, a clause can be written with underscores, too: ``-k 10_1_6``.
+    """
+    if metafunc.module.__name__ != _SUITE:
         return
     from ucm_cts.harness.statement.applicability import purposes_for
 
-    profile = metafunc.config.getoption("--iut-profile")
-    chosen = [p for p in purposes_for(_statement(metafunc.config), profile) if _belongs(p, metafunc.module.CLAUSES)]
-    metafunc.parametrize("purpose", chosen or [None], ids=[p.id.replace(" ", "-") for p in chosen] or ["none"])
+    purposes = purposes_for(_statement(metafunc.config), metafunc.config.getoption("--iut-profile"))
+    metafunc.parametrize("purpose", purposes, ids=[f"{p.clause}-{p.id}".replace(" ", "-") for p in purposes])
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """A module whose clauses have no purpose in this profile has nothing to check, nor to skip."""
-    empty = [item for item in items if _has_no_purpose(item)]
-    if empty:
-        config.hook.pytest_deselected(items=empty)
-        items[:] = [item for item in items if item not in empty]
-
-
-def _has_no_purpose(item: pytest.Item) -> bool:
-    if not isinstance(item, pytest.Function) or not item.module.__name__.startswith("ucm_cts.suite."):
-        return False
-    call = getattr(item, "callspec", None)
-    return call is not None and call.params.get("purpose", item) is None
+def pytest_itemcollected(item: pytest.Item) -> None:
+    """Let ``-k`` find the clause of a node under its name with underscores."""
+    if isinstance(item, pytest.Function) and item.module.__name__ == _SUITE:
+        purpose = cast("TestPurpose", item.callspec.params["purpose"])
+        item.extra_keyword_matches.add(purpose.clause.replace(".", "_"))
 
 
 def _statement(config: pytest.Config) -> Statement:
@@ -107,10 +102,6 @@ def _statement(config: pytest.Config) -> Statement:
         except (WrongUse, DocumentError) as error:
             raise pytest.UsageError(str(error)) from None
     return config.stash[_STATEMENT]
-
-
-def _belongs(purpose: TestPurpose, clauses: tuple[str, ...]) -> bool:
-    return any(purpose.clause == c or purpose.clause.startswith(c + ".") for c in clauses)
 
 
 @pytest.fixture(scope="session")
