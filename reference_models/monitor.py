@@ -28,14 +28,14 @@ from ucm_cts.adapters.contract.trace import (
     Timeout,
 )
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
-from ucm_cts.reference_models.model.executions import BusinessCall, Executions
+from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks
 from ucm_cts.reference_models.model.ics import Ics
-from ucm_cts.reference_models.model.interactions import Interactions
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation_effects import apply
 from ucm_cts.reference_models.model.row_selection import RowSelection
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress
 from ucm_cts.reference_models.properties.declaration import Feature
 from ucm_cts.reference_models.properties.table import PropertyTable, features_of
 from ucm_cts.reference_models.verdicts import Verdicts
@@ -67,11 +67,12 @@ class Monitor:
         if table is None:
             table = self._tables[features] = PropertyTable(features)
         reader = _TraceReader(self, table, scenario, features)
-        interactions = reader.interactions
+        interactions = reader.runtime.interactions
+        interacting = "interactions" in features
         for event in trace:
             if _TAKE[type(event)](reader, event):
                 break
-            if interactions is not None and type(event) not in _NOTHING_HAPPENS:
+            if interacting and type(event) not in _NOTHING_HAPPENS:
                 interactions.latest = event.t
         reader.close()
         return reader.verdicts
@@ -117,24 +118,20 @@ class _TraceReader:
         self.table = table
         self.verdicts = Verdicts(scenario, monitor.expected, ics=monitor.ics)
         self.steps = scenario.steps
-        self.runtime = Runtime(scenario)
+        self.runtime = ObservedRuntime(scenario, monitor.ics, "interactions" in features)
         self.ongoing: OperationInProgress | None = None
         self.histories: dict[tuple[str, int], CallbackHistory] = {}
         self.calls: list[list[BusinessCall]] = []
         self.threads: dict[int, _Thread] = {}
-        interacting = "interactions" in features
-        self.executions = Executions(self.runtime) if interacting else None
-        self.interactions = Interactions(self.runtime) if interacting else None
-        self.runtime.interactions = self.interactions
-        self.runtime.executions = self.executions
+        self.executions = self.runtime.executions
+        self.interactions = self.runtime.interactions
         self.connecting: dict[int, Call] = {}
 
     def close(self) -> None:
         """The trace is over."""
-        if self.interactions is not None:
-            self.interactions.is_over, self.interactions.services = True, None
-            for check in self.table.closed:
-                check(self.verdicts, self.runtime)
+        self.runtime.is_over, self.runtime.service_calls = True, None
+        for check in self.table.closed:
+            check(self.verdicts, self.runtime)
         self.verdicts.close()
 
     def thread(self, number: int) -> _Thread:
@@ -151,8 +148,7 @@ class _TraceReader:
         is_operation = kind in _CONTAINER_CALLS
         if is_operation and self.ongoing is not None:
             return True
-        if self.interactions is not None:
-            self.interactions.operate(step, event)
+        self.interactions.operate(step, event)
         if is_operation:
             self.ongoing = self.monitor.row_selection.open(self.runtime, event.step, step, event.n)  # type: ignore[arg-type]
         elif isinstance(step, s.Invoke):
@@ -164,8 +160,7 @@ class _TraceReader:
 
     def end(self, event: Return | Raise) -> None:
         ongoing, verdicts, runtime = self.ongoing, self.verdicts, self.runtime
-        if self.interactions is not None:
-            self.interactions.operated(event)
+        self.interactions.operated(event)
         if ongoing is not None and ongoing.step_number == event.step:
             for check in self.table.ended[ongoing.operation]:
                 check(verdicts, runtime, ongoing, event)
@@ -186,12 +181,9 @@ class _TraceReader:
             call = calls.pop()
             for check in self.table.answered:
                 check(verdicts, runtime, call, event)
-            if self.executions is not None:
-                self.come_back(call, event.n)
+            self.come_back(call, event.n)
 
     def end_connecting(self, step: s.Step, begin: Call, event: Return | Raise) -> None:
-        if self.interactions is None:
-            return
         if type(step) in _CONNECTOR_CALLS:
             link = self.interactions.linked(step, begin, event)  # type: ignore[arg-type]
             self.runtime.changed()
@@ -205,14 +197,13 @@ class _TraceReader:
             self.runtime.not_offered.append(event)
 
     def tell(self, event: Return | Pushed | Counted | Paused | Stressed) -> None:
-        if isinstance(event, Pushed) and self.interactions is not None:
+        if isinstance(event, Pushed):
             self.interactions.push(event)
-        for check in self.table.told if self.interactions is not None else ():
+        for check in self.table.told:
             check(self.verdicts, self.runtime, event)
 
     def paused(self, event: Paused) -> None:
-        if self.interactions is not None:
-            self.interactions.pauses.append(event)
+        self.interactions.pauses.append(event)
         self.tell(event)
 
     def create(self, event: Create) -> None:
@@ -223,9 +214,6 @@ class _TraceReader:
         thread = self.threads.get(event.thread) or self.thread(event.thread)
         hook = event.hook
         thread.hooks.append(hook)
-        if hook == "exchange" and self.executions is None:
-            self.enter_plainly(thread, event)
-            return
         if hook in _BUSINESS:
             self.enter_business(thread, event)
             return
@@ -258,31 +246,13 @@ class _TraceReader:
         elif hook == "on_shutdown":
             member.closing = True
 
-    def enter_plainly(self, thread: _Thread, event: Enter) -> None:
-        """As ``enter_business``, where nobody has interfaces or policies."""
-        calls = thread.calls
-        call = calls[-1] if calls else None
-        if call is None or call.value != event.value:
-            call = self.call_behind(event, call)
-        body = event.component, event.instance
-        thread.served.append(call)
-        thread.inside.append(body)
-        if call is not None:
-            call.entries.append((event, None))
-        runtime = self.runtime
-        for check in self.table.called[call.by if call is not None else "nobody"]:
-            check(self.verdicts, runtime, self.ongoing, event, call)
-        member = runtime.bodies.get(body)
-        if member is not None and member.operational:
-            member.served = True
-
     def enter_business(self, thread: _Thread, event: Enter) -> None:
         delivery = None
         hook = event.hook
         call: BusinessCall | None
-        if hook == "method" and self.interactions is not None:
+        if hook == "method":
             delivery = self.interactions.enter(event)
-            call = delivery.call.business if delivery.call is not None else None
+            call = delivery.call.business if delivery is not None and delivery.call is not None else None
         elif hook == "exchange":
             calls = thread.calls
             call = calls[-1] if calls else None
@@ -294,10 +264,9 @@ class _TraceReader:
         body = event.component, event.instance
         thread.inside.append(body)
         verdicts, runtime = self.verdicts, self.runtime
-        if self.executions is not None:
-            execution, met = self.executions.begin(event, call)
-            for check in self.table.began:
-                check(verdicts, runtime, execution, met)
+        execution, met = self.executions.begin(event, call)
+        for check in self.table.began:
+            check(verdicts, runtime, execution, met)
         if hook == "run":
             runtime.last_run[body] = event.n
             return
@@ -324,13 +293,11 @@ class _TraceReader:
         if hook not in _BUSINESS or not thread.served:
             return
         thread.inside.pop()
-        if hook == "method" and self.interactions is not None:
+        if hook == "method":
             self.interactions.exit(event)
         call = thread.served.pop()
         if call is not None:
             call.close(event)
-        if self.executions is None:
-            return
         execution = self.executions.end(event)
         if execution is not None:
             for check in self.table.over:
@@ -344,10 +311,9 @@ class _TraceReader:
     def request(self, event: Request) -> None:
         thread = self.threads.get(event.thread) or self.thread(event.thread)
         call = BusinessCall(event.value, event.n, event, None, thread.hooks[-1] if thread.hooks else "")
-        if self.executions is not None:
-            call.caller = self.executions.innermost(event.thread)
+        call.caller = self.executions.innermost(event.thread)
         self.begin(thread, call)
-        if event.method is not None and self.interactions is not None:
+        if event.method is not None:
             self.interactions.request(event, call)
 
     def begin(self, thread: _Thread, call: BusinessCall) -> None:
@@ -356,8 +322,7 @@ class _TraceReader:
             thread.calls = []
             self.calls.append(thread.calls)
         thread.calls.append(call)
-        if self.executions is not None:
-            self.executions.made(call)
+        self.executions.made(call)
 
     def reply(self, event: Reply) -> None:
         thread = self.threads.get(event.thread)
@@ -368,50 +333,40 @@ class _TraceReader:
         if call.request is None or call.request.method is None:
             for check in self.table.replied:
                 check(self.verdicts, self.runtime, call, event)
-        elif self.interactions is not None:
+        else:
             completed = self.interactions.reply(event)
             if completed is not None:
                 for check in self.table.completed:
                     check(self.verdicts, self.runtime, completed)
-        if self.executions is not None:
-            self.come_back(call, event.n)
+        self.come_back(call, event.n)
 
     def come_back(self, call: BusinessCall, end: int) -> None:
-        waited = self.executions.answered(call) if self.executions is not None else None
+        waited = self.executions.answered(call)
         for check in self.table.served if waited is not None else ():
             check(self.verdicts, self.runtime, call, waited, end)
 
     def held(self, event: Held) -> None:
-        if self.executions is not None:
-            self.executions.hold(event)
-        if self.interactions is not None:
-            self.interactions.hold(event)
+        self.executions.hold(event)
+        self.interactions.hold(event)
 
     def opened(self, event: Opened) -> None:
         if event.gate not in self.runtime.in_vain:
             self.runtime.opened.add(event.gate)
-        if self.executions is not None:
-            self.executions.open(event)
-        if self.interactions is not None:
-            self.interactions.open(event)
+        self.executions.open(event)
+        self.interactions.open(event)
 
     def settled(self, event: Settled) -> None:
-        if self.executions is not None:
-            self.executions.settle(event)
-        if self.interactions is not None:
-            self.interactions.settled.append(event)
+        self.executions.settle(event)
+        self.interactions.settled.append(event)
 
     def timeout(self, event: Timeout) -> None:
         step = self.steps[event.step]
         if isinstance(step, s.ReachGate):
             self.runtime.in_vain.add(step.gate)
-        if self.executions is None and self.interactions is None:
-            return
-        if self.interactions is not None:
-            self.interactions.wait(event)
+        self.interactions.wait(event)
         for check in self.table.waited:
             check(self.verdicts, self.runtime, event)
-        if self.executions is not None and isinstance(step, s.Join):
+        if isinstance(step, s.Join):
             for call, waited in self.executions.lost():
                 for check in self.table.served:
                     check(self.verdicts, self.runtime, call, waited, 0)

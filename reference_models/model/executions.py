@@ -245,6 +245,27 @@ class Executions:
                         self.waiting[call.n] = call, execution
 
 
+class NoExecutions(Executions):
+    """Stands for the executions of scenarios without policies: nothing is recorded, nobody waits."""
+
+    _NONE = Execution(Enter(0, 0, 0, "", 0, "exchange"), None)
+
+    def made(self, call: BusinessCall) -> None:
+        """Nothing is recorded."""
+
+    def answered(self, call: BusinessCall) -> Execution | None:
+        """No call has waited."""
+        return None
+
+    def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
+        """Nothing is recorded."""
+        return self._NONE, []
+
+    def end(self, exit_: Exit) -> Execution | None:
+        """No execution was recorded."""
+        return None
+
+
 def protection_of(declaration: Declaration | None) -> Protection:
     """How its execution policy protects a component; empty without a policy of 10.1.3."""
     if declaration is None or not declaration.policies:

@@ -5,7 +5,7 @@ which entry into a body belongs to which call (10.1.5, 10.1.6). Calls of policie
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Boolean, Enumeration
@@ -28,9 +28,6 @@ from ucm_cts.reference_models.model.executions import BusinessCall, connections_
 from ucm_cts.reference_models.model.links import SENDERS, TAKERS, End, LinkState
 from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime
 from ucm_cts.reference_models.model.value_transport import distance
-
-if TYPE_CHECKING:
-    from ucm_cts.reference_models.model.services import ServiceCall
 
 Fit = Literal["same", "altered", "repeated", "stray"]
 """How an entry fits the calls made so far: as one was made; as one was made, but for its values; like one that had been
@@ -137,7 +134,6 @@ class Interactions:
     """All links, calls, deliveries and bursts of one trace. ``held`` are bodies at gates that are closed, ``released_at`` is when the
     last of them was let go. ``operations`` are the steps handed to the framework, ``changes`` those that may change who is
     operational, ``in_progress`` those that have not ended, by step; ``settled`` where workers were found,
-    ``is_over`` says that nothing follows, ``services`` is what services.service_calls has found then;
     ``waits`` those that ran out of patience, and ``latest`` is when something happened last. ``pauses`` show the calendar
     clock.
     """
@@ -157,8 +153,6 @@ class Interactions:
         self.waits: list[Wait] = []
         self.latest = 0
         self.pauses: list[Paused] = []
-        self.is_over = False
-        self.services: list[ServiceCall] | None = None
         self._opened: set[str] = set()
         self._under_way: list[MethodCall] = []
         self._open: dict[int, list[MethodCall]] = {}
@@ -286,7 +280,7 @@ class Interactions:
         call.reply = event
         return call
 
-    def enter(self, event: Enter) -> Delivery:
+    def enter(self, event: Enter) -> Delivery | None:
         """A body is entered at a method."""
         receiver = self._runtime.member_of(event.component, event.instance)
         link = self._link_of(receiver, event.port or "", TAKERS)
@@ -426,6 +420,29 @@ class Interactions:
         if call.caller is None or receiver is None:
             return False
         return any(c.provider is receiver for c in connections_behind(call.caller, call.request.port))
+
+
+class NoInteractions(Interactions):
+    """Stands for the interactions of scenarios without interfaces and policies: nothing is recorded."""
+
+    def operate(self, step: s.Step, begin: Call) -> None:
+        """Nothing is recorded."""
+
+    def operated(self, end: Return | Raise) -> None:
+        """Nothing is recorded."""
+
+    def request(self, event: Request, business: BusinessCall) -> None:
+        """Nothing is recorded."""
+
+    def enter(self, event: Enter) -> Delivery | None:
+        """Nothing is recorded."""
+        return None
+
+    def push(self, event: Pushed) -> None:
+        """Nothing is recorded."""
+
+    def wait(self, event: Timeout) -> None:
+        """Nothing is recorded."""
 
 
 def _waiting(calls: list[MethodCall], enter: Enter) -> list[MethodCall]:

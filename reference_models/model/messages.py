@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Timeout
-from ucm_cts.reference_models.model.interactions import Delivery, Interactions, MethodCall
+from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.links import End
-from ucm_cts.reference_models.model.runtime import Member, Runtime
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.verdicts import Verdicts
 
 OK, INTERNAL_ERROR, COMM_ERROR = "ok", "internal_error", "comm_error"
@@ -25,15 +26,9 @@ _PUNCTUALITY = 0.9
 """A wait for patience may end after this part of it: clocks differ."""
 
 
-def interactions_of(runtime: Runtime) -> Interactions:
-    """The interactions, which are followed wherever there are messages."""
-    assert runtime.interactions is not None
-    return runtime.interactions
-
-
-def messages(runtime: Runtime) -> Iterator[MethodCall]:
+def messages(runtime: ObservedRuntime) -> Iterator[MethodCall]:
     """All messages pushed so far."""
-    return (call for call in interactions_of(runtime).calls if call.is_message)
+    return (call for call in runtime.interactions.calls if call.is_message)
 
 
 def answer_to_push(member: Member) -> str:
@@ -63,44 +58,44 @@ def settling_time(verdicts: Verdicts) -> float:
     return verdicts.ics.tolerance("error-known-within") * _NANOSECONDS
 
 
-def is_whole(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> bool:
+def is_whole(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Has nothing been broken when it was pushed, nor since, nor mended so lately that the connector need not know?
 
     Connections may share what is broken.
     """
-    links = interactions_of(runtime).links.values()
+    links = runtime.interactions.links.values()
     if call.link is None or any(link.broken or link.broken_at > call.request.t for link in links):
         return False
     mended_at = max(link.mended_at for link in links)
     return not mended_at or call.request.t - mended_at >= settling_time(verdicts)
 
 
-def lasting(runtime: Runtime, call: MethodCall) -> list[End]:
+def lasting(runtime: ObservedRuntime, call: MethodCall) -> list[End]:
     """The receivers that were operational when it was pushed and have been ever since."""
     return [end for end in of_one_phase(runtime, call) if end.member.serving]
 
 
-def of_one_phase(runtime: Runtime, call: MethodCall) -> list[End]:
+def of_one_phase(runtime: ObservedRuntime, call: MethodCall) -> list[End]:
     """The receivers that were operational when it was pushed and have not been started again, nor detached."""
     kept = [end for end, ready in call.targets if ready and end.until is None]
     return [end for end in kept if end.member.operational and not _restarted(runtime, call, end.member)]
 
 
-def is_quiet(runtime: Runtime, call: MethodCall) -> bool:
+def is_quiet(runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Has nothing else been on its way that could fill a queue, and has no receiver been held?"""
-    return not call.crowded and not interactions_of(runtime).held
+    return not call.crowded and not runtime.interactions.held
 
 
-def is_healthy(runtime: Runtime, call: MethodCall) -> bool:
+def is_healthy(runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Are its emitter and all its receivers, one at least, operational, and have they been since it was pushed?"""
     receivers = lasting(runtime, call)
     all_ready = call.caller is not None and call.caller.serving and 0 < len(receivers) == len(call.targets)
     return all_ready and is_calm(runtime, call)
 
 
-def is_calm(runtime: Runtime, call: MethodCall) -> bool:
+def is_calm(runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Has nothing been started, stopped or changed since it was pushed?"""
-    changes, since = interactions_of(runtime).changes, call.request.n
+    changes, since = runtime.interactions.changes, call.request.n
     return not any(operation.end is None or operation.end.n > since for operation in changes)
 
 
@@ -109,26 +104,26 @@ def was_delivered(call: MethodCall, end: End) -> bool:
     return bool(call.delivered_to(end.member, end.port))
 
 
-def is_disturbed(runtime: Runtime, call: MethodCall) -> bool:
+def is_disturbed(runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Does one of its receivers fail, or was one held when it was pushed or afterwards?"""
     receivers = [end.member for end, _ in call.targets]
-    held = [d for d in interactions_of(runtime).deliveries if d.was_held and d.receiver in receivers]
+    held = [d for d in runtime.interactions.deliveries if d.was_held and d.receiver in receivers]
     return not all(map(is_well, receivers)) or any(d.exit is None or d.exit.n > call.request.n for d in held)
 
 
-def pushed_before_start(runtime: Runtime, delivery: Delivery) -> bool:
+def pushed_before_start(runtime: ObservedRuntime, delivery: Delivery) -> bool:
     """Was the message pushed before the receiver was started last?"""
     return delivery.call is not None and _restarted(runtime, delivery.call, delivery.receiver)
 
 
-def waited_for(runtime: Runtime, timeout: Timeout, since: int) -> bool:
+def waited_for(runtime: ObservedRuntime, timeout: Timeout, since: int) -> bool:
     """Has patience run out for what was due from ``since`` (``t``) on, and is nobody held who could be the reason?"""
-    interactions = interactions_of(runtime)
+    interactions = runtime.interactions
     patience = runtime.scenario.patience * _NANOSECONDS * _PUNCTUALITY
     return not interactions.held and timeout.t - max(since, interactions.released_at) >= patience
 
 
-def overdue(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> Iterator[tuple[MethodCall, list[End]]]:
+def overdue(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> Iterator[tuple[MethodCall, list[End]]]:
     """Answered messages, and the receivers that are well and operational all the while and were waited for in vain."""
     for call in messages(runtime):
         if call.reply is None or not is_whole(verdicts, runtime, call):
@@ -153,7 +148,7 @@ def events_of(call: MethodCall, *further: int) -> tuple[int, ...]:
     return (call.request.n, *((call.reply.n,) if call.reply is not None else ()), *further)
 
 
-def _restarted(runtime: Runtime, call: MethodCall, receiver: Member | None) -> bool:
+def _restarted(runtime: ObservedRuntime, call: MethodCall, receiver: Member | None) -> bool:
     """Has the receiver's last on_startup begun after the message was pushed?"""
     body = (receiver.component, receiver.instance or 0) if receiver is not None else ("", 0)
     return runtime.startups.get(body, (0, 0))[0] > call.request.n

@@ -13,9 +13,10 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import DeclaredError, Enter, Raise, Reference, Return
 from ucm_cts.reference_models.model.expected_callbacks import Listener, pattern
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation_effects import apply
 from ucm_cts.reference_models.model.row_selection import RowSelection, undone_by
-from ucm_cts.reference_models.model.runtime import Connection, Container, Member, OperationInProgress, Runtime
+from ucm_cts.reference_models.model.runtime import Connection, Container, Member, OperationInProgress
 
 
 class Way(NamedTuple):
@@ -29,8 +30,8 @@ class Prediction:
     """A runtime of the model that carries out steps itself."""
 
     def __init__(self, table: LifeCycleTable, components: dict[str, s.Declaration]) -> None:
-        self._situations = RowSelection(table)
-        self.runtime = Runtime(s.Scenario(components, ()))
+        self._rows = RowSelection(table)
+        self.runtime = ObservedRuntime(s.Scenario(components, ()))
         self._next_id = 0
         self._made: dict[str, int] = {}
 
@@ -43,7 +44,7 @@ class Prediction:
 
     def look(self, step: s.ContainerCall) -> OperationInProgress:
         """The operation in progress that ``step`` would begin now; nothing changes."""
-        return self._situations.open(self.runtime, 0, step)
+        return self._rows.open(self.runtime, 0, step)
 
     def perform(self, step: s.ContainerCall) -> OperationInProgress:
         """Carry ``step`` out in the first way that suits every instance concerned."""
@@ -106,7 +107,7 @@ class Prediction:
         return "", 0
 
 
-def _copied(runtime: Runtime) -> Runtime:
+def _copied(runtime: ObservedRuntime) -> ObservedRuntime:
     """As far as operations of containers change it."""
     containers: dict[int, Container] = {id(c): copy(c) for c in runtime.containers.values()}
     everyone = [m for c in runtime.containers.values() for m in c.members]

@@ -8,7 +8,8 @@ from typing import Any
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.executions import is_contradictory
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row, State
-from ucm_cts.reference_models.model.runtime import Connection, Container, Member, OperationInProgress, Runtime, raises
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import Connection, Container, Member, OperationInProgress, raises
 from ucm_cts.reference_models.model.service_policies import has_several_clocks
 
 _FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")
@@ -22,11 +23,11 @@ class MissingRow(Exception):
 
 
 class RowSelection:
-    """Looks up rows for each operation. Holds the table; all state lives in the ``Runtime``."""
+    """Looks up rows for each operation. Holds the table; all state lives in the ``ObservedRuntime``."""
 
     def __init__(self, table: LifeCycleTable) -> None:
         self._rows = {(r.state, r.operation, r.condition): r for r in table.rows}
-        self._looks: dict[str, Callable[[Runtime, OperationInProgress, Any], None]] = {
+        self._looks: dict[str, Callable[[ObservedRuntime, OperationInProgress, Any], None]] = {
             "add_component": self._add,
             "remove_component": self._remove,
             "get_port_element": self._get_port_element,
@@ -40,7 +41,7 @@ class RowSelection:
             "destroy": self._destroy,
         }
 
-    def open(self, runtime: Runtime, number: int, step: s.ContainerCall, call: int = 0) -> OperationInProgress:
+    def open(self, runtime: ObservedRuntime, number: int, step: s.ContainerCall, call: int = 0) -> OperationInProgress:
         """The operation of scenario step ``number``, with the rows that apply; ``call`` is the event that begins it."""
         operation = s.operation(step)
         name = s.MANAGER if operation in _OF_THE_MANAGER else step.container  # type: ignore[union-attr]
@@ -59,7 +60,7 @@ class RowSelection:
                 ongoing.judged = False
         return ongoing
 
-    def _other_phases(self, runtime: Runtime, ongoing: OperationInProgress) -> None:
+    def _other_phases(self, runtime: ObservedRuntime, ongoing: OperationInProgress) -> None:
         """Where phases are the whole application's, what another container is in may be a reason to refuse."""
         others = [c for c in runtime.containers.values() if c is not ongoing.container and not c.removed]
         if ongoing.operation in _CONFIGURING:
@@ -80,7 +81,7 @@ class RowSelection:
     def _member_role(self, ongoing: OperationInProgress, member: Member, condition: str, operation: str = "") -> None:
         self._role(ongoing, member, member.state, condition, operation)
 
-    def _add(self, runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent) -> None:
+    def _add(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.AddComponent) -> None:
         declaration = runtime.scenario.components.get(step.component)
         container = ongoing.container
         late = container.started is not False
@@ -105,7 +106,7 @@ class RowSelection:
             ongoing.forgiving = True  # whether the policy is supported is policy_supported's matter
         self._role(ongoing, None, "absent", condition)
 
-    def _remove(self, runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveComponent) -> None:
+    def _remove(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.RemoveComponent) -> None:
         member, why = runtime.find_member(ongoing.container, step.id)
         ongoing.subject = member
         if member is None:
@@ -131,7 +132,7 @@ class RowSelection:
             if _raises_when_disconnected(client):
                 ongoing.judged = False
 
-    def _get_port_element(self, runtime: Runtime, ongoing: OperationInProgress, step: s.GetPortElement) -> None:
+    def _get_port_element(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.GetPortElement) -> None:
         member, why = runtime.find_member(ongoing.container, step.id)
         ongoing.subject = member
         if member is None:
@@ -143,7 +144,7 @@ class RowSelection:
                 ongoing, member, "required" if step.port in member.declaration.requires else "unknown name"
             )
 
-    def _connect(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Connect) -> None:
+    def _connect(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.Connect) -> None:
         member, why = runtime.find_member(ongoing.container, step.id)
         ongoing.subject = member
         _, provider = runtime.reference(step.to)
@@ -194,7 +195,7 @@ class RowSelection:
             return "last port, again"
         return "last port" if member.declaration.connectable else "last port, not Connectable"
 
-    def _disconnect(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Disconnect) -> None:
+    def _disconnect(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.Disconnect) -> None:
         connection, why = runtime.find_connection(ongoing.container, step.connection)
         if connection is None:
             self._role(ongoing, None, "absent", why + _late(ongoing))
@@ -214,12 +215,12 @@ class RowSelection:
             condition = ""
         self._member_role(ongoing, member, condition)
 
-    def _start(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Start) -> None:
+    def _start(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.Start) -> None:
         container = ongoing.container
         cascades = container.name == s.MANAGER
         members = container.live_members()
         started = container.started
-        if runtime.interactions is not None and runtime.interactions.improper(None if cascades else container):
+        if runtime.interactions.improper(None if cascades else container):
             ongoing.forgiving = True
         if started is None or any(m.suspended for m in members):
             ongoing.judged = False
@@ -248,7 +249,7 @@ class RowSelection:
             self._member_role(ongoing, member, condition)
         self._reach_below(runtime, ongoing)
 
-    def _stop(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Stop) -> None:
+    def _stop(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.Stop) -> None:
         container = ongoing.container
         members = container.live_members()
         if container.started is None or any(m.suspended for m in members):
@@ -266,7 +267,7 @@ class RowSelection:
                 self._member_role(ongoing, member, "")
         self._reach_below(runtime, ongoing)
 
-    def _reach_below(self, runtime: Runtime, ongoing: OperationInProgress) -> None:
+    def _reach_below(self, runtime: ObservedRuntime, ongoing: OperationInProgress) -> None:
         """The manager's start and stop may reach into sub-containers, and fail for what they find there."""
         if ongoing.container.name != s.MANAGER:
             return
@@ -281,17 +282,21 @@ class RowSelection:
                 if member.state != "configured" or member.raises("on_startup", "on_shutdown"):
                     ongoing.forgiving = True
 
-    def _create_container(self, runtime: Runtime, ongoing: OperationInProgress, step: s.CreateContainer) -> None:
+    def _create_container(
+        self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.CreateContainer
+    ) -> None:
         if ongoing.container.started is not False:
             condition = "manager started"
         else:
             condition = "first" if len(runtime.containers) == 1 else "another"
         self._role(ongoing, None, "absent", condition)
 
-    def _destroy(self, runtime: Runtime, ongoing: OperationInProgress, step: s.Destroy) -> None:
+    def _destroy(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.Destroy) -> None:
         self._removal_of_all(ongoing, [m for c in runtime.containers.values() for m in c.live_members()])
 
-    def _remove_container(self, runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveContainer) -> None:
+    def _remove_container(
+        self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.RemoveContainer
+    ) -> None:
         if step.container == s.NIL:
             self._role(ongoing, None, "absent", "null reference")
             return

@@ -9,16 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario, Step
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference, Skip
 from ucm_cts.reference_models.model.expected_callbacks import Fit
 from ucm_cts.reference_models.model.life_cycle import Row, State
-
-if TYPE_CHECKING:
-    from ucm_cts.reference_models.model.executions import Executions
-    from ucm_cts.reference_models.model.interactions import Interactions
 
 NO_ID = 2**64
 """The id of a connection whose id nobody was told."""
@@ -281,8 +277,6 @@ class Runtime:
     the bodies in which a thread is carrying out business methods or run, the innermost last. ``not_offered`` tells of
     operations that the adapter does not offer.
     ``behind`` is what executions.behind has worked out since anything ``changed``, and ``changes`` how often that was so.
-    ``interactions`` are followed where port elements have interfaces or components policies, ``executions`` where
-    components have policies.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -305,8 +299,6 @@ class Runtime:
         self.references: dict[str, tuple[MaybeReference, Member | None]] = {}
         self.ports: dict[str, str] = {}
         self.destroyed = False
-        self.interactions: Interactions | None = None
-        self.executions: Executions | None = None
         self.changes = 0
         self.behind: dict[tuple[str, int, str], Behind] = {}
 

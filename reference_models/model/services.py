@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import AnyType, Interface, Method
+from ucm_cts.adapters.contract.data_types import AnyType, Interface
 from ucm_cts.adapters.contract.trace import Exit, Raise, Reply
-from ucm_cts.reference_models.model.interactions import Delivery, Interactions, MethodCall, Operation
-from ucm_cts.reference_models.model.links import End, LinkState
-from ucm_cts.reference_models.model.runtime import NO_ID, Member, Runtime
+from ucm_cts.reference_models.model.interactions import Delivery, MethodCall, Operation
+from ucm_cts.reference_models.model.links import LinkState
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import NO_ID, Member
+from ucm_cts.reference_models.model.service_call import NEVER, ServiceCall
 
 Trouble = Literal[
     "", "not served", "elsewhere", "twice", "arguments", "results", "failed", "early", "swallowed", "translated"
@@ -29,63 +30,17 @@ _QUIET = 0.5
 
 _NANOSECONDS = 1_000_000
 
-_NEVER = 2**63
 
-
-@dataclass(frozen=True)
-class ServiceCall:
-    """A call through a service connector whose ends are known: ``client`` and ``server`` were attached and operational."""
-
-    call: MethodCall
-    link: LinkState
-    client: End
-    server: End
-    interface: Interface
-
-    @property
-    def method(self) -> Method | None:
-        """The method called, if its interface has it."""
-        return self.interface.methods.get(self.call.request.method or "")
-
-    @property
-    def is_inherited(self) -> bool:
-        """Is its method one of another interface that this one inherits (9.2.7.2)?"""
-        return self.call.request.method in self.interface.inherited
-
-    @property
-    def over(self) -> int:
-        """The event that ended it; later than all if none did."""
-        return self.call.reply.n if self.call.reply is not None else _NEVER
-
-    @property
-    def served(self) -> list[Delivery]:
-        """The entries into its server."""
-        return self.call.delivered_to(self.server.member, self.server.port)
-
-    @property
-    def exit(self) -> Exit | None:
-        """How its server was left."""
-        return self.served[0].exit if self.served else None
-
-    def meets(self, other: ServiceCall) -> bool:
-        """Was the other, a call of another client, in progress at the same time?"""
-        apart = self.over < other.call.request.n or other.over < self.call.request.n
-        return self.link is other.link and self.client is not other.client and not apart
-
-
-def service_calls(runtime: Runtime) -> list[ServiceCall]:
+def service_calls(runtime: ObservedRuntime) -> list[ServiceCall]:
     """All calls through service connectors that may rely on a server."""
-    interactions = runtime.interactions
-    if interactions is None:
-        return []
-    if interactions.is_over and interactions.services is not None:
-        return interactions.services
-    found = [c for call in interactions.calls if (c := _service_call(runtime, call))]
-    interactions.services = found
+    if runtime.is_over and runtime.service_calls is not None:
+        return runtime.service_calls
+    found = [c for call in runtime.interactions.calls if (c := _service_call(runtime, call))]
+    runtime.service_calls = found
     return found
 
 
-def _service_call(runtime: Runtime, call: MethodCall) -> ServiceCall | None:
+def _service_call(runtime: ObservedRuntime, call: MethodCall) -> ServiceCall | None:
     link = call.link
     if link is None or link.connector != s.SERVICE_CONNECTOR or not call.prepared or not call.ready or call.broken:
         return None
@@ -110,9 +65,9 @@ def _is_silent(server: Member) -> bool:
     return any(isinstance(action, s.CountMessages) for action in server.declaration.plan.get("method", ()))
 
 
-def _serves_several(runtime: Runtime, member: Member | None, port: str | None) -> bool:
+def _serves_several(runtime: ObservedRuntime, member: Member | None, port: str | None) -> bool:
     """Is the port element, or was it, an end of more than one connection, so that nobody can tell which one led to it?"""
-    links = interactions_of(runtime).links.values()
+    links = runtime.interactions.links.values()
     return sum(any(e.member is member and e.port == port for e in link.ends) for link in links) > 1
 
 
@@ -136,25 +91,25 @@ def is_nested(one: ServiceCall) -> bool:
     return False
 
 
-def operations_beside(runtime: Runtime, one: ServiceCall) -> list[Operation]:
+def operations_beside(runtime: ObservedRuntime, one: ServiceCall) -> list[Operation]:
     """The operations that were in progress while the call was."""
-    interactions = interactions_of(runtime)
+    interactions = runtime.interactions
     return [o for o in interactions.operations if o.overlaps(one.call.request.n, one.over)]
 
 
-def disturbed_at(runtime: Runtime, one: ServiceCall) -> int | None:
+def disturbed_at(runtime: ObservedRuntime, one: ServiceCall) -> int | None:
     """When something began, while it was in progress or before, that may be a reason not to carry it out."""
     beside = operations_beside(runtime, one)
     disturbing = [o for o in beside if isinstance(o.step, _ENDING) or _takes_away(runtime, one, o)]
     return min((o.begin.n for o in disturbing), default=None)
 
 
-def is_disturbed(runtime: Runtime, one: ServiceCall) -> bool:
+def is_disturbed(runtime: ObservedRuntime, one: ServiceCall) -> bool:
     """Was anything in progress beside it that may be a reason not to carry it out?"""
     return disturbed_at(runtime, one) is not None
 
 
-def _takes_away(runtime: Runtime, one: ServiceCall, operation: Operation) -> bool:
+def _takes_away(runtime: ObservedRuntime, one: ServiceCall, operation: Operation) -> bool:
     """Does it undo the call's connection, or break or mend it?"""
     step = operation.step
     if not isinstance(step, s.Break | s.Mend | s.Detach) or step.link != one.link.name:
@@ -165,7 +120,7 @@ def _takes_away(runtime: Runtime, one: ServiceCall, operation: Operation) -> boo
     )
 
 
-def ended_by(runtime: Runtime, one: ServiceCall) -> list[Operation]:
+def ended_by(runtime: ObservedRuntime, one: ServiceCall) -> list[Operation]:
     """The operations that stopped its client or server, or undid its connection, once it had been made."""
     containers = {one.client.member.container.name, one.server.member.container.name}
     return [
@@ -177,22 +132,22 @@ def ended_by(runtime: Runtime, one: ServiceCall) -> list[Operation]:
     ]
 
 
-def is_left_hanging(runtime: Runtime, worker: str | None, since: int, until: int | None = None) -> bool:
+def is_left_hanging(runtime: ObservedRuntime, worker: str | None, since: int, until: int | None = None) -> bool:
     """Was ``worker`` waited for in vain, between these events, while nobody was held and nothing happened?"""
     quiet = runtime.scenario.patience * _NANOSECONDS * _QUIET
     return worker is not None and any(
         isinstance(wait.step, s.Join)
         and wait.step.worker == worker
-        and since < wait.timeout.n < (until or _NEVER)
+        and since < wait.timeout.n < (until or NEVER)
         and not wait.held
         and wait.timeout.t - wait.quiet_since >= quiet
-        for wait in interactions_of(runtime).waits
+        for wait in runtime.interactions.waits
     )
 
 
-def strays(runtime: Runtime) -> Iterator[Delivery]:
+def strays(runtime: ObservedRuntime) -> Iterator[Delivery]:
     """Entries into servers that no call through their connector led to, where every call is known."""
-    interactions = interactions_of(runtime)
+    interactions = runtime.interactions
     unknown = {call.request.method for call in interactions.calls if call.caller is None or call.link is None}
     for delivery in interactions.deliveries:
         link = delivery.link
@@ -204,10 +159,10 @@ def strays(runtime: Runtime) -> Iterator[Delivery]:
             yield delivery
 
 
-def led_astray(runtime: Runtime, one: ServiceCall) -> Delivery | None:
+def led_astray(runtime: ObservedRuntime, one: ServiceCall) -> Delivery | None:
     """The entry of another server, or at another port, that the call seems to have led to."""
     request = one.call.request
-    for delivery in interactions_of(runtime).deliveries:
+    for delivery in runtime.interactions.deliveries:
         enter = delivery.enter
         same = (enter.method, enter.arguments) == (request.method, request.arguments)
         if delivery.call is None and same and request.n < enter.n < one.over:
@@ -215,7 +170,7 @@ def led_astray(runtime: Runtime, one: ServiceCall) -> Delivery | None:
     return None
 
 
-def trouble_with(runtime: Runtime, one: ServiceCall) -> Trouble:
+def trouble_with(runtime: ObservedRuntime, one: ServiceCall) -> Trouble:
     """What went wrong with a call that came back and that nothing disturbed."""
     reply, served = one.call.reply, one.served
     assert reply is not None
@@ -242,14 +197,14 @@ def _answered(left: Exit, reply: Reply) -> Trouble:
 
 
 def what_sets_apart(
-    runtime: Runtime, one: ServiceCall, served: Sequence[ServiceCall]
+    runtime: ObservedRuntime, one: ServiceCall, served: Sequence[ServiceCall]
 ) -> Literal["", "inherited", "second server", "client"]:
     """What a call that is not carried out has that those have not which are ``served``: an inherited method, a connection
     that was to have a second server, or a client that is not the one who is served there.
     """
     if one.is_inherited:
         return "inherited"
-    attempts = (o for o in interactions_of(runtime).operations if isinstance(o.step, s.Attach))
+    attempts = (o for o in runtime.interactions.operations if isinstance(o.step, s.Attach))
     if any(_is_for_server(o.step, one.link) and isinstance(o.end, Raise) for o in attempts):
         return "second server"
     others = any(other.link is one.link and other.client is not one.client for other in served)
@@ -260,19 +215,13 @@ def _is_for_server(step: s.Step, link: LinkState) -> bool:
     return isinstance(step, s.Attach) and step.role == "server" and step.link == link.name
 
 
-def new_types(runtime: Runtime, step: s.Link) -> list[AnyType]:
+def new_types(runtime: ObservedRuntime, step: s.Link) -> list[AnyType]:
     """The types of the interface's parameters that no connector of that kind has in this runtime."""
     interfaces = runtime.scenario.interfaces
-    links = interactions_of(runtime).links.values()
+    links = runtime.interactions.links.values()
     known = [of for k in links if k.connector == step.connector for of in _types_of(interfaces[k.interface])]
     return [of for of in _types_of(interfaces[step.interface]) if of not in known]
 
 
 def _types_of(interface: Interface) -> list[AnyType]:
     return [parameter.of for method in interface.methods.values() for parameter in method.parameters]
-
-
-def interactions_of(runtime: Runtime) -> Interactions:
-    """The interactions, which are followed wherever there are calls of methods."""
-    assert runtime.interactions is not None
-    return runtime.interactions

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from ucm_cts.adapters.contract.data_types import AnyType, Datum, Method, Parameter
 from ucm_cts.adapters.contract.data_values import misfit
 from ucm_cts.reference_models.model.interactions import Delivery, Interactions, MethodCall
-from ucm_cts.reference_models.model.runtime import Runtime
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.value_transport import Difference, Part, differences
 
 MESSAGE = "message"
@@ -39,10 +39,10 @@ class Carried:
     doubtful: bool = False
 
 
-def values_carried(runtime: Runtime) -> list[Carried]:
+def values_carried(runtime: ObservedRuntime) -> list[Carried]:
     """All values that were carried, as far as what became of them is a matter of their types."""
     interactions = runtime.interactions
-    if interactions is None or not interactions.links:
+    if not interactions.links:
         return []
     carried = [one for call in interactions.calls for one in _carried_by(interactions, runtime, call)]
     lost, altered = _lost_ways(carried), _altered_types(carried)
@@ -55,12 +55,12 @@ def values_carried(runtime: Runtime) -> list[Carried]:
     ]
 
 
-def altered_calls(runtime: Runtime) -> frozenset[MethodCall]:
+def altered_calls(runtime: ObservedRuntime) -> frozenset[MethodCall]:
     """The calls with values that arrived as others, for the sake of their types: nobody else's matter."""
     return frozenset(one.call for one in values_carried(runtime) if one.differences)
 
 
-def method_of(runtime: Runtime, call: MethodCall) -> Method | None:
+def method_of(runtime: ObservedRuntime, call: MethodCall) -> Method | None:
     """The method that was called through a link; None if there is no link, or no such method."""
     interface = runtime.scenario.interfaces.get(call.link.interface) if call.link is not None else None
     return interface.methods.get(call.request.method or "") if interface is not None else None
@@ -92,7 +92,7 @@ def _is_lost_in_exceptions(one: Carried, carried: Sequence[Carried]) -> bool:
     return well == {False} and wrong == {True}
 
 
-def _carried_by(interactions: Interactions, runtime: Runtime, call: MethodCall) -> Iterator[Carried]:
+def _carried_by(interactions: Interactions, runtime: ObservedRuntime, call: MethodCall) -> Iterator[Carried]:
     method = method_of(runtime, call)
     if method is None:
         return

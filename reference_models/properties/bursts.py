@@ -8,18 +8,19 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Event, Pushed
 from ucm_cts.reference_models.model.interactions import PushedBurst
 from ucm_cts.reference_models.model.links import LinkState
-from ucm_cts.reference_models.model.messages import CODES, OK, interactions_of, is_well
-from ucm_cts.reference_models.model.runtime import Member, Runtime
+from ucm_cts.reference_models.model.messages import CODES, OK, is_well
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
 
 
 @property_at("told", "R-10.1.2-02", "R-10.1.2-09")
-def burst_answered(verdicts: Verdicts, runtime: Runtime, event: Event) -> None:
+def burst_answered(verdicts: Verdicts, runtime: ObservedRuntime, event: Event) -> None:
     """Each message of a burst is answered one of the three codes; ok, where the vendor has declared that push waits."""
     if not isinstance(event, Pushed):
         return
-    burst = interactions_of(runtime).bursts[-1]
+    burst = runtime.interactions.bursts[-1]
     emitter = runtime.member_of(event.component, event.instance)
     if emitter is None or not emitter.serving or burst.link is None:
         return
@@ -42,13 +43,13 @@ def burst_answered(verdicts: Verdicts, runtime: Runtime, event: Event) -> None:
 
 
 @property_at("told", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07", timed=True)
-def burst_counted(verdicts: Verdicts, runtime: Runtime, event: Event) -> None:
+def burst_counted(verdicts: Verdicts, runtime: ObservedRuntime, event: Event) -> None:
     """What was pushed in bursts and got ok is counted, each message once, and nothing else is."""
     if not isinstance(event, Counted):
         return
     receiver = runtime.member_of(event.component, event.instance)
-    link = interactions_of(runtime).link_to(receiver) if receiver is not None else None
-    bursts = [burst for burst in interactions_of(runtime).bursts if burst.link is link]
+    link = runtime.interactions.link_to(receiver) if receiver is not None else None
+    bursts = [burst for burst in runtime.interactions.bursts if burst.link is link]
     if receiver is None or link is None or not bursts or _is_busy(runtime, link) or not _is_known(bursts):
         return
     _origin(verdicts, receiver, bursts, event)
@@ -62,7 +63,7 @@ def burst_counted(verdicts: Verdicts, runtime: Runtime, event: Event) -> None:
         verdicts.exercised("R-10.1.2-10")
         if len({(b.pushed.component, b.pushed.instance) for b in bursts}) > 1:
             verdicts.exercised("R-10.1.6.1-03")
-    elif isinstance(step, s.AwaitMessages) and event.received < step.count and not interactions_of(runtime).held:
+    elif isinstance(step, s.AwaitMessages) and event.received < step.count and not runtime.interactions.held:
         expected = f"{receiver.lane} gets each of the {due} messages that were answered ok"
         observed = f"it has got {event.distinct} of them when patience has run out"
         _violate(verdicts, "R-10.1.2-10", "burst_counted", expected, observed, event, "lost")
@@ -102,7 +103,7 @@ def _order(verdicts: Verdicts, receiver: Member, event: Counted) -> None:
         _violate(verdicts, "R-10.1.6.1-07", "burst_counted", expected, observed, event, "disordered")
 
 
-def _is_busy(runtime: Runtime, link: LinkState) -> bool:
+def _is_busy(runtime: ObservedRuntime, link: LinkState) -> bool:
     """May an emitter of ``link`` still be pushing?"""
     inside = {body for bodies in runtime.inside.values() for body in bodies}
     return any((end.member.component, end.member.instance or 0) in inside for end in link.ends if end.role == "emitter")

@@ -11,9 +11,10 @@ from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.expected_callbacks import CONNECTABLE_HOOKS, LIFE_CYCLE_HOOKS, Deviation, Listener
 from ucm_cts.reference_models.model.life_cycle import Row
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation_effects import received
 from ucm_cts.reference_models.model.row_selection import undone_by
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime, lane, raises
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, lane, raises
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.properties.operations import listing_problem
 from ucm_cts.reference_models.verdicts import Verdicts
@@ -46,7 +47,7 @@ def _observed(ongoing: OperationInProgress, component: str, instance: int | None
 
 
 @property_at("ended", *_FROM_DUTIES)
-def callbacks(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def callbacks(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """Each instance receives exactly the callbacks that the life-cycle table asks for, in its order."""
     answer = "return" if isinstance(end, Return) else end.error
     if ongoing.callbacks or len(runtime.containers) > 1:
@@ -90,7 +91,7 @@ _LISTENERS = {
 
 
 def _listener(
-    runtime: Runtime, ongoing: OperationInProgress, member: Member | None
+    runtime: ObservedRuntime, ongoing: OperationInProgress, member: Member | None
 ) -> tuple[str, int | None, Listener]:
     """The body that a role is about, and what decides which callbacks it gets; a new instance has no member yet."""
     if member is not None:
@@ -148,7 +149,7 @@ def _deviates(
     )
 
 
-def _others(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress) -> None:
+def _others(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress) -> None:
     """Instances the operation does not concern receive nothing."""
     concerned = {id(m) for m, _ in ongoing.roles}
     strangers = [(c, i) for c, i in ongoing.by_body if id(runtime.bodies.get((c, i or 0))) not in concerned]
@@ -223,7 +224,11 @@ def _manager_forgot_its_own(verdicts: Verdicts, ongoing: OperationInProgress, an
 
 @property_at("entered", "R-11.1.1-01", "R-11.1.2-01", at=LIFE_CYCLE_HOOKS)
 def whole_life(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """Life-cycle callbacks come during operations of the container; a whole life has them in order."""
     if ongoing is not None and event.hook != "on_remove":
@@ -234,7 +239,7 @@ def whole_life(
     if ongoing is None:
         if member is None or member.suspended or member.gone:
             return
-        if event.hook in CONNECTABLE_HOOKS and runtime.interactions is not None and runtime.interactions.is_joining:
+        if event.hook in CONNECTABLE_HOOKS and runtime.interactions.is_joining:
             return  # whoever is joined by a connector is connected, too
         member.suspended = True
         verdicts.violated(
@@ -251,7 +256,11 @@ def whole_life(
 
 @property_at("entered", "R-11.2.1.2-01", at=LIFE_CYCLE_HOOKS)
 def nothing_outside_life(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """No callback before on_init or after on_remove."""
     if event.hook == "on_remove" and history.first == "on_init" and not history.removed:
@@ -291,7 +300,11 @@ def nothing_outside_life(
 
 @property_at("entered", "R-11.2.3-09", "R-11.2.1.2-10", at=("on_startup", "on_shutdown"))
 def alternation(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """No second on_startup without on_shutdown between, no on_shutdown without on_startup before: whatever else is unclear."""
     member = runtime.member_of(event.component, event.instance)
@@ -315,7 +328,11 @@ def alternation(
 
 @property_at("entered", "R-12.10-22", at=LIFE_CYCLE_HOOKS)
 def discarded(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """What a failed add_component made hears nothing more but its on_remove."""
     if runtime.discarded and (event.component, event.instance) in runtime.discarded and event.hook != "on_remove":
@@ -336,7 +353,11 @@ _SHOWN = 3
 
 @property_at("entered", "R-11.2.1.2-05", "R-10.1.1-06", at=("on_init",), feature="attributes")
 def attributes_before_init(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """On entry to on_init the body holds the configured attribute values."""
     if history.initialised:
@@ -386,7 +407,7 @@ def _holds_others(
 
 @property_at("ended", "R-11.2.1.2-08", at=("start",))
 def configuration_first(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
 ) -> None:
     """Once start has started a member, nothing of the container is initialised or connected any more."""
     if not isinstance(end, Return):
@@ -409,7 +430,11 @@ def configuration_first(
 
 @property_at("entered", "R-11.2.1.3-04", at=("on_connect",))
 def connect_arguments(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """on_connect is given the port element's name and the reference that connect was given."""
     if ongoing is None or not isinstance(ongoing.step, s.Connect):
@@ -439,7 +464,11 @@ def connect_arguments(
 
 @property_at("entered", "R-11.2.1.3-06", at=("on_disconnect",))
 def disconnect_arguments(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """on_disconnect is given the name of the port element whose connection is undone."""
     if ongoing is None:
@@ -471,7 +500,11 @@ def disconnect_arguments(
 
 @property_at("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"), feature="fragments")
 def container_interface(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """A fragment gets its container's interface exactly once, before on_startup."""
     declaration = runtime.scenario.components.get(event.component)
@@ -498,7 +531,9 @@ def container_interface(
 
 
 @property_at("noted", "R-11.2.1.4-03")
-def siblings(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Siblings) -> None:
+def siblings(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress | None, event: Siblings
+) -> None:
     """What a fragment learns of its container's members is what they are, unless an operation is changing that."""
     member = runtime.member_of(event.component, event.instance)
     if ongoing is not None or member is None or not member.declaration.fragment:

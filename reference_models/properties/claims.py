@@ -9,7 +9,8 @@ from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Skip
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.expected_callbacks import Fit
 from ucm_cts.reference_models.model.life_cycle import Row
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime, lane
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, lane
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
 
@@ -32,7 +33,9 @@ _OF_ALL_AT_ONCE = ("double-start", "stop-when-stopped")
 
 
 @property_at("ended", *_WITH_CHOICES)
-def declared_choices(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def declared_choices(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """Where the life-cycle table permits several ways, an instance goes the one that the vendor declares."""
     fitted = [told for told in ongoing.fitted if told[2].readings]
     telling = [told for told in fitted if _is_choice(ongoing, end, *told)] if fitted else fitted
@@ -93,7 +96,9 @@ def _belied(
 
 
 @property_at("ended", "R-11.2.2.1-14", at=("get_components",))
-def declared_listing(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def declared_listing(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """The manager lists members of its sub-containers if, and only if, the vendor declares so."""
     if ongoing.container.name != s.MANAGER or not ongoing.judged or not isinstance(end, Return):
         return
@@ -115,7 +120,9 @@ def declared_listing(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInP
 
 
 @property_at("ended", "R-11.2.3-17", at=("stop",))
-def declared_drain(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def declared_drain(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """stop waits for calls in progress if the vendor declares so."""
     if not isinstance(end, Return) or not ongoing.judged:
         return
@@ -138,7 +145,11 @@ def declared_drain(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInPro
 
 @property_at("entered", "R-11.2.2.1-13", at=("on_startup",))
 def declared_order(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """Who declares that members are started one by one does not start them at a time, by several threads."""
     member = runtime.member_of(event.component, event.instance)
@@ -159,7 +170,11 @@ def declared_order(
 
 @property_at("entered", "R-11.2.2.1-13", at=("on_startup",), timed=True)
 def declared_meeting(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """Who declares that members are started at once does not let one wait until another one's on_startup has ended.
 
@@ -195,7 +210,7 @@ _HOOKS = {"transport": "transport-fault", "inside": "connector-fault"}
 
 
 @property_at("closed", "R-10.1-01")
-def core_claimed(verdicts: Verdicts, runtime: Runtime) -> None:
+def core_claimed(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """The vendor claims every part of 10.1, and no scenario that asks for what is claimed is refused for want of it."""
     denied: dict[str, Skip] = {}
     for event in runtime.not_offered:
@@ -212,7 +227,7 @@ def core_claimed(verdicts: Verdicts, runtime: Runtime) -> None:
             (event.n,),
             event.step,
         )
-    links = runtime.interactions.links if runtime.interactions is not None else {}
+    links = runtime.interactions.links
     if not denied and (links or runtime.with_policies):
         verdicts.exercised("R-10.1-01")
 

@@ -21,7 +21,8 @@ from ucm_cts.reference_models.model.clock_readings import (
     time_told,
 )
 from ucm_cts.reference_models.model.interactions import MethodCall
-from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime, lane
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import OperationInProgress, lane
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, only_service, policies_of
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
@@ -33,7 +34,7 @@ _LONG_ENOUGH = 3
 
 
 @property_at("completed", "R-10.1.4.1-06")
-def clock_answers(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def clock_answers(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """Both methods of the clock return, from on_startup to on_shutdown."""
     method, caller, reply = clock_call(call, runtime.scenario.components), call.caller, call.reply
     if not method or reply is None or caller is None or caller.suspended:
@@ -53,15 +54,15 @@ def clock_answers(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> Non
     )
 
 
-def _has_told(runtime: Runtime, call: MethodCall, *methods: str) -> bool:
+def _has_told(runtime: ObservedRuntime, call: MethodCall, *methods: str) -> bool:
     """Have other methods told this caller the time, too?"""
-    calls = runtime.interactions.calls if runtime.interactions is not None else ()
+    calls = runtime.interactions.calls
     own = (c for c in reversed(calls) if c.caller is call.caller and time_told(c) is not None)
     return any(clock_call(c, runtime.scenario.components) in methods for c in own)
 
 
 @property_at("completed", "R-10.1.4.2-14")
-def time_range(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def time_range(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """The microseconds of a time are those of one second, and its seconds have 32 bits without sign."""
     told = time_told(call) if clock_call(call, runtime.scenario.components) else None
     if told is None or call.reply is None:
@@ -82,7 +83,7 @@ def time_range(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
 
 
 @property_at("ended", "R-10.1.4.1-02", at=("add_component", "start"), feature="policies")
-def one_clock(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def one_clock(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """A component without clock and one with a clock are started, one with two is refused when it is to start at latest."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
@@ -126,7 +127,7 @@ def _refused(verdicts: Verdicts, ongoing: OperationInProgress, end: Raise) -> No
 
 
 @property_at("closed", "R-10.1.4.1-08")
-def local_time_order(verdicts: Verdicts, runtime: Runtime) -> None:
+def local_time_order(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Of two readings of local time in one container, one after the other, the later one is not earlier, unless the clock
     may have been set. Another container may be on another node.
     """
@@ -144,7 +145,7 @@ def local_time_order(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("closed", "R-10.1.4.1-10")
-def synchronized_time_agrees(verdicts: Verdicts, runtime: Runtime) -> None:
+def synchronized_time_agrees(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Of two readings of synchronized time, wherever, the later one is not earlier by more than the tolerance."""
     tolerance = verdicts.ics.tolerance("synchronization-tolerance")
     for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
@@ -156,7 +157,7 @@ def synchronized_time_agrees(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("closed", "R-10.1.4.1-10", timed=True)
-def synchronized_time_passes(verdicts: Verdicts, runtime: Runtime) -> None:
+def synchronized_time_passes(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Between two readings of one body synchronized time went on, by half of the real time at least."""
     tolerance = verdicts.ics.tolerance("synchronization-tolerance") * MILLISECOND
     for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
@@ -176,7 +177,7 @@ def synchronized_time_passes(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("closed", "R-10.1.4.1-09", timed=True)
-def local_time_rate(verdicts: Verdicts, runtime: Runtime) -> None:
+def local_time_rate(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Between two readings of one body as much local time passed as on the host's monotonic clock."""
     tolerance = verdicts.ics.tolerance("clock-tolerance") * MILLISECOND
     rate = verdicts.ics.tolerance("clock-rate") / 100
@@ -201,9 +202,9 @@ def local_time_rate(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("closed", "R-10.1.4.1-09", timed=True)
-def local_time_epoch(verdicts: Verdicts, runtime: Runtime) -> None:
+def local_time_epoch(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Local time is the host's calendar time, within the tolerance, where the vendor says that it begins like Unix time."""
-    if verdicts.ics.reading("clock-epoch") != "unix" or runtime.interactions is None:
+    if verdicts.ics.reading("clock-epoch") != "unix":
         return
     tolerance = verdicts.ics.tolerance("epoch-tolerance") * MILLISECOND
     for reading in _readings(runtime, LOCAL):
@@ -226,9 +227,8 @@ def local_time_epoch(verdicts: Verdicts, runtime: Runtime) -> None:
         return
 
 
-def _readings(runtime: Runtime, method: str) -> list[ClockReading]:
-    interactions = runtime.interactions
-    return readings_of(interactions, runtime.scenario.components, method) if interactions is not None else []
+def _readings(runtime: ObservedRuntime, method: str) -> list[ClockReading]:
+    return readings_of(runtime.interactions, runtime.scenario.components, method)
 
 
 def _is_never_set(verdicts: Verdicts) -> bool:
@@ -236,14 +236,14 @@ def _is_never_set(verdicts: Verdicts) -> bool:
 
 
 def _pairs(
-    runtime: Runtime, method: str, is_never_set: bool = False
+    runtime: ObservedRuntime, method: str, is_never_set: bool = False
 ) -> Iterator[tuple[ClockReading, ClockReading, int]]:
     """Two readings, one after the other, and by how many nanoseconds the clock may have been set in between.
 
     Pairs of which nobody can know that are left out.
     """
     readings = _readings(runtime, method)
-    pauses = runtime.interactions.pauses if runtime.interactions is not None else ()
+    pauses = runtime.interactions.pauses
     for later in readings:
         for earlier in (r for r in readings if r.is_before(later)):
             calendar = (0, 0) if is_never_set else calendar_at(pauses, earlier.asked, later.told)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime, lane
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, lane
 from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
@@ -21,7 +22,11 @@ def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
 
 @property_at("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
 def dependencies(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """on_startup names each connected required port element and gives the reference it was connected to."""
     member = runtime.member_of(event.component, event.instance)
@@ -89,7 +94,11 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
 
 @property_at("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
 def no_dangling_reference(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
     if ongoing is not None and ongoing.operation == "connect":

@@ -21,7 +21,8 @@ from ucm_cts.reference_models.model.executions import (
     protection_of,
 )
 from ucm_cts.reference_models.model.interactions import Delivery
-from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime, lane, raises
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import OperationInProgress, lane, raises
 from ucm_cts.reference_models.model.service_policies import SERVICES, policies_of
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
@@ -41,7 +42,7 @@ _INTERVALS = 3
 
 
 @property_at("began", *EXCLUSIONS)
-def no_reentry(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+def no_reentry(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
     """A protected component is not entered while it is executed, unless the execution's own calls lead back into it."""
     enter = execution.enter
     declaration = runtime.scenario.components[enter.component]
@@ -60,7 +61,7 @@ def no_reentry(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: 
 
 
 @property_at("began", "R-10.1.3.2-20")
-def overlap_possible(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+def overlap_possible(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
     """Two callers may be inside an unprotected passive component, which is told and never demanded."""
     if met and protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
         verdicts.observed("unprotected-concurrency", "concurrent")
@@ -69,7 +70,7 @@ def overlap_possible(verdicts: Verdicts, runtime: Runtime, execution: Execution,
 
 
 @property_at("over", *EXCLUSIONS)
-def kept_out(verdicts: Verdicts, runtime: Runtime, execution: Execution, end: int) -> None:
+def kept_out(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, end: int) -> None:
     """An execution was held, a call that was to execute the same body had been made, and did not until the first ended."""
     enter = execution.enter
     for call in execution.waited:
@@ -83,10 +84,10 @@ def kept_out(verdicts: Verdicts, runtime: Runtime, execution: Execution, end: in
 
 
 @property_at("delivered", *CALL_EXCLUSIONS)
-def message_kept_out(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
+def message_kept_out(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
     """A message was pushed while its receiver was executed, time passed, and it came in when the execution had ended."""
     call, receiver = delivery.call, delivery.receiver
-    if call is None or receiver is None or not call.is_message or runtime.executions is None:
+    if call is None or receiver is None or not call.is_message:
         return
     enter = delivery.enter
     for execution in runtime.executions.past(enter.component, enter.instance):
@@ -98,13 +99,13 @@ def message_kept_out(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -
                 verdicts.measured("exclusions proved")
 
 
-def _time_passed(runtime: Runtime, begin: int, end: int) -> bool:
+def _time_passed(runtime: ObservedRuntime, begin: int, end: int) -> bool:
     """Did the scenario let time pass between these events?"""
-    return runtime.interactions is not None and any(begin < pause.n < end for pause in runtime.interactions.pauses)
+    return any(begin < pause.n < end for pause in runtime.interactions.pauses)
 
 
 @property_at("over", "R-10.1.3.2-20")
-def callers_meet(verdicts: Verdicts, runtime: Runtime, execution: Execution, end: int) -> None:
+def callers_meet(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, end: int) -> None:
     """Who waits while an unprotected component is executed is kept out, which is wrong if callers are said to meet."""
     enter = execution.enter
     body = enter.component, enter.instance
@@ -126,7 +127,7 @@ def callers_meet(verdicts: Verdicts, runtime: Runtime, execution: Execution, end
 
 
 @property_at("began", "R-10.1.3.2-05")
-def run_kept_out(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+def run_kept_out(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
     """A run was held inside for several of the intervals at which run is called, and nobody came in."""
     runs = [run for run in execution.earlier if run.over]
     if execution.way != "run" or met or len(runs) < _INTERVALS:
@@ -138,7 +139,9 @@ def run_kept_out(verdicts: Verdicts, runtime: Runtime, execution: Execution, met
 
 
 @property_at("served", "R-10.1.3.2-17", timed=True)
-def waiting_calls_served(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, waited: Execution, end: int) -> None:
+def waiting_calls_served(
+    verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, waited: Execution, end: int
+) -> None:
     """Who had to wait for an execution is served when it has ended; ``end`` is 0 if the call never came back."""
     enter = waited.enter
     if protection_of(runtime.scenario.components[enter.component]) in ("", "unprotected"):
@@ -146,7 +149,7 @@ def waiting_calls_served(verdicts: Verdicts, runtime: Runtime, call: BusinessCal
     if end and any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries):
         verdicts.exercised("R-10.1.3.2-17")
         return
-    ending = runtime.interactions is not None and runtime.interactions.ends_phases(call.n, end or _NOW)
+    ending = runtime.interactions.ends_phases(call.n, end or _NOW)
     if ending or not all(member.serving for member, _ in goals_of(runtime, call)):
         return  # who is being stopped serves nobody
     verdicts.violated(
@@ -160,7 +163,7 @@ def waiting_calls_served(verdicts: Verdicts, runtime: Runtime, call: BusinessCal
 
 
 @property_at("answered", "R-10.1.3.2-07", "R-10.1.3.2-08", "R-10.1.3.2-15", "R-10.1.3.2-21", feature="policies")
-def calls_carried_out(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
+def calls_carried_out(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, end: Return | Raise) -> None:
     """A call through a port that the policy speaks of enters the body once, there, with the value sent; its result comes back."""
     member, port = call.callee, call.port
     if member is None or port is None or not call.possible or not member.serving or member.raises("exchange"):
@@ -188,7 +191,11 @@ def calls_carried_out(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, 
 
 @property_at("called", "R-10.1.3.2-14", "R-10.1.3.2-19", feature="policies")
 def no_self_execution(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    call: BusinessCall | None,
 ) -> None:
     """A passive component is executed because somebody calls it."""
     member = runtime.member_of(event.component, event.instance)
@@ -209,7 +216,9 @@ def no_self_execution(
 
 
 @property_at("ended", *_SUPPORT.values(), at=("add_component", "start"), feature="policies")
-def policy_supported(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def policy_supported(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """A component with an execution policy is added and started like any other."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
@@ -243,7 +252,7 @@ def _refused(verdicts: Verdicts, ongoing: OperationInProgress, declaration: Decl
 
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
 def one_execution_policy(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
 ) -> None:
     """A component with two execution policies is refused when it is added, or at the latest when it is to be started."""
     if isinstance(ongoing.step, s.AddComponent):
@@ -267,7 +276,7 @@ def one_execution_policy(
 
 
 @property_at("began", "R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03")
-def run_phases(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+def run_phases(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
     """run is called on an operational component, and needs neither connections nor callers."""
     enter = execution.enter
     member = runtime.member_of(enter.component, enter.instance)
@@ -291,7 +300,7 @@ def run_phases(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: 
 
 
 @property_at("waited", "R-10.1.3.2-01", "R-10.1.3.2-03", timed=True)
-def run_triggered(verdicts: Verdicts, runtime: Runtime, event: Timeout) -> None:
+def run_triggered(verdicts: Verdicts, runtime: ObservedRuntime, event: Timeout) -> None:
     """Once started, a self-executing component is executed within the scenario's patience."""
     step = runtime.scenario.steps[event.step]
     if not isinstance(step, s.ReachGate):

@@ -6,13 +6,14 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply, Return
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, calls_promised
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime, lane
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, lane
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
 
 
 @property_at("answered", "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06")
-def stimulus(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, end: Return | Raise) -> None:
+def stimulus(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, end: Return | Raise) -> None:
     """A call through a reference enters an operational body once, with the value sent, and returns its result."""
     member, port = call.callee, call.port
     if member is None or not call.possible or not member.serving or member.raises("exchange"):
@@ -47,7 +48,7 @@ def stimulus(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, end: Retu
 
 
 @property_at("replied", "R-11.1.3-01", "R-11.1.2-02")
-def peer_calls(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
+def peer_calls(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> None:
     """A call through a connection enters a connected body with the value sent; its result comes back."""
     request = call.request
     if request is None or reply.raised:
@@ -82,7 +83,7 @@ def peer_calls(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reply: 
 
 
 @property_at("replied", "R-11.2.3-03")
-def interactions(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
+def interactions(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> None:
     """In the operational phase a call between two components comes back."""
     request = call.request
     if not call.possible or request is None:
@@ -107,7 +108,11 @@ def interactions(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reply
 
 @property_at("called", "R-11.2.3-02", at=("body", "nobody"))
 def disabled_ports(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    call: BusinessCall | None,
 ) -> None:
     """Before start was called on its container, no component is called by another one or by the framework."""
     member = runtime.bodies.get((event.component, event.instance))
@@ -144,7 +149,7 @@ def disabled_ports(
 
 
 @property_at("replied", "R-11.2.3-02")
-def refused_ports(verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reply: Reply) -> None:
+def refused_ports(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> None:
     """A call that a component makes as soon as it is told to start may be refused: ports were closed until then, too."""
     if call.caller_hook == "on_startup" and reply.raised and not call.entries:
         verdicts.exercised("R-11.2.3-02")
@@ -175,7 +180,11 @@ def _called_while_added(
 
 @property_at("called", "R-11.2.3-17", at=("nobody",))
 def nothing_after_stop(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    call: BusinessCall | None,
 ) -> None:
     """After stop returned, no business method begins but those that are called."""
     member = runtime.member_of(event.component, event.instance)
@@ -195,7 +204,9 @@ def nothing_after_stop(
 
 
 @property_at("ended", "R-11.2.3-17", at=("get_components", "get_port_element"))
-def quiet_after_stop(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def quiet_after_stop(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """Counts what nothing_after_stop watched: queries of a container stopped after it had served calls."""
     if ongoing.container.started is not False:
         return

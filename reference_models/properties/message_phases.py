@@ -10,7 +10,6 @@ from ucm_cts.reference_models.model.messages import (
     OK,
     counts,
     events_of,
-    interactions_of,
     is_quiet,
     is_well,
     is_whole,
@@ -21,20 +20,21 @@ from ucm_cts.reference_models.model.messages import (
     waited_for,
     was_delivered,
 )
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
 
 
 @property_at("delivered", "R-10.1.6.1-09")
-def message_phases(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
+def message_phases(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
     """No message enters a receiver before start was called on its container, or after stop returned."""
     receiver, call = delivery.receiver, delivery.call
     if receiver is None or receiver.suspended or (call is not None and not call.is_message):
         return
     if delivery.link is None or delivery.link.connector != s.MESSAGE_CONNECTOR:
         return
-    in_progress = interactions_of(runtime).in_progress.values()
+    in_progress = runtime.interactions.in_progress.values()
     if receiver.operational or any(isinstance(o.step, s.Start) for o in in_progress):
         if call is not None and _was_kept_waiting(runtime, call, receiver):
             verdicts.exercised("R-10.1.6.1-09")
@@ -53,7 +53,7 @@ def message_phases(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> 
 
 
 @property_at("delivered", "R-10.1.6.1-09")
-def later_phases(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
+def later_phases(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
     """A message of an earlier phase comes in a later one only if the vendor has not declared that it does not."""
     call, receiver = delivery.call, delivery.receiver
     if call is None or receiver is None or not call.is_message or not pushed_before_start(runtime, delivery):
@@ -75,7 +75,7 @@ def later_phases(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> No
 
 
 @property_at("waited", "R-10.1.6.1-09", timed=True)
-def kept_for_later_phases(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
+def kept_for_later_phases(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
     """A message that waits for the next start comes then, where the vendor has declared it."""
     for call in messages(runtime):
         if call.code != OK or not is_whole(verdicts, runtime, call):
@@ -103,9 +103,11 @@ def kept_for_later_phases(verdicts: Verdicts, runtime: Runtime, timeout: Timeout
 
 
 @property_at("ended", "R-10.1.6.1-09", at=("stop",), feature="interactions")
-def delivered_at_stop(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def delivered_at_stop(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """All that had got ok has arrived when stop returns, where the vendor has declared it."""
-    if isinstance(end, Raise) or runtime.interactions is None:
+    if isinstance(end, Raise):
         return
     for call in messages(runtime):
         for target in of_one_phase(runtime, call) if call.code == OK and is_whole(verdicts, runtime, call) else ():
@@ -124,7 +126,7 @@ def delivered_at_stop(verdicts: Verdicts, runtime: Runtime, ongoing: OperationIn
 
 
 @property_at("completed", "R-10.1.6.1-09")
-def unready_receivers(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def unready_receivers(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """What is pushed to a receiver that is not operational is answered as the vendor has declared."""
     if not call.is_message or not call.idle or not is_whole(verdicts, runtime, call) or not is_quiet(runtime, call):
         return
@@ -145,10 +147,10 @@ def unready_receivers(verdicts: Verdicts, runtime: Runtime, call: MethodCall) ->
         )
 
 
-def _was_kept_waiting(runtime: Runtime, call: MethodCall, receiver: Member) -> bool:
+def _was_kept_waiting(runtime: ObservedRuntime, call: MethodCall, receiver: Member) -> bool:
     """Has this message, or one before it, been pushed when it could have come while the receiver was not operational?"""
     since = runtime.startups.get((receiver.component, receiver.instance or 0), (0, 0))[0]
-    starts = [o.begin.n for o in interactions_of(runtime).operations if isinstance(o.step, s.Start)]
+    starts = [o.begin.n for o in runtime.interactions.operations if isinstance(o.step, s.Start)]
     started = max((n for n in starts if n < since), default=0)
     last = min(call.request.n, started - 1)
     earlier = [c for c in messages(runtime) if c.link is call.link and c.request.n <= last]

@@ -10,7 +10,6 @@ from ucm_cts.reference_models.model.messages import (
     OK,
     counts,
     events_of,
-    interactions_of,
     is_disturbed,
     is_well,
     is_whole,
@@ -20,14 +19,15 @@ from ucm_cts.reference_models.model.messages import (
     overdue,
     was_delivered,
 )
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress
 from ucm_cts.reference_models.model.values_carried import overwritten
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
 
 
 @property_at("closed", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-08", "R-10.1.6.1-10", "R-10.1.6.1-20")
-def messages_arrived(verdicts: Verdicts, runtime: Runtime) -> None:
+def messages_arrived(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Counts what the properties about missing messages checked: messages that reached every receiver they had to."""
     arrived: dict[str, set[Member | None]] = {}
     interfaces = set()
@@ -48,7 +48,7 @@ def messages_arrived(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True)
-def every_receiver(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
+def every_receiver(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
     """What entered one receiver enters all that are well; one that is slow or fails costs the others nothing."""
     for call, missing in overdue(verdicts, runtime, timeout):
         refused, disturbed = call.code != OK, is_disturbed(runtime, call)
@@ -62,9 +62,9 @@ def every_receiver(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> No
 
 
 @property_at("waited", "R-10.1.6.1-08", timed=True)
-def slow_receivers(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
+def slow_receivers(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
     """Whether the others have the message while one of its receivers is held."""
-    interactions = interactions_of(runtime)
+    interactions = runtime.interactions
     held = {(event.component, event.instance) for event in interactions.held}
     for call in messages(runtime):
         holding = {d.receiver for d in call.deliveries if d.receiver is not None and d.exit is None}
@@ -89,7 +89,7 @@ def slow_receivers(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> No
 
 
 @property_at("waited", "R-10.1.6.1-03", timed=True)
-def many_emitters(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
+def many_emitters(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
     """Messages of each emitter arrive, not of one only."""
     for call, missing in overdue(verdicts, runtime, timeout):
         if call.code != OK or call.deliveries:
@@ -100,7 +100,7 @@ def many_emitters(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> Non
 
 
 @property_at("waited", "R-10.1.6.1-20", timed=True)
-def message_template(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
+def message_template(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
     """Messages of each type arrive, not of one only."""
     for call, missing in overdue(verdicts, runtime, timeout):
         arrived = {c.link.interface for c in messages(runtime) if c.link is not None and c.deliveries}
@@ -110,7 +110,7 @@ def message_template(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> 
 
 
 @property_at("delivered", "R-10.1.6.1-05")
-def at_most_once(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
+def at_most_once(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
     """One push enters each receiver once."""
     call = delivery.call
     if call is None or not call.is_message or delivery.receiver is None:
@@ -130,14 +130,14 @@ def at_most_once(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> No
 
 
 @property_at("closed", "R-10.1.6.1-06")
-def message_origin(verdicts: Verdicts, runtime: Runtime) -> None:
+def message_origin(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Whatever enters a receiver was pushed before by an emitter of its connection."""
-    for delivery in interactions_of(runtime).deliveries:
+    for delivery in runtime.interactions.deliveries:
         receiver, link, enter = delivery.receiver, delivery.link, delivery.enter
         if receiver is None or link is None or link.connector != s.MESSAGE_CONNECTOR or enter.method != s.PUSH:
             continue
         call = delivery.call
-        if call is not None and interactions_of(runtime).has_left(delivery):
+        if call is not None and runtime.interactions.has_left(delivery):
             verdicts.violated(
                 "R-10.1.6.1-06",
                 "message_origin",
@@ -163,7 +163,7 @@ def message_origin(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("delivered", "R-10.1.6.1-07")
-def message_order(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
+def message_order(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
     """Do an emitter's messages come in the order in which they were pushed one after the other?"""
     call = delivery.call
     if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
@@ -188,7 +188,7 @@ def message_order(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> N
 
 
 @property_at("delivered", "R-10.1.6.1-19")
-def values_isolated(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) -> None:
+def values_isolated(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
     """Who overwrites what he pushed or got changes what nobody else sees."""
     call = delivery.call
     if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
@@ -216,13 +216,13 @@ def values_isolated(verdicts: Verdicts, runtime: Runtime, delivery: Delivery) ->
 
 @property_at("linked", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-10", "R-10.1.6.1-20")
 def message_connector(
-    verdicts: Verdicts, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+    verdicts: Verdicts, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
 ) -> None:
     """A message connector can be had for each type, and any number of emitters and receivers can be joined by it."""
     if not isinstance(end, Raise) or any(c.started is not False for c in runtime.containers.values()):
         return
     if isinstance(step, s.Link) and step.connector == s.MESSAGE_CONNECTOR:
-        others = {o.interface for o in interactions_of(runtime).links.values() if o.connector == step.connector}
+        others = {o.interface for o in runtime.interactions.links.values() if o.connector == step.connector}
         requirement = "R-10.1.6.1-20" if others - {step.interface} else "R-10.1.6.1-10"
         what = f"a message connector for {step.interface}"
     elif isinstance(step, s.Attach) and link is not None and link.connector == s.MESSAGE_CONNECTOR:
@@ -243,9 +243,11 @@ def message_connector(
 
 
 @property_at("ended", "R-10.1.6.1-10", at=("start",), feature="interactions")
-def joined_and_started(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def joined_and_started(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """Whoever is joined by a message connector can be started."""
-    if not isinstance(end, Raise) or runtime.interactions is None or ongoing.forgiving:
+    if not isinstance(end, Raise) or ongoing.forgiving:
         return
     members = ongoing.container.live_members()
     if any(m.raises("on_startup") or not m.connected or m.operational or m.suspended for m in members):

@@ -7,8 +7,9 @@ import itertools
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Reference, Return
 from ucm_cts.reference_models.findings import Arrow
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation_effects import received
-from ucm_cts.reference_models.model.runtime import Container, OperationInProgress, Runtime
+from ucm_cts.reference_models.model.runtime import Container, OperationInProgress
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
 
@@ -64,7 +65,9 @@ _FROM_TABLE = [
 
 
 @property_at("ended", *(requirement for requirement, _ in DECLARED.values()))
-def declared_errors(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def declared_errors(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """Nothing but the declared exceptions leaves an operation."""
     requirement, declared = DECLARED[ongoing.operation]
     if isinstance(end, Return) or end.error in declared:
@@ -86,7 +89,7 @@ def declared_errors(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInPr
 
 
 @property_at("ended", *_FROM_TABLE)
-def outcomes(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def outcomes(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """The operation ends in a way that the life-cycle table permits for every instance concerned."""
     answer = "return" if isinstance(end, Return) else end.error
     if not ongoing.judged or (answer != "return" and answer not in DECLARED[ongoing.operation][1]):
@@ -120,7 +123,9 @@ def outcomes(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress,
 
 
 @property_at("ended", "R-11.2.2.1-03", "R-12.10-02", at=("add_component",))
-def component_ids(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def component_ids(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """Component ids are 32-bit, and distinct among the live members of a container."""
     if isinstance(end, Return):
         live = [m.id for m in ongoing.container.live_members() if not m.doubtful]
@@ -128,7 +133,9 @@ def component_ids(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProg
 
 
 @property_at("ended", "R-11.2.2.1-09", "R-12.10-03", at=("connect",))
-def connection_ids(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def connection_ids(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """Connection ids are 32-bit, and distinct among the live connections of a container."""
     if isinstance(end, Return) and ongoing.judged:
         assert isinstance(ongoing.step, s.Connect)
@@ -167,7 +174,7 @@ def _identifier(
 
 @property_at("ended", "R-11.2.2.1-06", at=("get_port_element",))
 def port_element_identity(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
 ) -> None:
     """get_port_element gives the object that the designated body made for that name."""
     if not isinstance(ongoing.step, s.GetPortElement) or not isinstance(end, Return):
@@ -194,7 +201,7 @@ def port_element_identity(
 
 
 @property_at("ended", "R-11.2.2.1-14", "R-12.10-22", at=("get_components",))
-def membership(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def membership(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """get_components lists exactly the live members; a failed add has left nothing among them."""
     if not isinstance(end, Return) or not ongoing.judged:
         return
@@ -219,7 +226,7 @@ def membership(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgres
     )
 
 
-def listing_problem(runtime: Runtime, container: Container, listed: tuple[int, ...]) -> str | None:
+def listing_problem(runtime: ObservedRuntime, container: Container, listed: tuple[int, ...]) -> str | None:
     """What is wrong with ``listed`` as the members of ``container``; the manager may list sub-containers' members too."""
     if container.of_doubt:
         return None
@@ -239,7 +246,7 @@ def listing_problem(runtime: Runtime, container: Container, listed: tuple[int, .
 
 
 @property_at("ended", "R-11.2.2.1-02", at=("add_component",))
-def right_body(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def right_body(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """The one body initialised by add_component is of the implementation asked for."""
     if not isinstance(ongoing.step, s.AddComponent) or not isinstance(end, Return) or not ongoing.judged:
         return
@@ -264,7 +271,7 @@ def right_body(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgres
 
 
 @property_at("ended", "R-11.2.2.1-13", at=("stop",))
-def stop_order(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def stop_order(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """stop shuts members down in the reverse of the order they were started in, where they were not started at a time."""
     if not isinstance(end, Return) or verdicts.ics.reading("start-order") == "at-once":
         return

@@ -15,7 +15,8 @@ from ucm_cts.reference_models.model.executions import (
     protection_of,
 )
 from ucm_cts.reference_models.model.interactions import MethodCall
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime, lane, raises
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, lane, raises
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
 
@@ -24,7 +25,7 @@ _MILLISECOND = 1_000_000
 
 @property_at("ended", "R-10.1.3-02", at=("add_component", "start"), feature="policies")
 def execution_policy_given(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
 ) -> None:
     """A component that says nothing of its execution is refused, or is given a policy by the framework."""
     declarations = runtime.scenario.components
@@ -60,7 +61,9 @@ def _note(verdicts: Verdicts, ongoing: OperationInProgress, who: str, reading: s
 
 
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
-def active_policies(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def active_policies(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """A component with the active policy on several ports is refused, or started, as declared."""
     declarations = runtime.scenario.components
     if ongoing.operation == "add_component":
@@ -98,7 +101,7 @@ def _note_active(verdicts: Verdicts, ongoing: OperationInProgress, who: str, rea
 
 
 @property_at("began", "R-10.1.3.2-01")
-def runs_again(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+def runs_again(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
     """run is called more than once a start, unless the vendor declares that it is called once."""
     enter = execution.enter
     if execution.way != "run" or met:
@@ -116,7 +119,7 @@ def runs_again(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: 
 
 
 @property_at("waited", "R-10.1.3.2-01", timed=True)
-def runs_no_more(verdicts: Verdicts, runtime: Runtime, event: Timeout) -> None:
+def runs_no_more(verdicts: Verdicts, runtime: ObservedRuntime, event: Timeout) -> None:
     """run was called once and not again within most of the scenario's patience, although it returned."""
     step = runtime.scenario.steps[event.step]
     patience = runtime.scenario.patience
@@ -140,14 +143,14 @@ def runs_no_more(verdicts: Verdicts, runtime: Runtime, event: Timeout) -> None:
             )
 
 
-def _runs_since_start(runtime: Runtime, component: str, instance: int) -> list[Execution]:
+def _runs_since_start(runtime: ObservedRuntime, component: str, instance: int) -> list[Execution]:
     started = runtime.startups.get((component, instance))
-    runs = runtime.executions.runs(component, instance) if runtime.executions is not None else ()
+    runs = runtime.executions.runs(component, instance)
     return [run for run in runs if started is not None and run.enter.n > started[0]]
 
 
 @property_at("began", *CALL_EXCLUSIONS)
-def circle_entered(verdicts: Verdicts, runtime: Runtime, execution: Execution, met: list[Execution]) -> None:
+def circle_entered(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
     """A call came back to the component whose execution waits for it, and was let in, which is the framework's choice."""
     body = execution.enter.component, execution.enter.instance
     callers = execution.call.callers() if execution.call is not None else ()
@@ -158,7 +161,7 @@ def circle_entered(verdicts: Verdicts, runtime: Runtime, execution: Execution, m
 
 
 @property_at("completed", *CALL_EXCLUSIONS)
-def circle_refused(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def circle_refused(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """A call came back to the component whose execution waits for it, and was refused."""
     reply = call.reply
     if reply is not None and reply.raised and not call.deliveries:
@@ -166,14 +169,14 @@ def circle_refused(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> No
 
 
 @property_at("closed", *CALL_EXCLUSIONS)
-def circle_waits(verdicts: Verdicts, runtime: Runtime) -> None:
+def circle_waits(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """A call came back to the component whose execution waits for it, and both were still waiting in the end."""
-    for call in runtime.executions.on_their_way if runtime.executions is not None else ():
+    for call in runtime.executions.on_their_way:
         _look_round(verdicts, runtime, call, "wait", (call.n,))
 
 
 def _look_round(
-    verdicts: Verdicts, runtime: Runtime, call: BusinessCall, reading: str, events: tuple[int, ...]
+    verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, reading: str, events: tuple[int, ...]
 ) -> None:
     callers = list(call.callers())
     for member, port in goals_of(runtime, call):

@@ -27,7 +27,8 @@ from ucm_cts.reference_models.model.messages import (
     settling_time,
     waited_for,
 )
-from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import OperationInProgress
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
 
@@ -35,7 +36,7 @@ _DUE = {"transport": ("R-10.1.2-12", COMM_ERROR), "inside": ("R-10.1.2-11", INTE
 
 
 @property_at("completed", "R-10.1.2-02")
-def known_codes(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def known_codes(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """Whatever push gives back is one of the three codes."""
     if not call.is_message or call.reply is None or call.caller is None or not call.caller.serving:
         return
@@ -47,7 +48,7 @@ def known_codes(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
 
 
 @property_at("completed", "R-10.1.2-02")
-def without_receivers(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def without_receivers(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """A push that nobody receives is answered what the vendor has declared."""
     if (
         not call.is_message
@@ -67,14 +68,10 @@ def without_receivers(verdicts: Verdicts, runtime: Runtime, call: MethodCall) ->
 
 @property_at("ended", "R-10.1.2-02", at=("start",), feature="interactions")
 def refused_without_receivers(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
 ) -> None:
     """A connection without receivers is refused only where the vendor has declared it."""
-    if (
-        not isinstance(end, Raise)
-        or runtime.interactions is None
-        or any(not m.connected for m in ongoing.container.members)
-    ):
+    if not isinstance(end, Raise) or any(not m.connected for m in ongoing.container.members):
         return
     links = [k for k in runtime.interactions.improper(ongoing.container) if k.live("emitter")]
     if links and not verdicts.observed("push-without-receiver", "refused"):
@@ -92,7 +89,7 @@ def refused_without_receivers(
 
 @property_at("linked", "R-10.1.2-02")
 def refused_attachment(
-    verdicts: Verdicts, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+    verdicts: Verdicts, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
 ) -> None:
     """An emitter that has no receiver yet is refused only where the vendor has declared it."""
     if not isinstance(step, s.Attach) or step.role != "emitter" or link is None or link.live("receiver"):
@@ -105,7 +102,7 @@ def refused_attachment(
 
 
 @property_at("completed", "R-10.1.2-09")
-def ok_when_healthy(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def ok_when_healthy(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """Nothing disturbs the push, so it gives ok."""
     if not _is_undisturbed(verdicts, runtime, call) or call.link is None or call.link.broken_at:
         return
@@ -120,7 +117,7 @@ def ok_when_healthy(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> N
 
 
 @property_at("completed", "R-10.1.2-09")
-def receivers_codes(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def receivers_codes(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """What a receiver answers is dropped, and the code is ok, or passed on, and the code is that of one that was not ok."""
     if not _is_undisturbed(verdicts, runtime, call) or not is_quiet(runtime, call):
         return
@@ -139,7 +136,7 @@ def receivers_codes(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> N
 
 
 @property_at("waited", "R-10.1.2-09", timed=True)
-def answered_at_all(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
+def answered_at_all(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
     """A push that nothing disturbs is answered."""
     for call in messages(runtime):
         if call.reply is not None or not is_whole(verdicts, runtime, call) or not is_healthy(runtime, call):
@@ -149,7 +146,7 @@ def answered_at_all(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> N
 
 
 @property_at("closed", "R-10.1.2-10")
-def ok_true(verdicts: Verdicts, runtime: Runtime) -> None:
+def ok_true(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Counts messages that got ok and arrived."""
     for call in messages(runtime):
         if call.code == OK and not call.broken and any(d.fit == "same" for d in call.deliveries):
@@ -157,7 +154,7 @@ def ok_true(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("waited", "R-10.1.2-10", timed=True)
-def ok_kept(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
+def ok_kept(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
     """What got ok arrives, if nothing is broken and the receivers are well."""
     for call, missing in overdue(verdicts, runtime, timeout):
         if call.code == OK and not call.deliveries and not is_disturbed(runtime, call):
@@ -167,7 +164,7 @@ def ok_kept(verdicts: Verdicts, runtime: Runtime, timeout: Timeout) -> None:
 
 
 @property_at("completed", "R-10.1.2-10")
-def delivered_before_ok(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def delivered_before_ok(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """Where the vendor has declared it, push gives ok when every receiver has the message."""
     if not call.is_message or call.code != OK or not is_whole(verdicts, runtime, call) or not is_calm(runtime, call):
         return
@@ -179,7 +176,7 @@ def delivered_before_ok(verdicts: Verdicts, runtime: Runtime, call: MethodCall) 
 
 
 @property_at("completed", "R-10.1.2-01", timed=True)
-def failure_noticed(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def failure_noticed(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """While its connector is known to be broken an interaction does not look as if it had gone well."""
     if call.link is None or not call.broken or call.reply is None:
         return
@@ -217,7 +214,7 @@ def _failed_request(verdicts: Verdicts, call: MethodCall) -> None:
 
 
 @property_at("completed", "R-10.1.2-11")
-def internal_error_when_due(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def internal_error_when_due(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """A push through a connector that is broken inside gives internal_error."""
     if not call.is_message or call.broken != "inside" or not _is_still_broken(call) or not _has_receivers(call):
         return
@@ -229,7 +226,7 @@ def internal_error_when_due(verdicts: Verdicts, runtime: Runtime, call: MethodCa
 
 
 @property_at("completed", "R-10.1.2-12", timed=True)
-def comm_error_when_due(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def comm_error_when_due(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """A push through a transport that is broken gives comm_error, at the latest when the connector must know."""
     if not call.is_message or call.broken != "transport" or not _is_still_broken(call) or not _has_receivers(call):
         return
@@ -243,7 +240,7 @@ def comm_error_when_due(verdicts: Verdicts, runtime: Runtime, call: MethodCall) 
 
 
 @property_at("completed", "R-10.1.2-11", "R-10.1.2-12", timed=True)
-def ok_after_mending(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def ok_after_mending(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """When what was broken has been mended push gives ok again."""
     link = call.link
     if link is None or not link.mended_at or not link.was_broken:  # who could not break it may still mend it
@@ -259,7 +256,7 @@ def ok_after_mending(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> 
         _violate(verdicts, requirement, "ok_after_mending", call, "is answered ok: its connection was mended", "mended")
 
 
-def _is_undisturbed(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> bool:
+def _is_undisturbed(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Is it a message that has been answered, by a connector that was whole and had only receivers that are operational?"""
     return (
         call.is_message and call.reply is not None and is_whole(verdicts, runtime, call) and is_healthy(runtime, call)
@@ -277,13 +274,13 @@ def _has_receivers(call: MethodCall) -> bool:
     return bool(serving and any(ready for _, ready in call.targets))
 
 
-def _first_to_meet(runtime: Runtime, call: MethodCall) -> MethodCall:
+def _first_to_meet(runtime: ObservedRuntime, call: MethodCall) -> MethodCall:
     """The first message pushed through the link since it was broken."""
     since = call.link.broken_at if call.link is not None else 0
     return next(c for c in messages(runtime) if c.link is call.link and c.broken and c.request.t >= since)
 
 
-def _is_known(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> bool:
+def _is_known(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Must the connector know by now that it is broken?"""
     if not _has_receivers(call):
         return False

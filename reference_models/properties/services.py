@@ -6,13 +6,13 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Reply, Return
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.links import LinkState
-from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime, lane
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import OperationInProgress, lane
+from ucm_cts.reference_models.model.service_call import ServiceCall
 from ucm_cts.reference_models.model.services import (
-    ServiceCall,
     Trouble,
     disturbed_at,
     ended_by,
-    interactions_of,
     is_disturbed,
     is_left_hanging,
     led_astray,
@@ -38,7 +38,7 @@ _SET_APART = {"inherited": _INHERITED, "second server": _ONE_SERVER, "client": _
 _OF_VALUES = ("arguments", "results", "translated")
 
 
-def _undisturbed(runtime: Runtime) -> list[tuple[ServiceCall, Trouble]]:
+def _undisturbed(runtime: ObservedRuntime) -> list[tuple[ServiceCall, Trouble]]:
     """The calls that came back and that nothing disturbed, each with what is wrong with it; none whose values were altered
     for their types' sake, which is the matter of 10.1.1.
     """
@@ -49,7 +49,7 @@ def _undisturbed(runtime: Runtime) -> list[tuple[ServiceCall, Trouble]]:
 
 
 @property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE)
-def service_call(verdicts: Verdicts, runtime: Runtime) -> None:
+def service_call(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """A call enters the connected server once, at the method called, and comes back as the server was left."""
     judged = _undisturbed(runtime)
     good = [one for one, trouble in judged if not trouble]
@@ -72,7 +72,7 @@ def service_call(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE, timed=True)
-def service_call_ends(verdicts: Verdicts, runtime: Runtime) -> None:
+def service_call_ends(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """A call that nothing disturbs ends when its server has been left, if that waits for nobody."""
     for one in service_calls(runtime):
         if one.call.reply is None and _may_be_expected(one) and _hangs(runtime, one, disturbed_at(runtime, one)):
@@ -82,11 +82,11 @@ def service_call_ends(verdicts: Verdicts, runtime: Runtime) -> None:
             _violate(verdicts, requirement, "service_call_ends", "hangs", one, "ends", observed)
 
 
-def _hangs(runtime: Runtime, one: ServiceCall, until: int | None = None) -> bool:
+def _hangs(runtime: ObservedRuntime, one: ServiceCall, until: int | None = None) -> bool:
     return is_left_hanging(runtime, one.call.business.worker, one.call.request.n, until)
 
 
-def _what_failed(runtime: Runtime, one: ServiceCall, trouble: Trouble) -> str:
+def _what_failed(runtime: ObservedRuntime, one: ServiceCall, trouble: Trouble) -> str:
     if trouble == "failed":
         return f"the server {'gave its results' if one.exit else 'was entered'}, and the call ended with an exception"
     astray = led_astray(runtime, one)
@@ -98,9 +98,9 @@ def _what_failed(runtime: Runtime, one: ServiceCall, trouble: Trouble) -> str:
     return f"it {how}, and the server was not entered"
 
 
-def _concerned(runtime: Runtime, one: ServiceCall, good: list[ServiceCall]) -> str:
+def _concerned(runtime: ObservedRuntime, one: ServiceCall, good: list[ServiceCall]) -> str:
     """What a call that is not carried out is about before all: what sets it apart from those that are."""
-    links = interactions_of(runtime).links.values()
+    links = runtime.interactions.links.values()
     services = {link.interface for link in links if link.connector == s.SERVICE_CONNECTOR}
     apart = what_sets_apart(runtime, one, good)
     return _SET_APART[apart] if apart else _TEMPLATE if len(services) > 1 else _CALLS
@@ -113,7 +113,7 @@ def _may_be_expected(one: ServiceCall) -> bool:
 
 
 @property_at("closed", _OWN, _DIRECTIONS, _CALLS)
-def service_values(verdicts: Verdicts, runtime: Runtime) -> None:
+def service_values(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """What the client sends reaches the server, and what the server gives reaches the client that asked."""
     judged = _undisturbed(runtime)
     for one, trouble in judged:
@@ -146,7 +146,7 @@ def _values(values: object) -> str:
 
 
 @property_at("closed", _EXCEPTIONS)
-def service_exceptions(verdicts: Verdicts, runtime: Runtime) -> None:
+def service_exceptions(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """An exception of the server's is one for the client: the same one, unless it may be any."""
     for one, trouble in _undisturbed(runtime):
         left, reply = one.exit, one.call.reply
@@ -168,9 +168,9 @@ def service_exceptions(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("closed", _BLOCKING)
-def service_blocks(verdicts: Verdicts, runtime: Runtime) -> None:
+def service_blocks(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """No call comes back with an answer before its server's method was left."""
-    settled = interactions_of(runtime).settled
+    settled = runtime.interactions.settled
     for one, trouble in _undisturbed(runtime):
         left = one.exit
         if trouble == "early":
@@ -183,7 +183,7 @@ def service_blocks(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("closed", _IN_FLIGHT)
-def call_in_flight_ends(verdicts: Verdicts, runtime: Runtime) -> None:
+def call_in_flight_ends(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """A call whose client or server is stopped, or whose connection is undone, brings what its server gave, or an exception."""
     for one in service_calls(runtime):
         ending = ended_by(runtime, one)
@@ -201,7 +201,7 @@ def call_in_flight_ends(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("closed", _IN_FLIGHT, timed=True)
-def nobody_is_left_hanging(verdicts: Verdicts, runtime: Runtime) -> None:
+def nobody_is_left_hanging(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Neither the call nor what stops its client or server, or undoes its connection, waits for ever."""
     for one in service_calls(runtime):
         ending = ended_by(runtime, one)
@@ -226,7 +226,7 @@ def _how_it_ended(one: ServiceCall, reply: Reply) -> str:
 
 
 @property_at("closed", _CALLS)
-def service_uncalled(verdicts: Verdicts, runtime: Runtime) -> None:
+def service_uncalled(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """A server is entered because a client of its own connection called."""
     explained = [led_astray(runtime, one) for one, trouble in _undisturbed(runtime) if trouble == "elsewhere"]
     for delivery in strays(runtime):
@@ -245,9 +245,9 @@ def service_uncalled(verdicts: Verdicts, runtime: Runtime) -> None:
 
 
 @property_at("closed", _CALLS)
-def servers_that_left(verdicts: Verdicts, runtime: Runtime) -> None:
+def servers_that_left(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """Who is no longer a server of the connection is not entered by calls through it."""
-    interactions = interactions_of(runtime)
+    interactions = runtime.interactions
     for delivery in interactions.deliveries:
         link, call, enter = delivery.link, delivery.call, delivery.enter
         if link is None or link.connector != s.SERVICE_CONNECTOR or call is None or call.link is not link:
@@ -263,22 +263,22 @@ def servers_that_left(verdicts: Verdicts, runtime: Runtime) -> None:
             )
 
 
-def _may_be_late(runtime: Runtime, moment: int) -> bool:
+def _may_be_late(runtime: ObservedRuntime, moment: int) -> bool:
     """Were connections undone, or broken, before? Then it is open what is still on its way."""
     undoing = (s.Detach, s.Break, s.Mend)
-    return any(isinstance(o.step, undoing) and o.begin.n < moment for o in interactions_of(runtime).operations)
+    return any(isinstance(o.step, undoing) and o.begin.n < moment for o in runtime.interactions.operations)
 
 
 @property_at("linked", _CALLS, _CLIENTS, _ONE_SERVER, _TEMPLATE)
 def connector_takes_its_ends(
-    verdicts: Verdicts, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+    verdicts: Verdicts, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
 ) -> None:
     """While nothing is started, a connector can be had for each interface, and takes one server and any number of clients."""
     if any(container.started is not False for container in runtime.containers.values()):
         return
     if isinstance(step, s.Link):
         if step.connector == s.SERVICE_CONNECTOR and isinstance(end, Raise):
-            others = [k for k in interactions_of(runtime).links.values() if k.connector == step.connector]
+            others = [k for k in runtime.interactions.links.values() if k.connector == step.connector]
             if not others or not new_types(runtime, step):  # otherwise a matter of its types
                 _refused(verdicts, _TEMPLATE if others else _CALLS, step, end, "made")
         return
@@ -286,7 +286,9 @@ def connector_takes_its_ends(
         _attached(verdicts, runtime, link, step, end)
 
 
-def _attached(verdicts: Verdicts, runtime: Runtime, link: LinkState, step: s.Attach, end: Return | Raise) -> None:
+def _attached(
+    verdicts: Verdicts, runtime: ObservedRuntime, link: LinkState, step: s.Attach, end: Return | Raise
+) -> None:
     member = runtime.members.get(step.id)
     if member is None or member.suspended or member.declaration.ports.get(step.port) != link.interface:
         return
@@ -335,9 +337,9 @@ def _refused_second_server(verdicts: Verdicts, step: s.Attach, end: Raise) -> No
 
 
 @property_at("ended", _ONE_SERVER, at=("start",), feature="interactions")
-def one_server(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def one_server(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise) -> None:
     """Two servers of one connection never are operational together."""
-    links = runtime.interactions.improper() if runtime.interactions is not None else []
+    links = runtime.interactions.improper()
     for link in (k for k in links if k.connector == s.SERVICE_CONNECTOR):
         servers = link.live("server")
         if len(servers) < 2 or all(e.member.container is not ongoing.container for e in link.live("server", "client")):

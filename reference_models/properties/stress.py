@@ -8,14 +8,14 @@ from __future__ import annotations
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Paused, Pushed, Return, Stressed
 from ucm_cts.reference_models.model.executions import CALL_EXCLUSIONS, exclusion, protection_of
-from ucm_cts.reference_models.model.runtime import Runtime
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.properties.declaration import property_at
 from ucm_cts.reference_models.verdicts import Verdicts
 
 
 @property_at("told", *CALL_EXCLUSIONS)
 def no_overlap_under_stress(
-    verdicts: Verdicts, runtime: Runtime, event: Return | Pushed | Counted | Paused | Stressed
+    verdicts: Verdicts, runtime: ObservedRuntime, event: Return | Pushed | Counted | Paused | Stressed
 ) -> None:
     """Callers that stress a protected component never meet inside."""
     if not isinstance(event, Stressed):

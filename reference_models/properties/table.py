@@ -60,6 +60,7 @@ class PropertyTable:
     """The checks of the properties that apply to scenarios with these ``features``, by moment."""
 
     def __init__(self, features: frozenset[Feature]) -> None:
+        interacting = "interactions" in features
         self.ended = {op: checks("ended", op, features) for op in operations.DECLARED}
         self.entered = {hook: checks("entered", hook, features) for hook in get_args(s.Hook)}
         self.called: dict[Caller, tuple[Check, ...]] = {
@@ -68,15 +69,15 @@ class PropertyTable:
         self.answered = checks("answered", "exchange", features)
         self.replied = checks("replied", "exchange", features)
         self.noted = checks("noted", "siblings", features)
-        self.began = checks("began")
-        self.over = checks("over")
-        self.served = checks("served")
-        self.waited = checks("waited")
-        self.linked = checks("linked")
-        self.delivered = checks("delivered")
-        self.completed = checks("completed")
-        self.told = checks("told")
-        self.closed = checks("closed")
+        self.began = checks("began") if interacting else ()
+        self.over = checks("over") if interacting else ()
+        self.served = checks("served") if interacting else ()
+        self.waited = checks("waited") if interacting else ()
+        self.linked = checks("linked") if interacting else ()
+        self.delivered = checks("delivered") if interacting else ()
+        self.completed = checks("completed") if interacting else ()
+        self.told = checks("told") if interacting else ()
+        self.closed = checks("closed") if interacting else ()
 
 
 def features_of(scenario: s.Scenario) -> frozenset[Feature]:

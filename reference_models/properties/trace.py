@@ -15,7 +15,8 @@ from ucm_cts.reference_models.model.log_contents import (
     log_readings,
     severities_shown,
 )
-from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime, lane
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.runtime import OperationInProgress, lane
 from ucm_cts.reference_models.model.service_policies import (
     TRACES,
     has_several_clocks,
@@ -34,7 +35,11 @@ _SHOWN = 60
 
 @property_at("entered", *_REFERENCES.values(), _SEVERAL, at=("on_startup",), feature="policies")
 def policy_references(
-    verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
+    verdicts: Verdicts,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
 ) -> None:
     """on_startup hands over a reference for each port element that a component requires by its policies, at every start."""
     member = runtime.member_of(event.component, event.instance)
@@ -61,7 +66,7 @@ def policy_references(
 
 
 @property_at("completed", "R-10.1.4.2-25")
-def log_returns(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
+def log_returns(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
     """A call of log comes back, whichever severity it has, from on_startup to on_shutdown."""
     request, reply, caller = call.request, call.reply, call.caller
     if reply is None or caller is None or caller.suspended or request.method != "log":
@@ -85,7 +90,9 @@ def log_returns(verdicts: Verdicts, runtime: Runtime, call: MethodCall) -> None:
 
 
 @property_at("ended", _SEVERAL, at=("add_component",), feature="policies")
-def traces_supported(verdicts: Verdicts, runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def traces_supported(
+    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
+) -> None:
     """A component may have any number of trace policies."""
     step = ongoing.step
     declaration = runtime.scenario.components.get(step.component) if isinstance(step, s.AddComponent) else None
@@ -108,7 +115,7 @@ Told = Return | Pushed | Counted | Paused | Stressed
 
 
 @property_at("told", "R-10.1.4.2-26", "R-10.1.4.2-47", _SEVERAL, timed=True)
-def log_recorded(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
+def log_recorded(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
     """Each call of log leaves one record, from the declared threshold on and none below it."""
     contents = _contents(verdicts, runtime, event)
     if contents is None:
@@ -138,7 +145,7 @@ def log_recorded(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
 
 
 @property_at("told", "R-10.1.4.2-47", "R-10.1.4.2-53")
-def log_text(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
+def log_text(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
     """A record has the text that log was called with."""
     contents = _contents(verdicts, runtime, event)
     for message in (m for m in contents.messages if m.due) if contents is not None else ():
@@ -158,7 +165,7 @@ def log_text(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
 
 
 @property_at("told", "R-10.1.4.2-51")
-def log_severity_kept(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
+def log_severity_kept(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
     """A record has the severity that log was called with."""
     contents = _contents(verdicts, runtime, event)
     for message in (m for m in contents.messages if m.due) if contents is not None else ():
@@ -180,7 +187,7 @@ def log_severity_kept(verdicts: Verdicts, runtime: Runtime, event: Told) -> None
 
 
 @property_at("told", "R-10.1.4.2-04", "R-10.1.4.2-32", timed=True)
-def port_trace_recorded(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
+def port_trace_recorded(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
     """Each call of a method that methods_to_trace names has one record with the method's name, or one for each way."""
     contents = _contents(verdicts, runtime, event)
     for tracing in contents.tracings.values() if contents is not None else ():
@@ -250,7 +257,7 @@ def _wrong_number(verdicts: Verdicts, contents: Contents, tracing: Tracing, prob
 
 
 @property_at("told", "R-10.1.4.2-33")
-def port_trace_selective(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
+def port_trace_selective(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
     """Methods that are not named, and ports without port_trace, leave no record."""
     contents = _contents(verdicts, runtime, event)
     if contents is None:
@@ -284,11 +291,9 @@ def port_trace_selective(verdicts: Verdicts, runtime: Runtime, event: Told) -> N
         )
 
 
-def _unexplained(verdicts: Verdicts, runtime: Runtime, contents: Contents) -> int:
+def _unexplained(verdicts: Verdicts, runtime: ObservedRuntime, contents: Contents) -> int:
     """How many records have come that nobody can explain, while nothing happened but calls that are not traced."""
     interactions = runtime.interactions
-    if interactions is None:
-        return 0
     readings = log_readings(interactions)
     if len(readings) < 2:
         return 0
@@ -306,7 +311,7 @@ def _unexplained(verdicts: Verdicts, runtime: Runtime, contents: Contents) -> in
 
 
 @property_at("told", "R-10.1.4.2-35")
-def port_trace_severity(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
+def port_trace_severity(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
     """What a port trace records has the severity of its log_severity."""
     contents = _contents(verdicts, runtime, event)
     for tracing in contents.tracings.values() if contents is not None else ():
@@ -329,7 +334,7 @@ def port_trace_severity(verdicts: Verdicts, runtime: Runtime, event: Told) -> No
 
 
 @property_at("told", _SEVERAL)
-def several_traces(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
+def several_traces(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
     """Counts components of which more than one trace policy has been seen to work."""
     contents = _contents(verdicts, runtime, event)
     if contents is None or contents.surplus:
@@ -344,9 +349,9 @@ def several_traces(verdicts: Verdicts, runtime: Runtime, event: Told) -> None:
         verdicts.exercised(_SEVERAL)
 
 
-def _contents(verdicts: Verdicts, runtime: Runtime, event: Told) -> Contents | None:
+def _contents(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> Contents | None:
     """What was read of the log, if that is what the event tells."""
-    if not isinstance(event, Return) or event.records is None or runtime.interactions is None:
+    if not isinstance(event, Return) or event.records is None:
         return None
     readings = log_readings(runtime.interactions)
     last = next((reading for reading in readings if reading.end is event), None)

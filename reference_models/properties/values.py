@@ -14,9 +14,9 @@ from ucm_cts.adapters.contract.data_types import AnyType, Datum, Float
 from ucm_cts.adapters.contract.data_values import kind_name, misfit
 from ucm_cts.adapters.contract.trace import Raise, Return
 from ucm_cts.reference_models.model.links import LinkState
-from ucm_cts.reference_models.model.runtime import Runtime
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.service_call import ServiceCall
 from ucm_cts.reference_models.model.services import (
-    ServiceCall,
     is_disturbed,
     is_nested,
     new_types,
@@ -41,7 +41,7 @@ _LONGEST = 70
 
 
 @property_at("closed", *REQUIREMENTS)
-def exact_values(verdicts: Verdicts, runtime: Runtime) -> None:
+def exact_values(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """What a connector carries arrives as it was sent, bit by bit, and back again."""
     wrong: list[tuple[Carried, Difference]] = []
     well: list[Carried] = []
@@ -115,10 +115,10 @@ def told(of: AnyType, value: object) -> str:
 
 
 @property_at("closed", *REQUIREMENTS)
-def values_accepted(verdicts: Verdicts, runtime: Runtime) -> None:
+def values_accepted(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
     """A service call is not refused for its values, while others are served."""
     interactions = runtime.interactions
-    if interactions is None or not any(call.reply is not None and call.reply.raised for call in interactions.calls):
+    if not any(call.reply is not None and call.reply.raised for call in interactions.calls):
         return
     judged = [one for one in service_calls(runtime) if one.call.reply is not None and not is_disturbed(runtime, one)]
     troubles = [(one, trouble_with(runtime, one)) for one in judged]
@@ -149,7 +149,7 @@ def _may_be_carried(
     return all(value in known for value in values)
 
 
-def _values_of(runtime: Runtime, one: ServiceCall) -> Iterator[tuple[AnyType, Datum]]:
+def _values_of(runtime: ObservedRuntime, one: ServiceCall) -> Iterator[tuple[AnyType, Datum]]:
     """The arguments that its server got, and the results that came back."""
     method = method_of(runtime, one.call)
     if method is not None:
@@ -158,7 +158,7 @@ def _values_of(runtime: Runtime, one: ServiceCall) -> Iterator[tuple[AnyType, Da
         yield from _typed([p.of for p in method.results], one.exit.results)
 
 
-def _refused(runtime: Runtime, one: ServiceCall, trouble: str) -> list[tuple[AnyType, Datum]]:
+def _refused(runtime: ObservedRuntime, one: ServiceCall, trouble: str) -> list[tuple[AnyType, Datum]]:
     """The values that kept a call from being carried out: its arguments if they did not arrive, or else its results."""
     method, reply, left = method_of(runtime, one.call), one.call.reply, one.exit
     if method is None or reply is None or not reply.raised or one.server.member.declaration.policies:
@@ -194,11 +194,11 @@ def _accuse_of_refusal(
 
 @property_at("linked", *REQUIREMENTS)
 def types_accepted(
-    verdicts: Verdicts, runtime: Runtime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+    verdicts: Verdicts, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
 ) -> None:
     """A connector that can be bound to one interface can be bound to another one with other data types."""
     interactions = runtime.interactions
-    if not isinstance(step, s.Link) or isinstance(end, Return) or interactions is None:
+    if not isinstance(step, s.Link) or isinstance(end, Return):
         return
     if not any(other.connector == step.connector for other in interactions.links.values()):
         return

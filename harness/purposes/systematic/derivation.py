@@ -11,8 +11,9 @@ from ucm_cts.harness.purposes.systematic.permission import Permission
 from ucm_cts.harness.purposes.systematic.settings import Input, Setting
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.prediction import Prediction, Way
-from ucm_cts.reference_models.model.runtime import OperationInProgress, Runtime
+from ucm_cts.reference_models.model.runtime import OperationInProgress
 
 State = tuple[object, ...]
 """The part of a runtime that decides its further behaviour: phases, members, connections."""
@@ -89,14 +90,14 @@ class _Derivation:
         [(after, (then, way))] = reached.items()
         return after, then, way
 
-    def permitted(self, runtime: Runtime, ongoing: OperationInProgress, usual: Way) -> Permitted:
+    def permitted(self, runtime: ObservedRuntime, ongoing: OperationInProgress, usual: Way) -> Permitted:
         """The possible observations of the next operation, the ``usual`` one first."""
         ways = (usual, *self.permission.ways(runtime, ongoing))
         seen = dict.fromkeys(o for way in ways for o in self.permission.seen(runtime, ongoing, way))
         return Permitted(tuple(seen), ongoing.forgiving)
 
 
-def _named(runtime: Runtime, given: Input) -> Input:
+def _named(runtime: ObservedRuntime, given: Input) -> Input:
     """A container that does not exist is a null reference."""
     if isinstance(given.step, s.RemoveContainer):
         container = runtime.containers.get(given.step.container)
@@ -135,7 +136,7 @@ def _is_half_done(way: Way) -> bool:
     return way.answer != "return" and any(way.callbacks)
 
 
-def state_of(runtime: Runtime) -> State | None:
+def state_of(runtime: ObservedRuntime) -> State | None:
     """The state: phases, members, connections. None if a part of it is not known."""
     if runtime.destroyed:
         return ("destroyed",)

@@ -11,9 +11,10 @@ from ucm_cts.harness.purposes.systematic.machine import LISTS, Observation
 from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks, Listener, pattern
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.prediction import Way
 from ucm_cts.reference_models.model.row_selection import undone_by
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, Runtime
+from ucm_cts.reference_models.model.runtime import Member, OperationInProgress
 from ucm_cts.reference_models.properties.table import PROPERTIES
 from ucm_cts.reference_models.verdicts import Verdicts
 
@@ -25,7 +26,7 @@ class Permission:
         self._expected = ExpectedCallbacks(table)
         self._ics = ics
 
-    def ways(self, runtime: Runtime, ongoing: OperationInProgress) -> Iterator[Way]:
+    def ways(self, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Iterator[Way]:
         """Every way in which the operation that is about to begin may go."""
         answers = dict.fromkeys(a for _, row in ongoing.roles for outcome in row.outcomes for a in outcome.answer)
         for answer in answers:
@@ -35,7 +36,7 @@ class Permission:
                 if self.permits(runtime, ongoing, way):
                     yield way
 
-    def permits(self, runtime: Runtime, ongoing: OperationInProgress, way: Way) -> bool:
+    def permits(self, runtime: ObservedRuntime, ongoing: OperationInProgress, way: Way) -> bool:
         """Does each instance go a way that its row permits, and none one that its vendor has ruled out?"""
         verdicts = Verdicts(runtime.scenario, self._expected, ics=self._ics)
         ongoing.fitted = []
@@ -48,7 +49,7 @@ class Permission:
         PROPERTIES["declared_choices"].check(verdicts, runtime, ongoing, end)
         return not verdicts.findings
 
-    def seen(self, runtime: Runtime, ongoing: OperationInProgress, way: Way) -> Iterator[Observation]:
+    def seen(self, runtime: ObservedRuntime, ongoing: OperationInProgress, way: Way) -> Iterator[Observation]:
         """The output of the operation if it goes this ``way``; a list may be shorter or longer."""
         told = sorted(
             (_name(ongoing, member), heard)
@@ -58,7 +59,7 @@ class Permission:
         for answer in self._answers(runtime, ongoing, way.answer):
             yield Observation(answer, tuple(told))
 
-    def _answers(self, runtime: Runtime, ongoing: OperationInProgress, answer: str) -> Iterator[str]:
+    def _answers(self, runtime: ObservedRuntime, ongoing: OperationInProgress, answer: str) -> Iterator[str]:
         if answer != "return" or not isinstance(ongoing.step, s.GetComponents):
             yield answer
             return

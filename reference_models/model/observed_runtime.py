@@ -1,0 +1,25 @@
+"""Everything that a trace has shown so far, and what the vendor declares: what properties are asked about."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.reference_models.model.executions import Executions, NoExecutions
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.model.interactions import Interactions, NoInteractions
+from ucm_cts.reference_models.model.runtime import Runtime
+from ucm_cts.reference_models.model.service_call import ServiceCall
+
+
+class ObservedRuntime(Runtime):
+    """A runtime with what bodies execute and how they interact, recorded if the scenario is ``interacting``: if port elements
+    have interfaces or components policies. ``service_calls`` is what services.service_calls has found, ``is_over`` says
+    that no event follows.
+    """
+
+    def __init__(self, scenario: Scenario, ics: Ics | None = None, interacting: bool = False) -> None:
+        super().__init__(scenario)
+        self.ics = ics or Ics()
+        self.executions = Executions(self) if interacting else NoExecutions(self)
+        self.interactions = Interactions(self) if interacting else NoInteractions(self)
+        self.service_calls: list[ServiceCall] | None = None
+        self.is_over = False
