@@ -23,6 +23,7 @@ import msgspec
 import pytest
 from command_line import report_of, ucm_cts, within
 from folders import ROOT
+from guides import guide_files
 
 import ucm_cts as package
 from ucm_cts.adapters.contract import messages as m
@@ -70,9 +71,9 @@ def marked(page: str, marker: str) -> str:
 
 
 def write_files(page: str) -> None:
-    """Every file that the page shows, under its name, into this folder."""
-    for name in re.findall(r"(?m)^<!-- file: (\S+) -->$", text_of(page)):
-        Path(name).write_text(marked(page, f"file: {name}"))
+    """Every file that the page shows or takes for an example, under its name, into this folder."""
+    for name, text in guide_files(ROOT / page).items():
+        Path(name).write_text(text)
 
 
 def prose(page: Path) -> str:
@@ -118,6 +119,12 @@ def test_links_lead_somewhere(page: Path) -> None:
         assert "://" in path or there.is_file() or any(there.glob("*")), target
         headings = re.findall(r"(?m)^#+ (.+)$", prose(there)) if anchor else ()
         assert not anchor or anchor in {re.sub(r"[^\w -]", "", h.lower()).replace(" ", "-") for h in headings}, target
+
+
+@each_page
+def test_excerpts_are_from_their_files(page: Path) -> None:
+    for name, excerpt in re.findall(r"(?ms)^<!-- from: (\S+) -->\n```\w+\n(.*?)^```$", page.read_text()):
+        assert excerpt in text_of(name)
 
 
 @each_page

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import socket
 import subprocess
@@ -16,6 +15,7 @@ from typing import Any
 
 import pytest
 from folders import ROOT, SUPPORT
+from guides import guide_files
 
 import ucm_cts
 from ucm_cts.adapters.contract import data_types as d
@@ -25,6 +25,7 @@ from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.reference.cpp import COMMAND
 
 SDK = ROOT / "adapters" / "sdk" / "cpp"
+BEANS = SDK / "example"
 FRAMEWORK = ROOT / "adapters" / "reference" / "cpp" / "framework"
 NATIVE = SUPPORT / "native"
 GUIDE = ROOT / "docs" / "adapter-cpp.md"
@@ -88,35 +89,6 @@ UCM_CTS_ADAPTER(Rude, "rude", "0");
 """
 
 
-def guide_file(name: str) -> str:
-    """The code block of the guide that is marked as file ``name``."""
-    return _guide_block(f"file: {name}")
-
-
-def guide_part(where: str) -> str:
-    """The code block of the guide that belongs into ``where``."""
-    return _guide_block(f"into: {where}")
-
-
-def _guide_block(mark: str) -> str:
-    found = re.search(rf"<!-- {re.escape(mark)} -->\n```\w+\n(.*?)```", GUIDE.read_text(), re.DOTALL)
-    assert found, f"{GUIDE.name} has no {mark}"
-    return found[1]
-
-
-def beans_with_lines() -> str:
-    """The guide's beans adapter with the pieces for profile core put where the guide says."""
-    text = guide_file("beans_adapter.cpp")
-    for where, before in (
-        ("ServiceReference", "    const beans::Service service;\n"),
-        ("bean", "        }\n        bean.prepare"),
-        ("BeansAdapter", "\n  private:\n    static beans::Bean bean"),
-    ):
-        assert text.count(before) == 1, before
-        text = text.replace(before, guide_part(where) + before)
-    return text
-
-
 def run(command: Sequence[str | Path], **options: Any) -> subprocess.CompletedProcess[str]:
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False, **options)
     assert done.returncode == 0, f"{command}\n{done.stdout[-4000:]}\n{done.stderr[-8000:]}"
@@ -130,9 +102,7 @@ class Builds:
         self.folder = folder
         self._pool = ThreadPoolExecutor(os.cpu_count() or 2)
         self._prefix = self._pool.submit(self._install)
-        sources = [("rude", RUDE), ("beans", guide_file("beans_adapter.cpp")), ("lines", beans_with_lines())]
-        for name, text in sources:
-            (folder / f"{name}.cpp").write_text(text)
+        (folder / "rude.cpp").write_text(RUDE)
         framework = folder / "framework.cpp"  # compiled at once: most of the time goes into headers
         framework.write_text("".join(f'#include "{source}"\n' for source in FRAMEWORK_SOURCES))
         reference = [ADAPTER, TYPED_BODIES, framework]
@@ -146,8 +116,7 @@ class Builds:
             "patchbay": self._compile("patchbay", [NATIVE / "patchbay.cpp"], [*STRICT, *asan]),
             "links": self._compile("links", [NATIVE / "lwucm_links.cpp", framework], ["-std=c++11", *tsan]),
             "power": self._compile("power", [NATIVE / "stress_power.cpp"], [*STRICT, "-O2"]),
-            "lines": self._compile("lines", [folder / "lines.cpp"], [*STRICT, "-I", str(SDK / "example")]),
-            "beans": self._compile("beans", [folder / "beans.cpp"], [*STRICT, "-I", str(SDK / "example")]),
+            "beans": self._compile("beans", [BEANS / "beans_adapter.cpp"], [*STRICT, "-I", str(BEANS)]),
         }
         self._vendor = self._pool.submit(self._build_like_a_vendor)
 
@@ -193,7 +162,7 @@ class Builds:
         folder = self.folder / "vendor"
         folder.mkdir()
         for name in ("CMakeLists.txt", "acme_adapter.cpp"):
-            (folder / name).write_text(guide_file(name))
+            (folder / name).write_text(guide_files(GUIDE)[name])
         acme = folder / "acme"
         acme.mkdir()
         (acme / "ucm.hpp").write_text("#include <lwucm/runtime.hpp>\nnamespace acme = lwucm;\n")

@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
 from pathlib import Path
 
 import pytest
 from cpp_builds import run
 from folders import ROOT, SUPPORT
+from guides import guide_files
 
 GUIDE = ROOT / "docs" / "adapter-java.md"
 SOURCES = SUPPORT / "java"
-
-
-def guide_files() -> dict[str, str]:
-    """Every file that the guide shows, by name."""
-    return dict(re.findall(r"(?ms)^<!-- file: (\S+) -->\n```\w+\n(.*?)^```$", GUIDE.read_text()))
 
 
 class JavaBuilds:
@@ -37,7 +32,7 @@ class JavaBuilds:
             run(["mvn", "-q", "-f", "adapters", "package"], cwd=folder, env=quickly)
         self.julia = self.adapters / "integrations" / "julia" / "julia-adapter"
         shutil.copytree(self.adapters / "integrations" / "julia" / "target" / "lib", folder / "lib")
-        for name, text in guide_files().items():
+        for name, text in guide_files(GUIDE).items():
             (folder / name).write_text(text)
         (folder / "beans-adapter").chmod(0o755)
         sources = [*folder.glob("*.java"), *SOURCES.glob("*.java")]

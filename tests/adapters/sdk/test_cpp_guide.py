@@ -118,7 +118,7 @@ def test_guide_for_profile_core(builds: Builds) -> None:
         s.Detach("l", "S", "in"),
         s.ReadLog(),
     )
-    trace = events(builds.program("lines"), s.Scenario(components, steps, interfaces={"service": service}))
+    trace = events(builds.program("beans"), s.Scenario(components, steps, interfaces={"service": service}))
     told = [(e.results, e.exception, e.raised) for e in trace if isinstance(e, t.Reply)]
     served = [((2**64 - 1, ["ä"]), None, False), (("why",), "problem", False)]
     assert told == [*served, (None, None, True), (None, None, True), *served]

@@ -295,7 +295,7 @@ def test_guide(java: JavaBuilds, monkeypatch: pytest.MonkeyPatch) -> None:
     (adapters, wanted) = (re.search(pattern, page) for pattern in (r"mvn -q -f (\w+)", r"`([\w.]+):([\w-]+):([\d.]+)`"))
     assert adapters
     assert wanted
-    pom = (ROOT / adapters[1] / "java" / "pom.xml").read_text()
+    pom = (ROOT / adapters[1] / "sdk" / "java" / "pom.xml").read_text()
     group, artifact, version = wanted.groups()
     assert f"<groupId>{group}</groupId>" in pom
     assert f"<artifactId>{artifact}</artifactId>\n  <name>" in pom

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 from folders import ROOT
+from guides import guide_files
 from performing import SINK, SOURCE, answer, play, scenario, told
 
 from ucm_cts.adapters.contract.messages import (
@@ -397,7 +398,7 @@ def test_streamed_events_come_before_the_answer() -> None:
 
 
 def test_the_guide_for_adapter_authors_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for name, text in re.findall(r"<!-- file: (\S+) -->\n```\w+\n(.*?)```", GUIDE.read_text(), re.DOTALL):
+    for name, text in guide_files(GUIDE).items():
         (tmp_path / name).write_text(text)
     monkeypatch.chdir(tmp_path)
     asked = scenario(
