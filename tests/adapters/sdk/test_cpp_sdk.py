@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
-from cpp_builds import LIFE, PAIR, Builds, Host, concurrent_scenarios, connect, events, found, talk
+from cpp_builds import LIFE, PAIR, Builds, Host, concurrent_scenarios, connect, events, talk
 from wrong_messages import check_refusals, mutated_lines
 
 from ucm_cts.adapters.contract import messages as m
@@ -178,74 +178,6 @@ def test_gates_order_what_threads_do(builds: Builds) -> None:
     assert held < asked < opened < started, "get_components is answered while start is under way"
     assert [e.ids for e in trace if isinstance(e, t.Siblings)] == [(1,)]
     assert not [e for e in trace if isinstance(e, t.Timeout)]
-
-
-def test_settling_finds_out_where_a_worker_is(builds: Builds) -> None:
-    hold = s.Declaration(plan={"on_startup": (s.HoldAtGate("g"),)})
-    steps = (
-        s.AddComponent("H", thread="a"),
-        s.Settle("a"),
-        s.Start(thread="b"),
-        s.Settle("b"),
-        s.Stop(thread="c"),
-        s.Settle("c"),
-        s.Settle("nobody"),
-    )
-    trace = events(builds.reference, s.Scenario({"H": hold}, steps))
-    assert found(trace) == {"a": "done", "b": "held", "c": "blocked", "nobody": "done"}
-    settled = [e for e in trace if isinstance(e, t.Settled)]
-    assert {e.thread for e in settled} == {0}
-    assert settled[-1].t - settled[0].t < 200e6
-    assert not [e for e in trace if isinstance(e, t.Timeout)]
-
-
-def test_settling_after_a_gate_was_opened_waits_for_what_follows(builds: Builds) -> None:
-    hold = s.Declaration(plan={"on_startup": (s.HoldAtGate("g"), s.HoldAtGate("h"))})
-    steps = (
-        s.AddComponent("H"),
-        s.Start(thread="w"),
-        s.Settle("w"),
-        s.OpenGate("g"),
-        s.Settle("w"),
-        s.OpenGate("h"),
-        s.Settle("w"),
-        s.GetComponents(),
-    )
-    trace = events(builds.reference, s.Scenario({"H": hold}, steps))
-    gates = [e.gate if isinstance(e, t.Held) else e.where for e in trace if isinstance(e, t.Held | t.Settled)]
-    assert gates == ["g", "held", "h", "held", "done"]
-
-
-def test_settling_gives_up_on_a_worker_that_runs(builds: Builds) -> None:
-    scenario = s.Scenario({}, (s.AddComponent("spin", thread="w"), s.Settle("w")), patience=50)
-    assert found(events(builds.program("rude"), scenario)) == {"w": "running"}
-
-
-def test_run_is_a_hook_like_any_other(builds: Builds) -> None:
-    executing = (s.Policy(s.SELF_EXECUTING),)
-    components = {
-        "A": s.Declaration(plan={"run": (s.QuerySiblings(),)}, policies=executing),
-        "B": s.Declaration(policies=(s.Policy(s.PROTECTED_PASSIVE),)),
-        "C": s.Declaration(plan={"run": (s.RaiseError(),)}, policies=executing),
-    }
-    trace = events(builds.program("rude"), s.Scenario(components, (s.Start(),)))
-    told = [
-        (type(e).__name__, e.component, getattr(e, "raised", None))
-        for e in trace
-        if isinstance(e, t.Enter | t.Siblings | t.Exit)
-    ]
-    entered = [e.hook for e in trace if isinstance(e, t.Enter | t.Exit)]
-    assert entered == ["run"] * 4
-    assert told == [
-        ("Enter", "A", None),
-        ("Siblings", "A", True),
-        ("Exit", "A", False),
-        ("Enter", "C", None),
-        ("Exit", "C", True),
-    ]
-    assert [(e.error, e.detail.partition(": ")[2]) for e in trace if isinstance(e, t.Raise)] == [
-        ("UNDECLARED", "the probe fails in run")
-    ]
 
 
 @pytest.mark.parametrize("sanitizer", ["asan", "tsan"])

@@ -242,31 +242,6 @@ def test_stuck_threads_are_named_and_end_the_host(java: JavaBuilds) -> None:
     assert [e.step for e in answers[0].events if isinstance(e, t.Timeout)] == [2]
 
 
-def test_settling_finds_out_where_a_worker_is(java: JavaBuilds) -> None:
-    hold = s.Declaration(plan={"on_startup": (s.HoldAtGate("g"),)})
-    threads = (s.AddComponent("H", thread="a"), s.Start(thread="b"), s.Stop(thread="c"))
-    steps = (*(step for one in threads for step in (one, s.Settle(one.thread or ""))), s.Settle("nobody"))
-    trace = events(java.program("StrictAdapter"), s.Scenario({"H": hold}, steps))
-    assert found(trace) == {"a": "done", "b": "held", "c": "blocked", "nobody": "done"}
-    spin = s.Scenario({}, (s.AddComponent("spin", thread="w"), s.Settle("w")), patience=50)
-    assert found(events(java.program("RudeAdapter"), spin)) == {"w": "running"}
-
-
-def test_run_is_a_hook_like_any_other(java: JavaBuilds) -> None:
-    executing = (s.Policy(s.SELF_EXECUTING),)
-    components = {
-        "A": s.Declaration(plan={"run": (s.QuerySiblings(),)}, policies=executing),
-        "B": s.Declaration(policies=(s.Policy(s.PROTECTED_PASSIVE),)),
-        "C": s.Declaration(plan={"run": (s.RaiseError(),)}, policies=executing),
-    }
-    trace = events(java.program("RudeAdapter"), s.Scenario(components, (s.Start(),)))
-    told = [(e.hook, e.component) for e in trace if isinstance(e, t.Enter)]
-    assert told == [("run", "A"), ("run", "C")]
-    assert [(e.error, e.detail.partition(": ")[2]) for e in trace if isinstance(e, t.Raise)] == [
-        ("UNDECLARED", "C fails in run, as planned")
-    ]
-
-
 def test_stacks_on_request(java: JavaBuilds) -> None:
     hold = s.Declaration(plan={"on_init": (s.HoldAtGate("g"),)})
     steps = (s.AddComponent("H", thread="w"), s.ReachGate("g"), s.Join("w"))

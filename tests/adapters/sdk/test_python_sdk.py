@@ -99,37 +99,6 @@ def test_breach_of_protocol_is_refused_and_the_engine_goes_on(line: bytes, reaso
     assert isinstance(from_host_decoder().decode(engine.answer(encode(Hello(PROTOCOL)))), Welcome)
 
 
-def test_trace_of_a_whole_life() -> None:
-    server = SINK | {"attributes": {"colour": "red"}}
-    client = SOURCE | {"plan": {"on_startup": [{"do": "call", "port": "out", "value": 3}]}}
-    trace = play(
-        {"server": server, "client": client},
-        ["add_component component=server", "add_component component=client bind=c",
-         "get_port_element id=server port=in bind=api", "connect id=c port=out to=api bind=link", "start",
-         "invoke ref=api value=5", "stop", "disconnect connection=link", "remove_component id=c", "destroy"],
-    )  # fmt: skip
-    assert trace == [
-        "call step=0", "create server#1", "enter server#1 hook=on_init attributes={'colour': 'red'}",
-        "exit server#1 hook=on_init", "return step=0 value=1",
-        "call step=1", "create client#1", "enter client#1 hook=on_init attributes={}", "exit client#1 hook=on_init",
-        "return step=1 value=2",
-        "call step=2", "return step=2 value=server#1.in",
-        "call step=3", "enter client#1 hook=on_connect port=out reference=server#1.in", "exit client#1 hook=on_connect",
-        "return step=3 value=3",
-        "call step=4", "enter server#1 hook=on_startup dependencies=[]", "exit server#1 hook=on_startup",
-        "enter client#1 hook=on_startup dependencies=[[server#1.in]@out]", "request client#1 port=out value=3",
-        "enter server#1 hook=exchange port=in value=3", "exit server#1 hook=exchange value=-4",
-        "reply client#1 port=out value=-4", "exit client#1 hook=on_startup", "return step=4",
-        "call step=5", "enter server#1 hook=exchange port=in value=5", "exit server#1 hook=exchange value=-6",
-        "return step=5 value=-6",
-        "call step=6", "enter client#1 hook=on_shutdown", "exit client#1 hook=on_shutdown",
-        "enter server#1 hook=on_shutdown", "exit server#1 hook=on_shutdown", "return step=6",
-        "call step=7", "enter client#1 hook=on_disconnect port=out", "exit client#1 hook=on_disconnect", "return step=7",
-        "call step=8", "enter client#1 hook=on_remove", "exit client#1 hook=on_remove", "return step=8",
-        "call step=9", "enter server#1 hook=on_remove", "exit server#1 hook=on_remove", "return step=9",
-    ]  # fmt: skip
-
-
 def test_unbound_variables_are_skipped_and_reserved_ones_passed_on() -> None:
     trace = play(
         {"sink": SINK, "source": SOURCE},
@@ -164,52 +133,6 @@ def test_variables_outlive_what_they_name_and_traces_start_anew() -> None:
         assert "return step=3 value=-2" in trace
         assert "raise step=4 error=NOT_FOUND" in trace
         assert Spy.seen.count(("destroy",)) == 1  # not once more after the scenario has done so
-
-
-def test_planned_actions_and_undeclared_exceptions() -> None:
-    class PassesOn(ReferenceAdapter):
-        def start(self, container: Any) -> None:
-            for member in container.members.values():
-                member.body.on_startup([])
-
-    plan = {
-        "exchange": [{"do": "return", "value": 9}],
-        "on_startup": [{"do": "siblings"}, {"do": "raise"}, {"do": "siblings"}],
-    }
-    trace = play(
-        {"f": SINK | {"fragment": True, "plan": plan | {"on_init": [{"do": "siblings"}]}}},
-        ["add_component component=f", "get_port_element id=f port=in bind=api", "invoke ref=api value=1", "start"],
-        PassesOn,
-    )
-    assert "siblings f#1" in trace[: trace.index("return step=0 value=1")]
-    assert "return step=2 value=9" in trace
-    assert trace[-4:] == ["enter f#1 hook=on_startup dependencies=[]", "siblings f#1 ids=[1]",
-                          "exit f#1 hook=on_startup raised=True", "raise step=3 error=UNDECLARED"]  # fmt: skip
-
-
-def test_failing_callee_is_recorded_and_not_passed_on() -> None:
-    trace = play(
-        {"bad": SINK | {"plan": {"exchange": [{"do": "raise"}]}},
-         "client": SOURCE | {"plan": {"on_startup": [{"do": "call", "port": "out", "value": 1}]}}},
-        ["add_component component=bad", "add_component component=client", "get_port_element id=bad port=in bind=api",
-         "connect id=client port=out to=api bind=link", "start"],
-    )  # fmt: skip
-    assert "reply client#1 port=out raised=True" in trace
-    assert trace[-1] == "return step=4"
-
-
-def test_workers_gates_and_joins() -> None:
-    held = SINK | {"plan": {"exchange": [{"do": "hold", "gate": "g"}]}}
-    trace = play(
-        {"s": held},
-        ["add_component component=s", "get_port_element id=s port=in bind=api", "invoke ref=api value=1 thread=w",
-         "reach gate=g", "get_components", "open gate=g", "join worker=w", "join worker=nobody"],
-    )  # fmt: skip
-    assert trace[trace.index("1:call step=2") :] == [
-        "1:call step=2", "1:enter s#1 hook=exchange port=in value=1", "1:held s#1 gate=g",
-        "call step=4", "return step=4 value=[1]", "opened gate=g",
-        "1:exit s#1 hook=exchange value=-2", "1:return step=2 value=-2",
-    ]  # fmt: skip
 
 
 class Waits(ReferenceAdapter):
@@ -256,19 +179,6 @@ def test_settle_tells_where_a_worker_is(steps: list[str], where: str) -> None:
     assert [line.rpartition("=")[2] for line in trace if line.startswith("settled")] == [where]
 
 
-def test_settle_finds_workers_that_are_held() -> None:
-    held = SINK | {"plan": {"exchange": [{"do": "hold", "gate": "g"}, {"do": "hold", "gate": "h"}]}}
-    trace = play(
-        {"s": held},
-        ["add_component component=s", "get_port_element id=s port=in bind=api", "invoke ref=api value=1 thread=w",
-         "settle worker=w", "open gate=g", "settle worker=w", "open gate=h", "settle worker=w"],
-    )  # fmt: skip
-    assert [line for line in trace if "settled" in line or "held" in line] == [
-        "1:held s#1 gate=g", "settled worker=w where=held",
-        "1:held s#1 gate=h", "settled worker=w where=held", "settled worker=w where=done",
-    ]  # fmt: skip
-
-
 def test_nobody_is_seen_to_be_blocked_where_the_operating_system_does_not_tell(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(workers, "_sleeps", lambda thread: None)
     monkeypatch.setattr(engine, "SEAL", engine.sealed())
@@ -294,19 +204,6 @@ def test_probes_that_execute_themselves_can_be_run() -> None:
     given.clear()
     assert play({"s": {}}, steps, Runs)[-1] == "return step=1"
     assert given == [None] * 3
-
-
-def test_waits_take_no_longer_than_patience_and_all_gates_open_at_the_end() -> None:
-    held = SINK | {"plan": {"exchange": [{"do": "hold", "gate": "g"}]}}
-    trace = play(
-        {"s": held},
-        ["reach gate=g", "add_component component=s", "get_port_element id=s port=in bind=api",
-         "invoke ref=api value=1", "invoke ref=api value=2 thread=w", "join worker=w"],
-        patience=30,
-    )  # fmt: skip
-    assert trace[0] == "timeout step=0"
-    assert "return step=3 value=-2" in trace  # the probe itself lost patience
-    assert "1:return step=4 value=-3" in trace
 
 
 def test_threads_that_never_come_back_are_stuck() -> None:

@@ -1,0 +1,148 @@
+"""Every SDK does what suite/host_conformance says a host does."""
+
+from __future__ import annotations
+
+import fnmatch
+import re
+import threading
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from cpp_builds import Builds, talk
+from java_builds import JavaBuilds, java
+from performing import told
+
+from ucm_cts.adapters.contract import messages as m
+from ucm_cts.adapters.contract.adapter import Adapter
+from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.programming_model import (
+    BadParameter,
+    Implementation,
+    NotFound,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.contract.scenario import SELF_EXECUTION_API, Declaration, Scenario, Step
+from ucm_cts.adapters.contract.value import Value
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.catalogue.documents import read
+from ucm_cts.harness.execution.integrity import contradiction
+
+__all__ = ["java"]
+
+
+class Case(Value, frozen=True):
+    """One behaviour of hosts: the scenario that shows it, what framework it is tried with, and the trace."""
+
+    behaviour: str
+    framework: str
+    components: dict[str, Declaration]
+    steps: tuple[Step, ...]
+    trace: tuple[str, ...]
+    patience: int = 2000
+    interfaces: dict[str, Interface] = {}
+
+    @property
+    def scenario(self) -> Scenario:
+        return Scenario(self.components, self.steps, self.patience, self.interfaces)
+
+
+FOLDER = Path(m.__file__).parents[2] / "suite" / "host_conformance"
+CASES = [case for path in sorted(FOLDER.glob("*.yaml")) for case in read(path, list[Case])]
+
+
+class RudeAdapter(Adapter):
+    """Misbehaves as the name of the component to add says, like the adapters of that name in C++ and Java."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+        self.implementations = implementations
+        return "root"
+
+    def add_component(self, container: Any, implementation: str, attributes: Mapping[str, str]) -> int:
+        if implementation == "hang":
+            threading.Event().wait()
+        end = time.monotonic() + 1  # other tests run in this process
+        while implementation == "spin" and time.monotonic() < end:
+            pass
+        if implementation == "throw text":
+            raise NotFound("text")
+        if implementation == "throw long":
+            raise OSError("x" * 300)
+        return 2**31 - 1
+
+    def remove_component(self, container: Any, comp_instance: int) -> None:
+        raise BadParameter(str(comp_instance))
+
+    def get_port_element(self, container: Any, comp_instance: int, port_name: str) -> PortElementObject | None:
+        return None
+
+    def connect(self, container: Any, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        return 0
+
+    def disconnect(self, container: Any, connection: int) -> None: ...
+
+    def start(self, container: Any) -> None:
+        for one in self.implementations:
+            body = one.create()
+            for policy in one.policies:
+                element = body.get_policy_element(policy.definition, SELF_EXECUTION_API)
+                if element is not None:
+                    element.run()
+
+    def stop(self, container: Any) -> None: ...
+
+    def get_components(self, container: Any) -> Sequence[int]:
+        return [2**31 - 2]
+
+    def create_container(self, manager: Any) -> Any:
+        return "sub"
+
+    def remove_container(self, manager: Any, sub_container: Any) -> None: ...
+
+    def destroy(self, manager: Any) -> None:
+        raise UcmError("never")
+
+
+PYTHON = {"strict": ReferenceAdapter, "rude": RudeAdapter}
+
+
+def check(case: Case, answer: m.FromHost) -> None:
+    """``answer`` is a trace that can be true, with the events of ``case``."""
+    assert isinstance(answer, m.Traced), answer
+    assert contradiction(case.scenario, answer.events, bool(answer.stuck)) is None
+    lines = [told(event) for event in answer.events] + [f"stuck {name}" for name in answer.stuck]
+    expected = list(case.trace)
+    if expected[0] == "*":  # what comes first is the matter of another case
+        expected = expected[1:]
+        lines = lines[-len(expected) :]
+    unlike = [(line, due) for line, due in zip(lines, expected, strict=False) if not _is(line, due)]
+    assert (len(lines), unlike) == (len(expected), []), "\n".join(lines)
+
+
+def _is(line: str, due: str) -> bool:
+    return fnmatch.fnmatchcase(line, re.sub(r"\[", "[[]", due))
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.behaviour)
+def test_python(case: Case) -> None:
+    line = Engine(PYTHON[case.framework]).answer(m.encode(m.Run(1, case.scenario)))
+    check(case, m.from_host_decoder().decode(line))
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.behaviour)
+def test_cpp(case: Case, builds: Builds) -> None:
+    program = builds.reference if case.framework == "strict" else builds.program("rude")
+    (answer,), _, status = talk(program, m.Run(1, case.scenario))
+    assert status == 0
+    check(case, answer)
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.behaviour)
+def test_java(case: Case, java: JavaBuilds) -> None:
+    (answer,), _, status = talk(java.program(f"{case.framework.capitalize()}Adapter"), m.Run(1, case.scenario))
+    assert status == 0
+    check(case, answer)
