@@ -52,16 +52,27 @@ SUITE = Path(__file__).parents[2] / "suite"
 
 
 class Interpretation(Value, frozen=True):
-    """A place where the text is silent or contradicts itself: the decision, and the readings a framework may take.
+    """A place where the text is silent or contradicts itself, and how the suite reads it.
 
-    The first value of an option holds unless the vendor declares another. ``profile`` is the one that asks first.
+    ``reason`` says what is unclear, ``readings`` what the text could mean, ``decision`` which reading the suite takes, and
+    ``checked`` what follows for the tests. ``options`` maps each option to its values; the first one holds unless the vendor
+    declares another. ``profile`` is the first profile that needs the decision.
     """
 
     id: str
     clauses: tuple[str, ...]
-    text: str
+    reason: str
+    decision: str
+    readings: tuple[str, ...] = ()
+    checked: str = ""
     options: dict[str, tuple[str, ...]] = {}
     profile: str = "container"
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """All its sentences, a line for each field that is given."""
+        labelled = (("Readings", "; ".join(self.readings)), ("Decision", self.decision), ("Checked", self.checked))
+        return (self.reason, *(f"{label}: {text}" for label, text in labelled if text))
 
 
 @functools.cache

@@ -43,7 +43,8 @@ def explanation(identifier: str) -> RenderableType:
             lines += [Text(), Text(f"{label}: ", style="bold") + Text(text)]
     for name in requirement.interpretations:
         entry = interpretations[name]
-        lines += [Text(), Text(f"Interpretation {name}: ", style="bold") + Text(entry.text)]
+        lines += [Text(), Text(f"Interpretation {name}: ", style="bold") + Text(entry.reason)]
+        lines += [Text(f"  {line}") for line in entry.lines[1:]]
         lines += [Text(f"  {option}: {', '.join(readings)}") for option, readings in entry.options.items()]
     for need in load_capabilities().of(requirement.id):
         lines += [Text(), Text("Applies where the vendor states: ", style="bold") + Text(_needed(need))]

@@ -36,7 +36,7 @@ def prepare_folder(out: Path) -> None:
 
 def save_report(report: Report, out: Path) -> None:
     """Write all files of ``report`` into ``out``, with what the suite's own catalogue has for its profile."""
-    decisions = {i.id: i.text for i in load_interpretations()}
+    decisions = {i.id: " ".join(i.lines) for i in load_interpretations()}
     catalogue = [r for r in load_requirements() if r.profile in PARTS[report.profile]]
     write_report(report, catalogue, load_life_cycle(), decisions, out)
 

@@ -93,8 +93,7 @@ def _toml(value: str | bool | float) -> str:
 
 def _comment(entry: Interpretation) -> str:
     """The unclear place, the decision, and the consequence of each value, on lines of their own."""
-    text = entry.text.replace(" Decision: ", "\nDecision: ").replace(" Checked: ", "\nChecked: ")
-    lines = [f"{entry.id} ({', '.join(entry.clauses)})", *text.split("\n")]
+    lines = [f"{entry.id} ({', '.join(entry.clauses)})", *entry.lines]
     return "\n".join(
         line for each in lines for line in textwrap.wrap(each, WIDTH, initial_indent="# ", subsequent_indent="#   ")
     )

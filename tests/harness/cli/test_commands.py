@@ -360,7 +360,7 @@ def _explains_itself(requirement: Requirement) -> None:
     expected = [requirement.id, requirement.title, f"clause {requirement.clause},", requirement.meaning]
     expected += [requirement.untestable, requirement.pending, requirement.observed]
     expected += [f"Rule {name}:" for name in requirement.rules]
-    expected += [i.text for i in load_interpretations() if i.id in requirement.interpretations]
+    expected += [line for i in load_interpretations() if i.id in requirement.interpretations for line in i.lines]
     for words in expected:
         assert " ".join(words.split()) in text
     assert ("Not tested:" in text) == bool(requirement.untestable)
