@@ -1,36 +1,25 @@
-"""The habits of frameworks not made for UCM, as docs/real-frameworks.md tells of them."""
+"""The habits of frameworks not made for UCM: adapters/integrations/*/habits.yaml."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+import yaml
 from folders import ROOT
 
 from ucm_cts.harness.report.published import PublishedResult, read_published
 
 PAGE = (ROOT / "docs" / "real-frameworks.md").read_text()
-_ROW = re.compile(r"(?m)^\| (.+?) \| (R-[\d.]+-\d+) \| (pass|fail) \|(.*)\|$")
 
 
 class Habit(NamedTuple):
-    """What a framework does by nature, and the verdict and the reading that this has to come out as."""
+    """What a framework does by nature, and the verdict and the reading that this must produce."""
 
     habit: str
     requirement: str
     verdict: str
-    reading: str
-
-
-def told() -> dict[str, list[Habit]]:
-    """The habits, by product and version."""
-    parts = re.split(r"(?m)^## (.+)$", PAGE)
-    tables = {
-        product: [Habit(*map(str.strip, row)) for row in _ROW.findall(text)]
-        for product, text in zip(parts[1::2], parts[2::2], strict=True)
-    }
-    return {product: habits for product, habits in tables.items() if habits}
+    reading: str = ""
 
 
 def results() -> dict[str, PublishedResult]:
@@ -38,7 +27,9 @@ def results() -> dict[str, PublishedResult]:
     return {f"{result.product} {result.version}": result for result in read_published(ROOT / "results")}
 
 
-HABITS = told()
+FILES = [yaml.safe_load(file.read_text()) for file in ROOT.glob("adapters/integrations/*/habits.yaml")]
+HABITS = {file["product"]: [Habit(**habit) for habit in file["habits"]] for file in FILES}
+"""The habits, by product and version."""
 
 
 def check(habits: list[Habit], failing: set[str], readings: Mapping[str, Sequence[str]]) -> None:

@@ -1,4 +1,4 @@
-"""Frameworks not made for UCM: each habit that docs/real-frameworks.md tells of comes out as it says, and no more fails."""
+"""Frameworks not made for UCM: each habit has the verdict and reading that its file says, and no more fails."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ def check_here(adapter: type[Adapter]) -> None:
     check(habits, set(product.failing), product.readings)
 
 
-def test_each_row_is_read() -> None:
+def test_the_page_names_each_product_and_counts_its_habits() -> None:
     assert {"GStreamer 1.22.0", "iPOPO 3.2.4", "Fractal Julia 2.5.2"} <= set(HABITS)
-    assert sum(map(len, HABITS.values())) == len(re.findall(r"(?m)^\| .*R-\d", PAGE))
+    assert set(re.findall(r"(?m)^## (.+)$", PAGE)) == set(HABITS)
+    assert {int(n) for n in re.findall(r"\[(\d+)\]\(\S+habits\.yaml\)", PAGE)} == {len(h) for h in HABITS.values()}
 
 
 @pytest.mark.parametrize("name", HABITS)
