@@ -1,6 +1,6 @@
 """Reports of several runs side by side, requirement by requirement: what ``ucm-cts compare`` shows.
 
-Reports come as files that anybody may have written: one that breaks the schema, or contradicts itself, is refused.
+A report file can come from anywhere: one that breaks the schema, or contradicts itself, is refused.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ucm_cts.harness.report.order import clause_key
 from ucm_cts.harness.results.tally import overall
 
 MOST = 12
-"""So many reports still make a page that can be read."""
+"""The most reports that make a readable page."""
 
 LARGEST = 64 * 1024 * 1024
 """Bytes a report may have."""

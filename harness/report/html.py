@@ -34,13 +34,13 @@ from ucm_cts.harness.results.values import FailedExecution, IncidentReport, Repo
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
 
 FINDINGS = 3
-"""So many causes of one requirement are shown with diagrams; further ones in words."""
+"""The number of causes of one requirement that are shown with diagrams; further causes are shown in words."""
 
 BUDGET = 1_000_000
-"""Bytes that all evidence together may take; what comes later is told without diagrams."""
+"""The bytes that all evidence together may take; evidence beyond them is shown without diagrams."""
 
 INCIDENTS = 20
-"""So many incidents are shown with diagrams and stacks."""
+"""The number of incidents that are shown with diagrams and stacks."""
 
 NOTHING = Markup("")
 
@@ -49,8 +49,9 @@ _TEMPLATES = Path(__file__).parent / "templates"
 
 @dataclass(frozen=True)
 class Evidence:
-    """One cause of failure as the page shows it; without diagrams once the budget is spent, without ``command`` where nothing
-    was run.
+    """One cause of failure as the page shows it.
+
+    There are no diagrams once the budget is spent, and no ``command`` where nothing was run.
     """
 
     failed: FailedExecution
@@ -112,7 +113,7 @@ def to_html(
     script = _read("report.js")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     rows = rows_seen(table, report.transitions)
-    told = {result.id for result in report.requirements}
+    reported = {result.id for result in report.requirements}
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(_TEMPLATES),
         autoescape=True,
@@ -129,7 +130,7 @@ def to_html(
         to_fix=to_fix(report.requirements),
         items=_items(report, catalogue, interpretations),
         untestable=sorted(
-            (entry for entry in catalogue if entry.untestable and entry.id not in told),
+            (entry for entry in catalogue if entry.untestable and entry.id not in reported),
             key=lambda entry: (clause_key(entry.clause), entry.id),
         ),
         incidents=[_incident(item, number, report) for number, item in enumerate(report.incidents)],

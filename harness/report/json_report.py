@@ -26,14 +26,14 @@ from ucm_cts.harness.results.values import (
 SCHEMA_FILE = "report.schema.json"
 
 EVENTS = 50
-"""So many offending events of one finding are written at most; the saved scenario shows them all again."""
+"""The most events of one finding that are written; a replay of the saved scenario shows all."""
 
 TRACE = 500
-"""So many events, the last ones, are written of the traces of what is unstable."""
+"""The number of events that are written of the end of an unstable finding's trace."""
 
 
 OUTPUT = 4_000
-"""So many characters of what a command printed are written."""
+"""The most characters that are written of what a command printed."""
 
 
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -41,12 +41,15 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class FindingEntry(Entry, frozen=True):
-    """One cause of failure: what was expected and observed, in which scenario, and the file that replays it.
+    """One cause of failure.
 
-    Of a tool chain ``scenario`` names a model, ``model`` is the file that holds it, ``command`` was given it, and ``status`` and
-    ``output`` came of it; ``place`` is in a generated file. ``scenario`` and ``replay`` are empty where models or the vendor's statement show it and nothing was run. ``unstable`` says
-    why it is not held against the framework, and is empty if it is; then ``trace`` is one that shows it, and ``steady`` one of
-    the same scenario that does not, if there is one.
+    ``occurrences`` counts the executions that show it. ``waived`` says why it was expected, empty if it was not.
+    ``unstable`` says why it does not count, empty if it counts.
+    ``scenario`` is the scenario or, for a tool chain, the model; empty where nothing was run.
+    ``events`` are those that break the requirement. ``replay`` is the file that repeats the scenario, empty where nothing was run.
+    ``model`` is the file of a tool chain's model, ``command`` the command that was given it, ``status`` its exit status,
+    ``output`` what it printed, and ``place`` the wrong place in a generated file.
+    ``trace`` is a trace of an unstable finding, ``steady`` one of the same scenario without the finding, if there is one.
     """
 
     rule: str
@@ -101,7 +104,7 @@ class TransitionEntry(Entry, frozen=True):
 
 
 class StatementEntry(Entry, frozen=True):
-    """What the vendor states; ``source`` is the file's name, empty where nobody gave one and defaults hold."""
+    """What the vendor states; ``source`` is the file's name, empty if there was no file and defaults hold."""
 
     source: str
     product: str

@@ -16,7 +16,7 @@ from ucm_cts.harness.results.foreign import clean, one_line
 from ucm_cts.harness.results.values import IncidentReport, Report, RequirementResult
 
 FINDINGS = 3
-"""So many causes of one requirement are told in full."""
+"""The number of causes of one requirement that are written in full."""
 
 
 def to_junit(report: Report, catalogue: Sequence[Requirement]) -> bytes:
@@ -30,9 +30,9 @@ def to_junit(report: Report, catalogue: Sequence[Requirement]) -> bytes:
     for result in report.requirements:
         case = _case(root, suites, f"clause {result.clause}", f"{result.id} {result.title}")
         _verdict(case, result, report)
-    told = {result.id for result in report.requirements}
+    reported = {result.id for result in report.requirements}
     for requirement in catalogue:
-        if requirement.untestable and requirement.id not in told:
+        if requirement.untestable and requirement.id not in reported:
             case = _case(root, suites, f"clause {requirement.clause}", f"{requirement.id} {requirement.title}")
             _child(case, "skipped", f"not testable: {requirement.untestable}")
     for number, incident in enumerate(report.incidents):
@@ -66,8 +66,8 @@ def _verdict(case: etree._Element, result: RequirementResult, report: Report) ->
             _child(case, "failure", message, "fail", _story(result, report))
         case "inconclusive":
             reason = result.reason or "never exercised"
-            told = _story(result, report) if result.findings else f"clause {result.clause}"
-            _child(case, "failure", f"inconclusive: {reason}", "inconclusive", f"{told}\n{reason}")
+            story = _story(result, report) if result.findings else f"clause {result.clause}"
+            _child(case, "failure", f"inconclusive: {reason}", "inconclusive", f"{story}\n{reason}")
         case "not applicable":
             _child(case, "skipped", f"not applicable: {result.reason}".rstrip(": "))
         case "error":

@@ -16,7 +16,7 @@ from ucm_cts.harness.results.known_failures import all_known
 from ucm_cts.harness.results.values import Overall, Report, RequirementResult, Verdict
 
 SHOWN = 12
-"""So many failed requirements, and so many incidents, are listed."""
+"""The number of failed requirements, and of incidents, that are listed."""
 
 _COLOURS: dict[Verdict, str] = {
     "fail": "red",
@@ -52,8 +52,8 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
         lines.append(Text())
     for item in report.incidents[:SHOWN]:
         during = last_call(item.execution)
-        told = one_line(f"{item.incident.detail}{f', during {during}' if during else ''}", 160)
-        lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), f"  {told}")))
+        detail = one_line(f"{item.incident.detail}{f', during {during}' if during else ''}", 160)
+        lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), f"  {detail}")))
     if len(report.incidents) > SHOWN:
         lines.append(Text(f"and {len(report.incidents) - SHOWN} more incidents", "dim"))
     if out is not None:

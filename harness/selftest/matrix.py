@@ -9,10 +9,10 @@ from ucm_cts.adapters.contract.value import Value
 
 
 class Kill(Value, frozen=True):
-    """A requirement that a mutant failed, and the finding that tells it best.
+    """A requirement that a mutant failed, and the finding that shows it best.
 
-    ``names_the_place`` says whether the finding is about events in which the mutant parts from the framework it was made
-    from; ``looked_at`` is the number of findings for this requirement that were compared.
+    ``names_the_place``: the finding names events in which the mutant differs from the framework it was made from.
+    ``looked_at``: the number of findings for this requirement that were compared.
     """
 
     requirement: str
@@ -26,9 +26,12 @@ class Kill(Value, frozen=True):
 
 
 class MutantResult(Value, frozen=True):
-    """What became of one mutant: ``breaks`` are the requirements it must fail, ``also`` those that the same defect breaks, too.
+    """The result of one mutant.
 
-    ``trouble`` is what kept it from being judged (a host that could not be had, for instance), empty if nothing did.
+    ``lie`` describes its defect. ``breaks`` are the requirements that it must fail, ``also`` those that the same defect breaks, too.
+    ``scenarios`` is the number of scenarios, ``seconds`` the time they took.
+    ``trouble`` says why it could not be judged (for example a host that did not start), empty if it was.
+    ``is_rare``: the defect shows rarely, so one failed requirement is enough.
     """
 
     name: str
@@ -46,10 +49,10 @@ class MutantResult(Value, frozen=True):
     @property
     def survives(self) -> tuple[str, ...]:
         """The requirements that it was to fail, and did not fail for the right reason. Of a rare defect one is enough."""
-        told = {kill.requirement for kill in self.kills if kill.names_the_place}
-        if self.is_rare and told.intersection(self.breaks):
+        failed = {kill.requirement for kill in self.kills if kill.names_the_place}
+        if self.is_rare and failed.intersection(self.breaks):
             return ()
-        return tuple(requirement for requirement in self.breaks if requirement not in told)
+        return tuple(requirement for requirement in self.breaks if requirement not in failed)
 
     @property
     def is_killed(self) -> bool:
@@ -63,7 +66,7 @@ class MutantResult(Value, frozen=True):
 
 
 class CheatResult(Value, frozen=True):
-    """What became of an adapter that cheats: ``due`` is what must come out, nothing if no observation can tell it."""
+    """The result of a cheating adapter: ``due`` are the requirements that must fail, none if no observation can show the cheat."""
 
     name: str
     lie: str
@@ -75,7 +78,7 @@ class CheatResult(Value, frozen=True):
 
 
 class VariantResult(Value, frozen=True):
-    """What became of one conformant variant: ``failed`` are the requirements it was failed for, and should not have been."""
+    """The result of one conformant variant: ``failed`` are the requirements that it was wrongly failed for."""
 
     name: str
     failed: tuple[Kill, ...]
@@ -91,8 +94,11 @@ class VariantResult(Value, frozen=True):
 
 
 class Matrix(Value, frozen=True):
-    """All that one self-test says. ``testable`` are the requirements that rules stand for and that can be broken at all;
-    ``left_out`` is how many subjects were to be examined and were not; ``is_all`` says that none were chosen from.
+    """The result of one self-test.
+
+    ``testable`` are the requirements that a property checks and that can be broken. ``seconds`` is its duration.
+    ``whole``: all scenarios were run on each subject. ``left_out`` is the number of subjects that were to be run and were not.
+    ``is_all``: all subjects were to be run, not a selection.
     """
 
     suite_version: str

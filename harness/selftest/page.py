@@ -96,10 +96,9 @@ def _marks(line: int, mutant: MutantResult, column_of: dict[str, int]) -> Iterat
             yield _mark(line, column_of[requirement], "missed", f"{mutant.name} does not fail {requirement}")
 
 
-def _mark(line: int, column: int, kind: str, told: str) -> str:
+def _mark(line: int, column: int, kind: str, title: str) -> str:
     x, y = LEFT + CELL * column, TOP + CELL * line
-    title = escape(one_line(told, 200))
-    return f'<rect class="{kind}" x="{x}" y="{y}" width="{CELL - 1}" height="{CELL - 1}"><title>{title}</title></rect>'
+    return f'<rect class="{kind}" x="{x}" y="{y}" width="{CELL - 1}" height="{CELL - 1}"><title>{escape(one_line(title, 200))}</title></rect>'
 
 
 def _bands(columns: list[str], mutants: list[MutantResult], width: int, height: int) -> Iterator[str]:
