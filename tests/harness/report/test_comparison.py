@@ -11,7 +11,6 @@ from typing import Any
 import msgspec
 import pytest
 from command_line import Outcome, ucm_cts
-from folders import ROOT
 from lxml import html
 from made_up_run import CATALOGUE, HOSTILE, sample
 
@@ -229,11 +228,3 @@ def test_other_mistakes_are_told_in_one_line(tmp_path: Path, monkeypatch: pytest
     assert "cannot be written" in refused(ucm_cts("compare", *files, "--out", tmp_path / "file" / "page.html"))
     monkeypatch.setattr(comparison, "LARGEST", 100)
     assert "is larger than 100 bytes" in refused(ucm_cts("compare", *files, "--out", page))
-
-
-def test_the_published_page_is_what_the_documented_command_writes() -> None:
-    """Where this fails, run the command again: a report has changed."""
-    text = (ROOT / "docs" / "real-frameworks.md").read_text()
-    ((reports, out),) = re.findall(r"(?m)^ +ucm-cts compare (\S+) --out (\S+)$", text)
-    written = to_html(compare(sorted(ROOT.glob(reports))), (ROOT / out).parent)
-    assert (ROOT / out).read_text(encoding="utf-8") == written
