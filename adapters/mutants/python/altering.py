@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from ucm_cts.adapters.contract.data_types import Alias, AnyType, Array, Datum, Structure, Union
 from ucm_cts.adapters.contract.data_types import Sequence as SequenceType
@@ -10,20 +11,18 @@ from ucm_cts.adapters.contract.data_values import case_of
 from ucm_cts.adapters.mutants.python.registry import breaks
 from ucm_cts.adapters.reference.python.connectors import Link
 
-Change = Callable[[AnyType, Datum], Datum]
+Change = Callable[[Any, Any], Any]
 """What becomes of a value of a type; what it is made of has been changed already."""
 
 
-def rebuilt(of: AnyType, value: Datum, change: Change) -> Datum:
+def rebuilt(of: AnyType, value: Any, change: Change) -> Any:
     """``value`` with ``change`` made to everything in it, the innermost first."""
     match of:
         case Alias():
             value = rebuilt(of.of, value, change)
         case Structure():
-            assert isinstance(value, list)
             value = [rebuilt(field, one, change) for field, one in zip(of.fields.values(), value, strict=True)]
         case Union():
-            assert isinstance(value, list)
             case = case_of(of, value[0])
             value = [value[0], rebuilt(case.of, value[1], change)] if case is not None else value
         case Array():
@@ -33,8 +32,7 @@ def rebuilt(of: AnyType, value: Datum, change: Change) -> Datum:
     return change(of, value)
 
 
-def _elements(of: AnyType, value: Datum, dimensions: int, change: Change) -> Datum:
-    assert isinstance(value, list)
+def _elements(of: AnyType, value: Any, dimensions: int, change: Change) -> Any:
     if dimensions == 0:
         return value
     return [
@@ -59,14 +57,30 @@ def changing(change: Change, only_results: bool = False) -> type[Link]:
     return ChangingLink
 
 
-def carries(
-    change: Change, *requirements: str, also: tuple[str, ...] = (), readings: Mapping[str, str] = {}
-) -> Callable[[type], type]:
-    """Register a framework whose connectors make ``change`` to every value."""
+class Carried(NamedTuple):
+    """A framework whose connectors make ``change`` to every value, and so break ``requirement``."""
 
-    def register(mixin: type) -> type:
-        mixin.link_class = changing(change)  # type: ignore[attr-defined]
-        return breaks(*requirements, clauses=("10.1.1",), also=also, readings=readings)(mixin)
+    requirement: str
+    lie: str
+    change: Change
+    also: tuple[str, ...] = ()
+    readings: Mapping[str, str] = {}
+
+
+def register_carried(table: Mapping[str, Carried]) -> None:
+    """Make each row of ``table`` a mutant."""
+    for name, row in table.items():
+        link = type(name, (changing(row.change),), {"__doc__": row.lie})
+        breaks(row.requirement, clauses=("10.1.1",), also=row.also, readings=row.readings)(link)
+
+
+def carries(requirement: str, kind: type = object, also: tuple[str, ...] = ()) -> Callable[[Change], Change]:
+    """Register a change of values of ``kind`` as the mutant that makes it."""
+
+    def register(change: Change) -> Change:
+        row = Carried(requirement, change.__doc__ or "", made_to(kind, change), also)
+        register_carried({change.__name__: row})
+        return change
 
     return register
 
@@ -74,7 +88,7 @@ def carries(
 def made_to(kind: type, change: Change, *kinds: str) -> Change:
     """``change``, made to values of one sort of types only."""
 
-    def only(of: AnyType, value: Datum) -> Datum:
+    def only(of: Any, value: Any) -> Any:
         return change(of, value) if isinstance(of, kind) and (not kinds or getattr(of, "kind", "") in kinds) else value
 
     return only

@@ -68,11 +68,10 @@ class _Synchronous(_Codes):
         "comm-error": "at-once",
     },
 )
-class delivers_on_the_emitters_thread(Base):
+class delivers_on_the_emitters_thread(_Synchronous):
     """Push returns when all receivers have got the message; it is refused if one is not operational."""
 
-    class link_class(_Synchronous):
-        unready = INTERNAL_ERROR
+    unready = INTERNAL_ERROR
 
 
 @variant_of(
@@ -107,14 +106,13 @@ class passes_codes_on(Base):
 
 
 @variant_of(*_CLAUSES, readings={"push-without-receiver": "refused"})
-class attaches_emitters_where_somebody_receives(Base):
+class attaches_emitters_where_somebody_receives(Link):
     """An emitter is attached to a connection that has a receiver, and to no other one."""
 
-    class link_class(Link):
-        def _attach_sender(self, member: Member, port: str) -> None:
-            if self.connector == MESSAGE_CONNECTOR and not self.takers:
-                raise UcmError("nobody would receive")
-            super()._attach_sender(member, port)
+    def _attach_sender(self, member: Member, port: str) -> None:
+        if self.connector == MESSAGE_CONNECTOR and not self.takers:
+            raise UcmError("nobody would receive")
+        super()._attach_sender(member, port)
 
 
 class _Holding(_Codes):
@@ -201,10 +199,9 @@ class delivers_in_any_order(Base):
         super()._close_entrances(member)
 
 
-class _LearningLate(_Codes):
-    """What is broken or mended is noticed some time later, and what was pushed before is lost. Sub-containers have little
-    room for messages, and who pushes more is refused.
-    """
+@variant_of(*_CLAUSES, readings={"comm-error": "eventually", "message-overflow": "refuse"})
+class tells_late_and_refuses_much(_Codes):
+    """Push is answered ok while the connector has not noticed that the transport is broken, and not if it has much to do."""
 
     late = 0.2
     known = ""
@@ -229,13 +226,6 @@ class _LearningLate(_Codes):
         if any(taker.messages.qsize() > _FEW for taker in distant):
             return INTERNAL_ERROR
         return OK if self.broken else super()._emit(method, arguments)
-
-
-@variant_of(*_CLAUSES, readings={"comm-error": "eventually", "message-overflow": "refuse"})
-class tells_late_and_refuses_much(Base):
-    """Push is answered ok while the connector has not noticed that the transport is broken, and not if it has much to do."""
-
-    link_class = _LearningLate
 
 
 class _KeepingTaker(Taker):
@@ -273,14 +263,13 @@ class waits_for_room_and_keeps_at_stop(_ReleasesHeld):
 
 
 @variant_of(*_CLAUSES, readings={"transport-fault": "none", "connector-fault": "none"})
-class breaks_nothing(Base):
+class breaks_nothing(Link):
     """The adapter cannot break connections, and says so."""
 
-    class link_class(Link):
-        def break_link(self, where: str) -> None:
-            raise NotOffered
+    def break_link(self, where: str) -> None:
+        raise NotOffered
 
-        mend_link = break_link  # type: ignore[assignment]
+    mend_link = break_link  # type: ignore[assignment]
 
 
 _DECLARED = {

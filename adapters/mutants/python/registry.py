@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.connectors import Link
 from ucm_cts.adapters.reference.python.framework import Container, ContainerManager, Member
 
 CONTAINER = ("11", "12.10")
@@ -85,8 +86,17 @@ def variants_of(clauses: tuple[str, ...]) -> dict[str, Variant]:
     return {name: variant for name, variant in VARIANTS.items() if variant.clauses[0].startswith(clauses)}
 
 
-def bind(name: str, mixin: type, doc: str | None = None) -> type[ReferenceAdapter]:
-    """An adapter for the reference framework with ``mixin`` in front of both container classes."""
+def bind(name: str, part: type, doc: str | None = None) -> type[ReferenceAdapter]:
+    """An adapter for the reference framework with ``part`` in the place where it belongs.
+
+    A ``Link`` is the class of all connectors, a ``Proxy`` is what ``get_port_element`` returns, and any other class
+    is a mixin in front of both container classes.
+    """
+    mixin = part
+    if issubclass(part, Link):
+        mixin = type(name, (Base,), {"link_class": part})
+    elif issubclass(part, Proxy):
+        mixin = type(name, (GivesOutProxies,), {"proxy": part})
     container = type(name, (mixin, Container), {})
     manager = type(f"{name}_manager", (mixin, ContainerManager), {"container_class": container})
     return type(f"{name}_adapter", (ReferenceAdapter,), {"manager_class": manager, "product": name, "__doc__": doc})

@@ -8,12 +8,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.programming_model import (
-    DeclaredException,
-    PortConnection,
-    PortElementObject,
-    UcmError,
-)
+from ucm_cts.adapters.contract.programming_model import DeclaredException, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import SERVICE_CONNECTOR
 from ucm_cts.adapters.mutants.python.registry import Base, variant_of
 from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
@@ -137,19 +132,15 @@ class refuses_clients_without_server(Base):
 # exceptions
 
 
-class _Translates(Link):
+@variant_of("10.1.1", "10.1.5", readings={"exception-transport": "system-error"})
+class raises_system_errors(Link):
+    """Whatever a server raises arrives as an error of the framework, as its vendor says."""
+
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         try:
             return super()._request(method, arguments)
         except DeclaredException as error:
             raise UcmError(f"the server raised {error.name}") from None
-
-
-@variant_of("10.1.1", "10.1.5", readings={"exception-transport": "system-error"})
-class raises_system_errors(Base):
-    """Whatever a server raises arrives as an error of the framework, as its vendor says."""
-
-    link_class = _Translates
 
 
 # calls in flight

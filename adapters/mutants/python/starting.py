@@ -163,10 +163,8 @@ class _Elsewhere(Proxy):
 
 
 @variant
-class executes_calls_elsewhere(GivesOutProxies):
+class executes_calls_elsewhere(_Elsewhere):
     """Business calls of the test run on an executor's thread."""
-
-    proxy = _Elsewhere
 
 
 @variant
@@ -333,11 +331,7 @@ class everything_goes(
 
 @variant
 class everything_else_goes(
-    _ReplacesAtAnyTime,
-    cascades,
-    manager_reaches_down,
-    starts_the_unconfigured_with_null,
-    refuses_repetition,
+    _ReplacesAtAnyTime, cascades, manager_reaches_down, starts_the_unconfigured_with_null, refuses_repetition
 ):
     """Cascading, replacing at any time, starting without connections, strict about repetition."""
 

@@ -31,18 +31,14 @@ class has_no_messages(Base):
         return super().link(connector, interface)
 
 
-class _Unbreakable(Link):
+@breaks(_CORE, clauses=("10.1.2",), readings={"transport-fault": "hook", "connector-fault": "hook"})
+class never_breaks_a_transport(Link):
+    """It is claimed that the transport can be broken, and it cannot."""
+
     def break_link(self, where: str) -> None:
         if where == "transport":
             raise NotOffered
         super().break_link(where)
-
-
-@breaks(_CORE, clauses=("10.1.2",), readings={"transport-fault": "hook", "connector-fault": "hook"})
-class never_breaks_a_transport(Base):
-    """It is claimed that the transport can be broken, and it cannot."""
-
-    link_class = _Unbreakable
 
 
 @breaks(_CORE, clauses=("10.1.4",), readings={"trace-sink": "hook"})

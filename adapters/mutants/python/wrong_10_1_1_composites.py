@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import collections.abc
 import itertools
 import math
 import struct
+from collections.abc import Mapping
+from typing import Any
 
 from ucm_cts.adapters.contract.data_types import (
     Alias,
@@ -22,7 +25,7 @@ from ucm_cts.adapters.contract.data_types import (
 )
 from ucm_cts.adapters.contract.data_values import components_of
 from ucm_cts.adapters.contract.programming_model import UcmError
-from ucm_cts.adapters.mutants.python.altering import carries, made_to
+from ucm_cts.adapters.mutants.python.altering import Carried, carries, made_to, register_carried
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import Link
 
@@ -31,39 +34,24 @@ _REFUSED = ("R-10.1.2-02", "R-10.1.2-09", "R-10.1.5.1-01", "R-10.1.5.1-13", "R-1
 """What a call, a push or a connection that is refused for its types breaks as well."""
 
 
-@carries(made_to(Structure, lambda of, value: value[::-1]), "R-10.1.1-13")  # type: ignore[index]
-class turns_structures_round(Base):
-    """The fields of a structure arrive in the opposite order."""
-
-
-def _second_as_first(of: AnyType, value: Datum) -> Datum:
-    assert isinstance(of, Structure)
-    assert isinstance(value, list)
+@carries("R-10.1.1-13", Structure, also=("R-10.1.1-07",))
+def has_the_first_field_twice(of: Any, value: Any) -> Any:
+    """A second field of the same type has the value of the first, which no message with another number shows."""
     types = list(of.fields.values())
     return [value[0], value[0], *value[2:]] if types[:1] == types[1:2] else value
 
 
-@carries(made_to(Structure, _second_as_first), "R-10.1.1-13", also=("R-10.1.1-07",))
-class has_the_first_field_twice(Base):
-    """A second field of the same type has the value of the first, which no message with another number shows."""
-
-
-def _without_default(of: AnyType, value: Datum) -> Datum:
-    assert isinstance(of, Union)
-    assert isinstance(value, list)
+@carries("R-10.1.1-14", Union)
+def loses_default_selectors(of: Any, value: Any) -> Any:
+    """What arrives through the default case has the case's first selector."""
     named = [enumerator for case in of.cases for enumerator in case.selectors]
     default = next((case for case in of.cases if case.default), None)
     return value if value[0] in named or default is None else [default.selectors[0], value[1]]
 
 
-@carries(made_to(Union, _without_default), "R-10.1.1-14")
-class loses_default_selectors(Base):
-    """What arrives through the default case has the case's first selector."""
-
-
-def _first_case(of: AnyType, value: Datum) -> Datum:
-    assert isinstance(of, Union)
-    assert isinstance(value, list)
+@carries("R-10.1.1-14", Union)
+def loses_the_default_case(of: Any, value: Any) -> Any:
+    """What is selected by nobody but the default case arrives empty."""
     named = [enumerator for case in of.cases for enumerator in case.selectors]
     return value if value[0] in named else [value[0], _EMPTY.get(type(components_of(of, value)[0][1]), value[1])]
 
@@ -71,80 +59,38 @@ def _first_case(of: AnyType, value: Datum) -> Datum:
 _EMPTY: dict[type, Datum] = {Integer: 0, Float: "00000000", String: ""}
 
 
-@carries(made_to(Union, _first_case), "R-10.1.1-14")
-class loses_the_default_case(Base):
-    """What is selected by nobody but the default case arrives empty."""
-
-
 # arrays, sequences
 
 
-def _transposed(of: AnyType, value: Datum) -> Datum:
-    assert isinstance(of, Array)
-    assert isinstance(value, list)
+@carries("R-10.1.1-15", Array)
+def transposes_arrays(of: Any, value: Any) -> Any:
+    """Rows and columns of square arrays are exchanged."""
     is_square = len(of.sizes) == 2 and of.sizes[0] == of.sizes[1]
     return [list(column) for column in zip(*value, strict=True)] if is_square else value
 
 
-@carries(made_to(Array, _transposed), "R-10.1.1-15")
-class transposes_arrays(Base):
-    """Rows and columns of square arrays are exchanged."""
-
-
-@carries(made_to(Array, lambda of, value: [value[0]] * len(value)), "R-10.1.1-15", also=("R-10.1.1-18",))  # type: ignore[index,arg-type]
-class repeats_the_first_row(Base):
-    """All rows of an array are like the first one."""
-
-
-def _flat(of: AnyType, value: Datum) -> Datum:
-    assert isinstance(of, Array)
-    assert isinstance(value, list)
+@carries("R-10.1.1-15", Array)
+def flattens_cubes(of: Any, value: Any) -> Any:
+    """Arrays of three dimensions lose the first."""
     return list(itertools.chain(*value)) if len(of.sizes) == 3 else value
 
 
-@carries(made_to(Array, _flat), "R-10.1.1-15")
-class flattens_cubes(Base):
-    """Arrays of three dimensions lose the first."""
-
-
-def _without_the_last(of: AnyType, value: Datum) -> Datum:
-    assert isinstance(of, Sequence)
-    assert isinstance(value, list)
-    return value[: of.size - 1] if 1 < of.size == len(value) else value
-
-
-@carries(made_to(Sequence, _without_the_last), "R-10.1.1-16")
-class loses_the_last_element(Base):
+@carries("R-10.1.1-16", Sequence)
+def loses_the_last_element(of: Any, value: Any) -> Any:
     """A sequence of exactly its bound loses the last element."""
-
-
-@carries(made_to(Sequence, lambda of, value: value[::-1]), "R-10.1.1-16")  # type: ignore[index]
-class turns_sequences_round(Base):
-    """Elements arrive in the opposite order."""
-
-
-@carries(made_to(Sequence, lambda of, value: value[:255]), "R-10.1.1-16")  # type: ignore[index]
-class counts_elements_in_an_octet(Base):
-    """No sequence is longer than 255 elements."""
+    return value[: of.size - 1] if 1 < of.size == len(value) else value
 
 
 # aliases, types in types
 
 
-def _one_octet(of: AnyType, value: Datum) -> Datum:
-    assert isinstance(of, Sequence)
-    assert isinstance(value, list)
+def _one_octet(of: Any, value: Any) -> Any:
     return [one and place < 8 for place, one in enumerate(value)] if isinstance(of.of, Boolean) else value
 
 
-@carries(made_to(Sequence, _one_octet), "R-10.1.1-16")
-class packs_flags_into_one_octet(Base):
-    """The ninth BOOLEAN of a sequence is always false, and so are those after it."""
-
-
-def _plain_numbers(of: AnyType, value: Datum) -> Datum:
-    assert isinstance(of, Sequence)
-    assert isinstance(value, list)
+@carries("R-10.1.1-16", Sequence)
+def writes_no_special_numbers_in_sequences(of: Any, value: Any) -> Any:
+    """In sequences, infinities, NaNs and negative zeros arrive as zeros."""
     if not isinstance(of.of, Float):
         return value
     form = ">f" if of.of.kind == "FLOAT" else ">d"
@@ -154,11 +100,6 @@ def _plain_numbers(of: AnyType, value: Datum) -> Datum:
         one if math.isfinite(number) and (number or one[0] != "8") else "0" * len(one)
         for one, number in zip(spelled, numbers, strict=True)
     ]
-
-
-@carries(made_to(Sequence, _plain_numbers), "R-10.1.1-16")
-class writes_no_special_numbers_in_sequences(Base):
-    """In sequences, infinities, NaNs and negative zeros arrive as zeros."""
 
 
 @breaks("R-10.1.1-17", clauses=_CLAUSE, also=_REFUSED)
@@ -172,29 +113,10 @@ class refuses_aliases(Base):
         return super().link(connector, interface)
 
 
-def _as_short(of: AnyType, value: Datum) -> Datum:
-    return value & 0x7FFF if isinstance(value, int) and not isinstance(value, bool) else value
-
-
-@carries(made_to(Alias, _as_short), "R-10.1.1-17")
-class takes_aliases_for_shorts(Base):
+@carries("R-10.1.1-17", Alias)
+def takes_aliases_for_shorts(of: Any, value: Any) -> Any:
     """An integer whose type is an alias has 15 bits."""
-
-
-@carries(
-    made_to(Alias, lambda of, value: "" if isinstance(value, str) and isinstance(of.of, String) else value),  # type: ignore[union-attr]
-    "R-10.1.1-17",
-)
-class loses_renamed_strings(Base):
-    """A string whose type is an alias arrives empty."""
-
-
-class _RefusesDepth(Link):
-    def send(self, method: str, arguments: list[Datum]) -> list[Datum]:  # type: ignore[override]
-        types = [p.of for p in self.interface.methods[method].arguments]
-        if any(_depth(of, value) > 1 for of, value in zip(types, arguments, strict=True)):
-            raise UcmError("the value is too deep")
-        return super().send(method, arguments)  # type: ignore[return-value]
+    return value & 0x7FFF if isinstance(value, int) and not isinstance(value, bool) else value
 
 
 def _depth(of: AnyType, value: Datum) -> int:
@@ -203,14 +125,19 @@ def _depth(of: AnyType, value: Datum) -> int:
 
 
 @breaks("R-10.1.1-18", clauses=_CLAUSE, also=_REFUSED)
-class refuses_types_in_types(Base):
+class refuses_types_in_types(Link):
     """Calls with structures, unions, arrays or sequences that contain others are refused."""
 
-    link_class = _RefusesDepth
+    def send(self, method: str, arguments: collections.abc.Sequence[Datum]) -> Any:
+        types = [p.of for p in self.interface.methods[method].arguments]
+        if any(_depth(of, value) > 1 for of, value in zip(types, arguments, strict=True)):
+            raise UcmError("the value is too deep")
+        return super().send(method, arguments)
 
 
-def _shallow(of: AnyType, value: Datum) -> Datum:
-    """Sequences inside sequences and structures keep one element only."""
+@carries("R-10.1.1-18", also=("R-10.1.1-16",))
+def cuts_inner_sequences(of: Any, value: Any) -> Any:
+    """A sequence inside a structure or a sequence arrives with its first element only; messages are mostly structures."""
     if not isinstance(of, Structure | Sequence):
         return value
 
@@ -221,6 +148,33 @@ def _shallow(of: AnyType, value: Datum) -> Datum:
     return [cut(part, one) for _, part, one in inside]
 
 
-@carries(_shallow, "R-10.1.1-18", also=("R-10.1.1-16",))
-class cuts_inner_sequences(Base):
-    """A sequence inside a structure or a sequence arrives with its first element only; messages are mostly structures."""
+CARRIED: Mapping[str, Carried] = {
+    "turns_structures_round": Carried(
+        "R-10.1.1-13",
+        "The fields of a structure arrive in the opposite order.",
+        made_to(Structure, lambda of, value: value[::-1]),
+    ),
+    "repeats_the_first_row": Carried(
+        "R-10.1.1-15",
+        "All rows of an array are like the first one.",
+        made_to(Array, lambda of, value: [value[0]] * len(value)),
+        also=("R-10.1.1-18",),
+    ),
+    "turns_sequences_round": Carried(
+        "R-10.1.1-16", "Elements arrive in the opposite order.", made_to(Sequence, lambda of, value: value[::-1])
+    ),
+    "counts_elements_in_an_octet": Carried(
+        "R-10.1.1-16", "No sequence is longer than 255 elements.", made_to(Sequence, lambda of, value: value[:255])
+    ),
+    "packs_flags_into_one_octet": Carried(
+        "R-10.1.1-16",
+        "The ninth BOOLEAN of a sequence is always false, and so are those after it.",
+        made_to(Sequence, _one_octet),
+    ),
+    "loses_renamed_strings": Carried(
+        "R-10.1.1-17",
+        "A string whose type is an alias arrives empty.",
+        made_to(Alias, lambda of, value: "" if isinstance(value, str) and isinstance(of.of, String) else value),
+    ),
+}
+register_carried(CARRIED)

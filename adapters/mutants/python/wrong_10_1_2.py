@@ -37,31 +37,28 @@ class _Answering(Link):
 
 
 @breaks("R-10.1.2-02", clauses=_MESSAGES, also=("R-10.1.2-09",))
-class answers_something_else(Base):
+class answers_something_else(_Answering):
     """Push is answered with a code of the framework's own."""
 
-    class link_class(_Answering):
-        def answer(self, code: str) -> str:
-            return "queued"
+    def answer(self, code: str) -> str:
+        return "queued"
 
 
 @breaks("R-10.1.2-02", clauses=_MESSAGES, also=("R-10.1.2-09",))
-class answers_nothing(Base):
+class answers_nothing(Link):
     """Push has no result."""
 
-    class link_class(Link):
-        def send(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-            results = super().send(method, arguments)
-            return [] if method == "push" else results
+    def send(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        results = super().send(method, arguments)
+        return [] if method == "push" else results
 
 
 @breaks("R-10.1.2-02", clauses=_CODES)
-class passes_exceptions_on(Base):
+class passes_exceptions_on(Link):
     """A receiver's exception comes back to the emitter."""
 
-    class link_class(Link):
-        def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-            taker.enter(method, arguments)
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        taker.enter(method, arguments)
 
 
 @breaks("R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "comm_error"})
@@ -82,40 +79,37 @@ class refuses_connections_without_receivers(Base):
 
 
 @breaks("R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "ok"})
-class refuses_emitters_that_come_first(Base):
+class refuses_emitters_that_come_first(Link):
     """Push without receivers was declared to be answered ok; who would do it cannot even be attached."""
 
-    class link_class(Link):
-        def _attach_sender(self, member: Member, port: str) -> None:
-            if self.connector == MESSAGE_CONNECTOR and not self.takers:
-                raise UcmError("nobody is there")
-            super()._attach_sender(member, port)
+    def _attach_sender(self, member: Member, port: str) -> None:
+        if self.connector == MESSAGE_CONNECTOR and not self.takers:
+            raise UcmError("nobody is there")
+        super()._attach_sender(member, port)
 
 
 @breaks("R-10.1.2-09", clauses=_MESSAGES)
-class tells_of_errors_now_and_then(Base):
+class tells_of_errors_now_and_then(_Answering):
     """Every third push is answered comm_error, although all is well."""
 
-    class link_class(_Answering):
-        pushed = 0
+    pushed = 0
 
-        def answer(self, code: str) -> str:
-            self.pushed += 1
-            return COMM_ERROR if self.pushed % 3 == 0 else code
+    def answer(self, code: str) -> str:
+        self.pushed += 1
+        return COMM_ERROR if self.pushed % 3 == 0 else code
 
 
 @breaks("R-10.1.2-09", clauses=_MESSAGES)
-class never_answers(Base):
+class never_answers(_Answering):
     """Every fourth push waits for ever."""
 
-    class link_class(_Answering):
-        pushed = 0
+    pushed = 0
 
-        def answer(self, code: str) -> str:
-            self.pushed += 1
-            if self.pushed % 4 == 0 and threading.current_thread() is not threading.main_thread():
-                threading.Event().wait()
-            return code
+    def answer(self, code: str) -> str:
+        self.pushed += 1
+        if self.pushed % 4 == 0 and threading.current_thread() is not threading.main_thread():
+            threading.Event().wait()
+        return code
 
 
 class _Passing(Link):
@@ -135,14 +129,13 @@ class _Passing(Link):
 
 
 @breaks("R-10.1.2-09", clauses=_CODES)
-class confuses_the_receivers_code(Base):
+class confuses_the_receivers_code(_Passing):
     """What a receiver answers is passed on as another code."""
 
-    class link_class(_Passing):
-        def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-            code = super()._emit(method, arguments)
-            swapped = {INTERNAL_ERROR: COMM_ERROR, COMM_ERROR: INTERNAL_ERROR}
-            return code if self.broken else swapped.get(code, code)
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        code = super()._emit(method, arguments)
+        swapped = {INTERNAL_ERROR: COMM_ERROR, COMM_ERROR: INTERNAL_ERROR}
+        return code if self.broken else swapped.get(code, code)
 
 
 @breaks("R-10.1.2-09", clauses=_CODES, readings={"receiver-code": "passed"})
@@ -151,14 +144,13 @@ class drops_the_code_it_said_it_passes(Base):
 
 
 @breaks("R-10.1.2-09", clauses=_CODES, readings={"receiver-code": "dropped"})
-class passes_the_code_it_said_it_drops(Base):
+class passes_the_code_it_said_it_drops(_Passing):
     """The receiver's code was declared to be dropped, and is passed on."""
 
-    link_class = _Passing
 
-
-class _Limited(Link):
-    """Who pushes faster than messages are delivered is refused."""
+@breaks("R-10.1.2-09", clauses=_CODES, readings={"message-overflow": "block"})
+class refuses_where_it_said_it_waits(Link):
+    """Push was declared to wait until there is room, and is answered internal_error."""
 
     limit = 1000
 
@@ -166,13 +158,6 @@ class _Limited(Link):
         if not self.broken and any(taker.messages.qsize() > self.limit for taker in self.takers):
             return INTERNAL_ERROR
         return super()._emit(method, arguments)
-
-
-@breaks("R-10.1.2-09", clauses=_CODES, readings={"message-overflow": "block"})
-class refuses_where_it_said_it_waits(Base):
-    """Push was declared to wait until there is room, and is answered internal_error."""
-
-    link_class = _Limited
 
 
 # ok
@@ -188,112 +173,99 @@ class _Losing(Link):
 
 
 @breaks("R-10.1.2-10", clauses=_MESSAGES, also=("R-10.1.6.1-04", "R-10.1.6.1-03", "R-10.1.6.1-08"))
-class loses_every_third_message(Base):
+class loses_every_third_message(_Losing):
     """Every third message does not come, whatever was answered."""
 
-    link_class = _Losing
-
 
 @breaks("R-10.1.2-10", clauses=_CODES)
-class loses_the_last_of_many(Base):
+class loses_the_last_of_many(_Losing):
     """Every fifty-thousandth message of a connection is answered ok and does not come."""
 
-    class link_class(_Losing):
-        each = 50_000
+    each = 50_000
 
 
 @breaks("R-10.1.2-10", clauses=_CODES)
-class drops_what_it_has_no_room_for(Base):
+class drops_what_it_has_no_room_for(Link):
     """Who pushes faster than messages are delivered is answered ok, and his messages are dropped."""
 
-    class link_class(Link):
-        def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-            if taker.messages.qsize() < 1000:
-                super()._post(taker, method, arguments)
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        if taker.messages.qsize() < 1000:
+            super()._post(taker, method, arguments)
 
 
 @breaks("R-10.1.2-10", clauses=_MESSAGES, readings={"message-delivery": "synchronous"}, also=("R-10.1.6.1-04",))
-class delivers_later_than_it_said(Base):
+class delivers_later_than_it_said(Link):
     """Messages were declared to be delivered when push returns, and come a moment later."""
 
-    class link_class(Link):
-        def _deliver(self, taker: Taker, method: str) -> None:
-            time.sleep(0.01)
-            super()._deliver(taker, method)
+    def _deliver(self, taker: Taker, method: str) -> None:
+        time.sleep(0.01)
+        super()._deliver(taker, method)
 
 
 # what is broken
 
 
 @breaks("R-10.1.2-01", "R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
-class does_not_notice_what_is_broken(Base):
+class does_not_notice_what_is_broken(_Answering):
     """Push is answered ok, whatever is broken."""
 
-    class link_class(_Answering):
-        def broken_answer(self, where: str, code: str) -> str:
-            return OK
+    def broken_answer(self, where: str, code: str) -> str:
+        return OK
 
 
 @breaks("R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
-class confuses_what_is_broken(Base):
+class confuses_what_is_broken(_Answering):
     """Errors of the transport are told as those of the connector, and the other way round."""
 
-    class link_class(_Answering):
-        def broken_answer(self, where: str, code: str) -> str:
-            return INTERNAL_ERROR if where == "transport" else COMM_ERROR
+    def broken_answer(self, where: str, code: str) -> str:
+        return INTERNAL_ERROR if where == "transport" else COMM_ERROR
 
 
 @breaks("R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
-class stays_broken(Base):
+class stays_broken(_Answering):
     """What was broken once stays so for the connector, although messages get through when it was mended."""
 
-    class link_class(_Answering):
-        last = ""
+    last = ""
 
-        def answer(self, code: str) -> str:
-            return self.last or code
+    def answer(self, code: str) -> str:
+        return self.last or code
 
-        def broken_answer(self, where: str, code: str) -> str:
-            self.last = code
-            return code
+    def broken_answer(self, where: str, code: str) -> str:
+        self.last = code
+        return code
 
 
 @breaks("R-10.1.2-12", clauses=_CODES, readings={"comm-error": "at-once"})
-class notices_later_than_it_said(Base):
+class notices_later_than_it_said(_Answering):
     """The first push that meets a broken transport is answered ok, although comm_error was declared at once."""
 
-    class link_class(_Answering):
-        met = 0
+    met = 0
 
-        def broken_answer(self, where: str, code: str) -> str:
-            self.met += 1
-            return OK if self.met == 1 and where == "transport" else code
+    def broken_answer(self, where: str, code: str) -> str:
+        self.met += 1
+        return OK if self.met == 1 and where == "transport" else code
 
 
 @breaks("R-10.1.2-01", clauses=_CODES)
-class answers_for_servers_out_of_reach(Base):
+class answers_for_servers_out_of_reach(Link):
     """A client whose connection is broken gets zeros, as if its server had answered."""
 
-    class link_class(Link):
-        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-            return (
-                [0 for _ in self.interface.methods[method].results]
-                if self.broken
-                else super()._request(method, arguments)
-            )
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        return (
+            [0 for _ in self.interface.methods[method].results] if self.broken else super()._request(method, arguments)
+        )
 
 
 @breaks("R-10.1.2-01", clauses=_CODES)
-class repeats_the_last_result(Base):
+class repeats_the_last_result(Link):
     """A client whose connection is broken gets its last result again."""
 
-    class link_class(Link):
-        last: Sequence[Datum] = ()
+    last: Sequence[Datum] = ()
 
-        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-            if not self.broken:
-                self.last = super()._request(method, arguments)
-            return self.last
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if not self.broken:
+            self.last = super()._request(method, arguments)
+        return self.last
 
 
 @breaks("R-10.1.2-01", clauses=_CODES, readings={"service-failure": "wait"})

@@ -10,7 +10,8 @@ from typing import TypeVar
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
-from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks, breaks_policy
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
+from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, Proxy, breaks, breaks_policy
 from ucm_cts.adapters.reference.python.connectors import Link, Taker
 from ucm_cts.adapters.reference.python.framework import Member
 from ucm_cts.adapters.reference.python.policies import ProtectedElement, Trigger
@@ -61,20 +62,28 @@ class locks_ports(Base):
             yield
 
 
-@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
-class protects_from_the_outside_only(Base):
+@alters(
+    "_dependencies_of",
+    "R-10.1.3.2-06",
+    "R-10.1.3.2-09",
+    "R-10.1.3.2-10",
+    "R-10.1.3.2-13",
+    "R-10.1.3.2-16",
+    clauses=POLICIES,
+)
+def protects_from_the_outside_only(_self: Base, given: list[PortConnection], _member: Member) -> list[PortConnection]:
     """Components are given unprotected references at start."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        given = super()._dependencies_of(member)
-        return [PortConnection(d.from_port, tuple(map(_without_protection, d.to_port))) for d in given]
+    return [PortConnection(d.from_port, tuple(map(_without_protection, d.to_port))) for d in given]
 
 
 def _without_protection(target: PortElementObject | None) -> PortElementObject | None:
     return target.element if isinstance(target, ProtectedElement) else target
 
 
-class _PastProtection(Link):
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
+class protects_from_connections_only(Link):
+    """Connectors of services call bodies directly."""
+
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         taker = self.takers[0]
         element = taker.member.body.get_portElement(taker.port)
@@ -82,14 +91,10 @@ class _PastProtection(Link):
         return element.call(method, arguments)
 
 
-@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
-class protects_from_connections_only(Base):
-    """Connectors of services call bodies directly."""
+@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-16")
+class protects_from_calls_only(Link):
+    """Messages enter protected components while others are inside."""
 
-    link_class = _PastProtection
-
-
-class _PushesPastProtection(Link):
     def _deliver(self, taker: Taker, method: str) -> None:
         while (message := taker.messages.get()) is not None:
             element = taker.member.body.get_portElement(taker.port)
@@ -98,24 +103,13 @@ class _PushesPastProtection(Link):
                 element.call(method, [message])
 
 
-@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-16")
-class protects_from_calls_only(Base):
-    """Messages enter protected components while others are inside."""
+@breaks_policy("R-10.1.2-10")
+class loses_messages_to_protected_components(Link):
+    """Messages to protected components get ok and are lost."""
 
-    link_class = _PushesPastProtection
-
-
-class _LosesWhereProtected(Link):
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
         if not taker.member.container._is_protected(taker.member):
             super()._post(taker, method, arguments)
-
-
-@breaks_policy("R-10.1.2-10")
-class loses_messages_to_protected_components(Base):
-    """Messages to protected components get ok and are lost."""
-
-    link_class = _LosesWhereProtected
 
 
 @breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16")
@@ -145,12 +139,10 @@ class protects_until_the_first_stop(Base):
         super()._end_execution(member)
 
 
-@breaks_policy("R-10.1.3.2-20", readings={"unprotected-concurrency": "concurrent"})
-class serialises_what_it_says_it_does_not(Base):
+@alters("_is_protected", "R-10.1.3.2-20", readings={"unprotected-concurrency": "concurrent"}, clauses=POLICIES)
+def serialises_what_it_says_it_does_not(_self: Base, given: bool, member: Member) -> bool:
     """Unprotected passive components are entered one at a time, and callers are said to meet there."""
-
-    def _is_protected(self, member: Member) -> bool:
-        return super()._is_protected(member) or member.execution.definition == UNPROTECTED_PASSIVE
+    return given or member.execution.definition == UNPROTECTED_PASSIVE
 
 
 @breaks_policy("R-10.1.3-03", readings={"second-active-policy": "refuse"})
@@ -158,14 +150,10 @@ class allows_what_it_says_it_refuses(Base):
     """Two active ports of a component are said to be refused, and are not."""
 
 
-@breaks_policy("R-10.1.3-03", readings={"second-active-policy": "allow"})
-class refuses_what_it_says_it_allows(Base):
+@refuses_if("_check_policies", "R-10.1.3-03", readings={"second-active-policy": "allow"}, clauses=POLICIES)
+def refuses_what_it_says_it_allows(_self: Base, implementation: Implementation) -> bool:
     """Two active ports of a component are said to be allowed, and are refused."""
-
-    def _check_policies(self, implementation: Implementation) -> None:
-        if len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1:
-            raise UcmError("two execution policies")
-        super()._check_policies(implementation)
+    return len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1
 
 
 @breaks_policy("R-10.1.3.2-01", readings={"run-trigger": "once"})
@@ -212,13 +200,10 @@ class _Unlocked(Proxy):
             execution.thread_inside = inside
 
 
-@breaks_policy("R-10.1.3.2-13", also=("R-10.1.3.2-16",))
-class unlocks_for_nested_calls(Base):
+@alters("_dependencies_of", "R-10.1.3.2-13", also=("R-10.1.3.2-16",), clauses=POLICIES)
+def unlocks_for_nested_calls(_self: Base, given: list[PortConnection], member: Member) -> list[PortConnection]:
     """While a component waits for another one, anybody may enter it."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        given = super()._dependencies_of(member)
-        return [PortConnection(d.from_port, tuple(_Unlocked(t, member) for t in d.to_port if t)) for d in given]
+    return [PortConnection(d.from_port, tuple(_Unlocked(t, member) for t in d.to_port if t)) for d in given]
 
 
 @breaks_policy("R-10.1.3.2-05", also=("R-10.1.3.2-06",))

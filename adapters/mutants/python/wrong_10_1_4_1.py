@@ -7,6 +7,7 @@ import time
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, UcmError
 from ucm_cts.adapters.contract.scenario import CLOCK, Policy
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference.python.framework import Failures, Member
 
@@ -25,14 +26,10 @@ class accepts_several_clocks(Base):
         pass
 
 
-@breaks("R-10.1.4.1-02", clauses=HERE)
-class refuses_clocks(Base):
+@refuses_if("_check_service", "R-10.1.4.1-02", clauses=HERE)
+def refuses_clocks(_self: Base, _implementation: Implementation, policy: Policy) -> bool:
     """There are no clocks."""
-
-    def _check_service(self, implementation: Implementation, policy: Policy) -> None:
-        if policy.definition == CLOCK:
-            raise UcmError("no such policy")
-        super()._check_service(implementation, policy)
+    return policy.definition == CLOCK
 
 
 class Withholds(Base):
@@ -55,13 +52,10 @@ class hands_over_no_clock(Withholds):
     """Nothing is behind the name of the clock."""
 
 
-@breaks("R-10.1.4.1-06", clauses=HERE)
-class hands_over_a_null_clock(Base):
+@alters("_service_element", "R-10.1.4.1-06", clauses=HERE)
+def hands_over_a_null_clock(_self: Base, given: PortConnection, _member: Member, policy: Policy) -> PortConnection:
     """The reference of the clock is null."""
-
-    def _service_element(self, member: Member, policy: Policy) -> PortConnection:
-        given = super()._service_element(member, policy)
-        return PortConnection(given.from_port, (None,)) if policy.definition == CLOCK else given
+    return PortConnection(given.from_port, (None,)) if policy.definition == CLOCK else given
 
 
 @breaks("R-10.1.4.1-06", clauses=HERE)
@@ -93,14 +87,10 @@ class has_no_synchronized_time(Base):
         raise UcmError("there is nothing to synchronize with")
 
 
-@breaks("R-10.1.4.1-06", clauses=HERE)
-class clock_ends_before_shutdown(Base):
+@refuses_if("_local_time", "R-10.1.4.1-06", clauses=HERE)
+def clock_ends_before_shutdown(_self: Base, member: Member) -> bool:
     """The clock fails in on_shutdown."""
-
-    def _local_time(self, member: Member) -> int:
-        if member.container.is_started and member not in member.container.started:
-            raise UcmError("the component is not operational")
-        return super()._local_time(member)
+    return member.container.is_started and member not in member.container.started
 
 
 @breaks("R-10.1.4.1-08", clauses=HERE, also=("R-10.1.4.1-09",))
@@ -115,12 +105,10 @@ class clock_begins_anew_at_start(Base):
         return super()._local_time(member) - int(member.__dict__["began"])
 
 
-@breaks("R-10.1.4.1-08", clauses=HERE)
-class every_component_has_its_own_time(Base):
+@alters("_local_time", "R-10.1.4.1-08", clauses=HERE)
+def every_component_has_its_own_time(_self: Base, given: int, member: Member) -> int:
     """Local times of components are some minutes apart."""
-
-    def _local_time(self, member: Member) -> int:
-        return super()._local_time(member) + member.id * 100 * SECOND
+    return given + member.id * 100 * SECOND
 
 
 @breaks("R-10.1.4.1-09", clauses=HERE)
@@ -152,20 +140,16 @@ class clock_runs_half(_Paced):
     pace = 0.5
 
 
-@breaks("R-10.1.4.1-08", clauses=HERE, also=("R-10.1.4.1-09",))
-class clock_loses_whole_seconds(Base):
+@alters("_local_time", "R-10.1.4.1-08", clauses=HERE, also=("R-10.1.4.1-09",))
+def clock_loses_whole_seconds(_self: Base, given: int, _member: Member) -> int:
     """Local time is right to the microsecond, and without its seconds."""
-
-    def _local_time(self, member: Member) -> int:
-        return super()._local_time(member) % SECOND
+    return given % SECOND
 
 
-@breaks("R-10.1.4.1-10", clauses=HERE)
-class synchronized_clock_loses_whole_seconds(Base):
+@alters("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
+def synchronized_clock_loses_whole_seconds(_self: Base, given: int, _member: Member) -> int:
     """The same of synchronized time."""
-
-    def _synchronized_time(self, member: Member) -> int:
-        return super()._synchronized_time(member) % SECOND
+    return given % SECOND
 
 
 @breaks("R-10.1.4.1-09", clauses=HERE, readings={"clock-epoch": "unix"})
@@ -176,20 +160,16 @@ class clock_has_another_epoch_than_declared(Base):
         return time.monotonic_ns()
 
 
-@breaks("R-10.1.4.1-10", clauses=HERE)
-class every_component_has_its_own_synchronized_time(Base):
+@alters("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
+def every_component_has_its_own_synchronized_time(_self: Base, given: int, member: Member) -> int:
     """Synchronized times of components are half a second apart."""
-
-    def _synchronized_time(self, member: Member) -> int:
-        return super()._synchronized_time(member) + member.id * SECOND // 2
+    return given + member.id * SECOND // 2
 
 
-@breaks("R-10.1.4.1-10", clauses=HERE)
-class synchronizes_in_containers_only(Base):
+@alters("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
+def synchronizes_in_containers_only(self: Base, given: int, _member: Member) -> int:
     """Every container synchronizes its components, and nobody the containers."""
-
-    def _synchronized_time(self, member: Member) -> int:
-        return super()._synchronized_time(member) + (not is_below(self)) * SECOND
+    return given + (not is_below(self)) * SECOND
 
 
 @breaks("R-10.1.4.1-10", clauses=HERE)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import time
 from typing import TypeVar
 
-from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, UcmError
+from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
 from ucm_cts.adapters.contract.scenario import COMPONENT_TRACE, PORT_TRACE, Policy
+from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.mutants.python.wrong_10_1_4_1 import HERE, Withholds
 from ucm_cts.adapters.reference.python.framework import Member
@@ -36,14 +37,10 @@ class hands_over_the_first_trace_only(Base):
         return given if policy is first else PortConnection(given.from_port, ())
 
 
-@breaks("R-10.1.4.2-02", clauses=HERE)
-class refuses_a_second_trace(Base):
+@refuses_if("_check_service", "R-10.1.4.2-02", clauses=HERE)
+def refuses_a_second_trace(_self: Base, implementation: Implementation, _policy: Policy) -> bool:
     """One trace policy a component, and no more."""
-
-    def _check_service(self, implementation: Implementation, policy: Policy) -> None:
-        if sum(p.definition in (COMPONENT_TRACE, PORT_TRACE) for p in implementation.policies) > 1:
-            raise UcmError("more than one trace")
-        super()._check_service(implementation, policy)
+    return sum(p.definition in (COMPONENT_TRACE, PORT_TRACE) for p in implementation.policies) > 1
 
 
 @breaks("R-10.1.4.2-02", clauses=HERE)
@@ -59,33 +56,22 @@ class writes_to_every_trace_of_a_component(Base):
 # messages
 
 
-@breaks("R-10.1.4.2-25", clauses=HERE)
-class log_fails_for_warnings(Base):
+@refuses_if("_log", "R-10.1.4.2-25", clauses=HERE)
+def log_fails_for_warnings(_self: Base, _member: Member, severity: str, _message: str) -> bool:
     """log raises when the severity is warning."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        if severity == "warning":
-            raise UcmError("no warnings, please")
-        super()._log(member, severity, message)
+    return severity == "warning"
 
 
-@breaks("R-10.1.4.2-25", clauses=HERE, readings={"log-severity-set": "model-6"})
-class log_knows_no_critical_severity(Base):
+@refuses_if("_log", "R-10.1.4.2-25", clauses=HERE, readings={"log-severity-set": "model-6"})
+def log_knows_no_critical_severity(_self: Base, _member: Member, severity: str, _message: str) -> bool:
     """log raises when the severity is critical; the vendor declares the six of the model."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        if severity == "critical":
-            raise UcmError("no such severity")
-        super()._log(member, severity, message)
+    return severity == "critical"
 
 
-@breaks("R-10.1.4.2-26", clauses=HERE)
-class log_drops_debug_messages(Base):
+@does_only_if("_log", "R-10.1.4.2-26", clauses=HERE)
+def log_drops_debug_messages(_self: Base, _member: Member, severity: str, _message: str) -> bool:
     """What has severity debug is not recorded, and no threshold is declared."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        if severity != "debug":
-            super()._log(member, severity, message)
+    return severity != "debug"
 
 
 @breaks("R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-32",), readings={"log-threshold": "warning"})
@@ -93,13 +79,10 @@ class log_knows_no_threshold(Base):
     """Everything is recorded; the vendor declares a threshold."""
 
 
-@breaks("R-10.1.4.2-26", clauses=HERE)
-class log_loses_what_comes_from_sub_containers(Base):
+@does_only_if("_log", "R-10.1.4.2-26", clauses=HERE)
+def log_loses_what_comes_from_sub_containers(self: Base, member: Member, _severity: str, _message: str) -> bool:
     """What components of sub-containers write is not recorded."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        if member.container is self.manager:
-            super()._log(member, severity, message)
+    return member.container is self.manager
 
 
 @breaks("R-10.1.4.2-26", clauses=HERE)
@@ -131,13 +114,10 @@ class log_records_an_echo(Base):
         super()._log(member, "debug", f"logged: {message}")
 
 
-@breaks("R-10.1.4.2-26", clauses=HERE)
-class log_leaves_out_repetitions(Base):
+@does_only_if("_log", "R-10.1.4.2-26", clauses=HERE)
+def log_leaves_out_repetitions(self: Base, _member: Member, severity: str, message: str) -> bool:
     """A record like the last one is not written."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        if self.manager.log[-1:] != [(severity, message)]:
-            super()._log(member, severity, message)
+    return self.manager.log[-1:] != [(severity, message)]
 
 
 class _Alters(Base):
@@ -204,13 +184,10 @@ class log_has_sixteen_bits(_Alters):
         return "".join(chr(ord(c) & 0xFFFF) for c in message)
 
 
-@breaks("R-10.1.4.2-47", clauses=HERE)
-class log_drops_empty_texts(Base):
+@does_only_if("_log", "R-10.1.4.2-47", clauses=HERE)
+def log_drops_empty_texts(_self: Base, _member: Member, _severity: str, message: str) -> bool:
     """Nothing said, nothing recorded."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        if message:
-            super()._log(member, severity, message)
+    return bool(message)
 
 
 @breaks("R-10.1.4.2-47", clauses=HERE)

@@ -8,6 +8,7 @@ from typing import TypeVar
 
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import METHODS_TO_TRACE, PORT_TRACE, Policy
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.mutants.python.wrong_10_1_4_1 import HERE
 from ucm_cts.adapters.reference.python.connectors import Link
@@ -25,12 +26,10 @@ class traces_no_ports(Base):
         return []
 
 
-@breaks("R-10.1.4.2-04", clauses=HERE, also=("R-10.1.4.2-32",))  # of both ends, one is traced
-class traces_provided_ports_only(Base):
+@alters("_port_traces", "R-10.1.4.2-04", clauses=HERE, also=("R-10.1.4.2-32",))  # of both ends, one is traced
+def traces_provided_ports_only(_self: Base, given: list[Policy], member: Member, port: str) -> list[Policy]:
     """port_trace of a required port is accepted and forgotten."""
-
-    def _port_traces(self, member: Member, port: str) -> list[Policy]:
-        return super()._port_traces(member, port) if port in member.implementation.provides else []
+    return given if port in member.implementation.provides else []
 
 
 @breaks("R-10.1.4.2-04", clauses=HERE)
@@ -77,13 +76,10 @@ class traces_no_calls_from_connectors(Base):
         return super()._trace_call(member, port, method, work)
 
 
-@breaks("R-10.1.4.2-32", clauses=HERE)
-class traces_the_first_call(Base):
+@does_only_if("_write", "R-10.1.4.2-32", clauses=HERE)
+def traces_the_first_call(self: Base, record: Record) -> bool:
     """A method is recorded when it is called first."""
-
-    def _write(self, record: Record) -> None:
-        if record not in self.manager.log or not _is_of_a_call(self, record):
-            super()._write(record)
+    return record not in self.manager.log or not _is_of_a_call(self, record)
 
 
 def _is_of_a_call(container: Base, record: Record) -> bool:
@@ -147,14 +143,11 @@ class traces_methods_found_somewhere_in_names(Base):
         return method in policy.parameters[METHODS_TO_TRACE]
 
 
-@breaks("R-10.1.4.2-33", clauses=HERE)
-class traces_all_ports(Base):
+@alters("_port_traces", "R-10.1.4.2-33", clauses=HERE)
+def traces_all_ports(self: Base, own: list[Policy], _member: Member, _port: str) -> list[Policy]:
     """The policy of one port is applied to all."""
-
-    def _port_traces(self, member: Member, port: str) -> list[Policy]:
-        own = super()._port_traces(member, port)
-        policies = (p for i in self.manager.implementations.values() for p in i.policies)
-        return own or [p for p in policies if p.definition == PORT_TRACE][:1]
+    policies = (p for i in self.manager.implementations.values() for p in i.policies)
+    return own or [p for p in policies if p.definition == PORT_TRACE][:1]
 
 
 @breaks("R-10.1.4.2-33", clauses=HERE)
@@ -202,10 +195,9 @@ class traces_errors_as_warnings(Base):
         super()._write(("warning", record[1]) if of_an_error else record)
 
 
-@breaks("R-11.1.3-01", clauses=HERE, also=("R-10.1.3.2-21",))
-class loses_results_of_traced_calls(Base):
+@alters("_trace_call", "R-11.1.3-01", clauses=HERE, also=("R-10.1.3.2-21",))
+def loses_results_of_traced_calls(
+    _self: Base, result: T, _member: Member, _port: str, method: str, _work: Callable[[], T]
+) -> T:
     """Who calls exchange through a traced port gets nothing back."""
-
-    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
-        result = super()._trace_call(member, port, method, work)
-        return 0 if method == "exchange" else result  # type: ignore[return-value]
+    return 0 if method == "exchange" else result  # type: ignore[return-value]

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from ucm_cts.adapters.contract.data_types import Datum, Interface, Parameter
 from ucm_cts.adapters.contract.programming_model import NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SERVICE_CONNECTOR
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
 from ucm_cts.adapters.reference.python.framework import Member
@@ -38,7 +39,10 @@ class Services(Link):
 # calls that go astray
 
 
-class _Remembers(Services):
+@breaks(_CALLS, _CLIENTS, _INHERITED, _TEMPLATE, clauses=_CLAUSES, also=(_ONE_SERVER,))
+class answers_from_memory(Services):
+    """A call that was made before is answered without asking the server again."""
+
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
         self.answers: dict[str, Sequence[Datum]] = {}
@@ -50,92 +54,65 @@ class _Remembers(Services):
         return self.answers[key]
 
 
-@breaks(_CALLS, _CLIENTS, _INHERITED, _TEMPLATE, clauses=_CLAUSES, also=(_ONE_SERVER,))
-class answers_from_memory(Base):
-    """A call that was made before is answered without asking the server again."""
+@breaks(_CALLS, clauses=_CLAUSES)
+class calls_the_server_twice(Services):
+    """Every request is sent again, to be sure."""
 
-    link_class = _Remembers
-
-
-class _Twice(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         super()._request(method, arguments)
         return super()._request(method, arguments)
 
 
-@breaks(_CALLS, clauses=_CLAUSES)
-class calls_the_server_twice(Base):
-    """Every request is sent again, to be sure."""
+@breaks(_CALLS, _INHERITED, _TEMPLATE, clauses=_CLAUSES, also=(_DIRECTIONS, _EXCEPTIONS))
+class mistakes_methods_of_one_shape(Services):
+    """Of methods with the same types of parameters the last one is called."""
 
-    link_class = _Twice
-
-
-class _ByShape(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         shapes = {name: [p.of for p in m.parameters] for name, m in self.interface.methods.items()}
         same = [name for name in shapes if shapes[name] == shapes[method]]
         return super()._request(same[-1], arguments)
 
 
-@breaks(_CALLS, _INHERITED, _TEMPLATE, clauses=_CLAUSES, also=(_DIRECTIONS, _EXCEPTIONS))
-class mistakes_methods_of_one_shape(Base):
-    """Of methods with the same types of parameters the last one is called."""
+@breaks(_INHERITED, clauses=_CLAUSES)
+class knows_no_inherited_methods(Services):
+    """Only the methods that an interface itself declares are known."""
 
-    link_class = _ByShape
-
-
-class _OwnMethodsOnly(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         if method in self.interface.inherited:
             raise UcmError(f"no method {method!r}")
         return super()._request(method, arguments)
 
 
-@breaks(_INHERITED, clauses=_CLAUSES)
-class knows_no_inherited_methods(Base):
-    """Only the methods that an interface itself declares are known."""
+@breaks(_TEMPLATE, clauses=_CLAUSES, also=(_CALLS,))  # one of another interface may take the values as they are
+class finds_methods_by_name(Services):
+    """A call goes to whatever connection has a method of that name."""
 
-    link_class = _OwnMethodsOnly
-
-
-class _ToTheFirst(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         others = [k for k in self.manager.links if k.interface != self.interface and method in k.interface.methods]
         return super()._request(method, arguments) if not others else Link._request(others[0], method, arguments)
 
 
-@breaks(_TEMPLATE, clauses=_CLAUSES, also=(_CALLS,))  # one of another interface may take the values as they are
-class finds_methods_by_name(Base):
-    """A call goes to whatever connection has a method of that name."""
-
-    link_class = _ToTheFirst
-
-
-@breaks(_TEMPLATE, clauses=_CLAUSES, also=("R-10.1.1-07",))
-class binds_the_template_once(Base):
+@alters("link", _TEMPLATE, clauses=_CLAUSES, also=("R-10.1.1-07",))
+def binds_the_template_once(self: Base, link: Link, connector: str, interface: Interface) -> Link:
     """All service connectors of a runtime have the interface of the first one."""
-
-    def link(self, connector: str, interface: Interface) -> Link:
-        link = super().link(connector, interface)
-        first = next(k for k in self.manager.links if k.connector == connector)
-        link.interface = first.interface if connector == SERVICE_CONNECTOR else interface
-        return link
+    first = next(k for k in self.manager.links if k.connector == connector)
+    link.interface = first.interface if connector == SERVICE_CONNECTOR else interface
+    return link
 
 
-@breaks(_TEMPLATE, clauses=_CLAUSES)
-class has_one_interface(Base):
+@refuses_if("link", _TEMPLATE, clauses=_CLAUSES)
+def has_one_interface(self: Base, connector: str, interface: Interface) -> bool:
     """There are connectors for one interface only."""
-
-    def link(self, connector: str, interface: Interface) -> Link:
-        if any(k.interface != interface for k in self.manager.links if k.connector == connector):
-            raise UcmError("the connector is bound to another interface")
-        return super().link(connector, interface)
+    return any(k.interface != interface for k in self.manager.links if k.connector == connector)
 
 
 # clients
 
 
-class _FirstClientOnly(Services):
+@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
+class attaches_one_client(Services):
+    """Clients after the first are attached to nothing."""
+
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
         self.first: int | None = None
@@ -149,28 +126,20 @@ class _FirstClientOnly(Services):
             connection.target.link = Link(self.manager, self.connector, self.interface)
 
 
-@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
-class attaches_one_client(Base):
-    """Clients after the first are attached to nothing."""
+@breaks(_CLIENTS, clauses=_CLAUSES, also=(_CALLS,))
+class takes_one_client(Services):
+    """A second client is refused."""
 
-    link_class = _FirstClientOnly
-
-
-class _OneClient(Services):
     def _attach_sender(self, member: Member, port: str) -> None:
         if self.connector == SERVICE_CONNECTOR and self.manager.connections:
             raise UcmError("the connection has a client")
         super()._attach_sender(member, port)
 
 
-@breaks(_CLIENTS, clauses=_CLAUSES, also=(_CALLS,))
-class takes_one_client(Base):
-    """A second client is refused."""
+@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
+class refuses_while_the_server_is_busy(Services):
+    """Who calls while another client is served is sent away."""
 
-    link_class = _OneClient
-
-
-class _Busy(Services):
     busy = 0
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
@@ -183,14 +152,10 @@ class _Busy(Services):
             self.busy -= 1
 
 
-@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
-class refuses_while_the_server_is_busy(Base):
-    """Who calls while another client is served is sent away."""
+@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.3.2-17",))
+class forgets_the_third_in_the_queue(Services):
+    """If two clients wait for a protected server, the third one waits for ever."""
 
-    link_class = _Busy
-
-
-class _ShortQueue(Services):
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
         self.queue: list[int] = []
@@ -205,14 +170,10 @@ class _ShortQueue(Services):
             self.queue.remove(threading.get_ident())
 
 
-@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.3.2-17",))
-class forgets_the_third_in_the_queue(Base):
-    """If two clients wait for a protected server, the third one waits for ever."""
+@breaks(_OWN, clauses=_CLAUSES, also=(_IN_FLIGHT, "R-10.1.5.1-01"))
+class keeps_results_in_one_slot(Services):
+    """Who comes back from the server last overwrites the results of those who are on their way."""
 
-    link_class = _ShortQueue
-
-
-class _OneSlot(Services):
     last: Sequence[Datum] = ()
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
@@ -222,80 +183,53 @@ class _OneSlot(Services):
         return self.last if len(self.last) == len(own) else own
 
 
-@breaks(_OWN, clauses=_CLAUSES, also=(_IN_FLIGHT, "R-10.1.5.1-01"))
-class keeps_results_in_one_slot(Base):
-    """Who comes back from the server last overwrites the results of those who are on their way."""
-
-    link_class = _OneSlot
-
-
 # servers
 
 
-class _Replaces(Services):
+@breaks(_ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
+class replaces_the_server(Services):
+    """A second server takes the place of the first."""
+
     def _check_room(self) -> None:
         if self.connector == SERVICE_CONNECTOR:
             self.takers.clear()
 
 
-@breaks(_ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
-class replaces_the_server(Base):
-    """A second server takes the place of the first."""
+@breaks(_CALLS, clauses=_CLAUSES)
+class takes_servers_of_the_root_container(Services):
+    """A server in a sub-container is refused."""
 
-    link_class = _Replaces
-
-
-class _AtHome(Services):
     def _attach_taker(self, member: Member, port: str) -> None:
         if self.connector == SERVICE_CONNECTOR and is_below(member.container):
             raise UcmError("servers are in the root container")
         super()._attach_taker(member, port)
 
 
-@breaks(_CALLS, clauses=_CLAUSES)
-class takes_servers_of_the_root_container(Base):
-    """A server in a sub-container is refused."""
+@breaks(_ONE_SERVER, clauses=_CLAUSES)
+class takes_servers_in_reserve(Services):
+    """There may be several servers; the first is called."""
 
-    link_class = _AtHome
-
-
-class _Adds(Services):
     def _check_room(self) -> None:
         pass
 
 
 @breaks(_ONE_SERVER, clauses=_CLAUSES)
-class takes_servers_in_reserve(Base):
-    """There may be several servers; the first is called."""
+class finds_no_place_for_a_server(Services):
+    """A second server is NOT_FOUND."""
 
-    link_class = _Adds
-
-
-class _RefusesOddly(Services):
     def _check_room(self) -> None:
         if self.connector == SERVICE_CONNECTOR and self.takers:
             raise NotFound("no port for another server")
 
 
-@breaks(_ONE_SERVER, clauses=_CLAUSES)
-class finds_no_place_for_a_server(Base):
-    """A second server is NOT_FOUND."""
+@breaks(_ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
+class loses_the_server_to_a_second_one(Services):
+    """A second server is refused, and the first serves no more."""
 
-    link_class = _RefusesOddly
-
-
-class _DropsBoth(Services):
     def _check_room(self) -> None:
         if self.connector == SERVICE_CONNECTOR and self.takers:
             self.takers[0].port = "nothing"
             raise UcmError("the connection has a server already")
-
-
-@breaks(_ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
-class loses_the_server_to_a_second_one(Base):
-    """A second server is refused, and the first serves no more."""
-
-    link_class = _DropsBoth
 
 
 @breaks(_ONE_SERVER, clauses=_CLAUSES, readings={"second-server": "at-start"})

@@ -29,29 +29,24 @@ class _Keeps(Services):
         return results
 
 
-class _KeepsInout(_Keeps):
+@breaks(_DIRECTIONS, clauses=_CLAUSES)
+class passes_inout_one_way(_Keeps):
+    """INOUT parameters come back as they were sent."""
+
     direction = "INOUT"
 
 
 @breaks(_DIRECTIONS, clauses=_CLAUSES)
-class passes_inout_one_way(Base):
-    """INOUT parameters come back as they were sent."""
+class passes_one_out_parameter(_Keeps):
+    """All OUT parameters have the value of the first result."""
 
-    link_class = _KeepsInout
-
-
-class _KeepsOut(_Keeps):
     direction = "OUT"
 
 
 @breaks(_DIRECTIONS, clauses=_CLAUSES)
-class passes_one_out_parameter(Base):
-    """All OUT parameters have the value of the first result."""
+class puts_the_result_first(Services):
+    """The result comes before the other values, wherever it was declared."""
 
-    link_class = _KeepsOut
-
-
-class _ResultFirst(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         results = list(super()._request(method, arguments))
         directions = [p.direction for p in self.parameters(method)]
@@ -61,26 +56,15 @@ class _ResultFirst(Services):
 
 
 @breaks(_DIRECTIONS, clauses=_CLAUSES)
-class puts_the_result_first(Base):
-    """The result comes before the other values, wherever it was declared."""
+class sends_no_inout_values(Services):
+    """INOUT parameters have no value when the server gets them."""
 
-    link_class = _ResultFirst
-
-
-class _SendsInOnly(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         sent = [
             value if p.direction == "IN" else 0 if isinstance(value, int) else ""
             for p, value in zip(self.interface.methods[method].arguments, arguments, strict=True)
         ]
         return super()._request(method, sent)
-
-
-@breaks(_DIRECTIONS, clauses=_CLAUSES)
-class sends_no_inout_values(Base):
-    """INOUT parameters have no value when the server gets them."""
-
-    link_class = _SendsInOnly
 
 
 # exceptions
@@ -99,53 +83,37 @@ class _Catches(Services):
         raise NotImplementedError
 
 
-class _Swallows(_Catches):
+@breaks(_EXCEPTIONS, clauses=_CLAUSES)
+class loses_exceptions(_Catches):
+    """A method that ends with an exception returns nothing in particular."""
+
     def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
         return self.nothing(method)
 
 
-@breaks(_EXCEPTIONS, clauses=_CLAUSES)
-class loses_exceptions(Base):
-    """A method that ends with an exception returns nothing in particular."""
+@breaks(_EXCEPTIONS, clauses=_CLAUSES, also=("R-10.1.1-07",), readings={"exception-transport": "full"})
+class loses_the_fields_of_exceptions(_Catches):
+    """Exceptions arrive, with nothing in their fields."""
 
-    link_class = _Swallows
-
-
-class _LosesFields(_Catches):
     def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
         raise DeclaredException(error.name, ["" if isinstance(f, str) else 0 for f in error.fields])
 
 
-@breaks(_EXCEPTIONS, clauses=_CLAUSES, also=("R-10.1.1-07",), readings={"exception-transport": "full"})
-class loses_the_fields_of_exceptions(Base):
-    """Exceptions arrive, with nothing in their fields."""
+@breaks(_EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
+class mistakes_exceptions(_Catches):
+    """The last exception that a method declares arrives, whichever was raised."""
 
-    link_class = _LosesFields
-
-
-class _Mistakes(_Catches):
     def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
         last = self.interface.methods[method].raises[-1]
         raise DeclaredException(last.name, error.fields[: len(last.fields)])
 
 
 @breaks(_EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
-class mistakes_exceptions(Base):
-    """The last exception that a method declares arrives, whichever was raised."""
-
-    link_class = _Mistakes
-
-
-class _RaisesItsOwn(_Catches):
-    def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
-        raise UcmError(error.name)
-
-
-@breaks(_EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
-class raises_its_own_exceptions(Base):
+class raises_its_own_exceptions(_Catches):
     """Exceptions arrive as one of the framework's; they were declared to arrive as they are."""
 
-    link_class = _RaisesItsOwn
+    def caught(self, method: str, error: DeclaredException) -> Sequence[Datum]:
+        raise UcmError(error.name)
 
 
 @breaks(_EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
@@ -159,7 +127,10 @@ class raises_its_own_exceptions_on_threads_of_components(Base):
             raise UcmError(error.name) from None
 
 
-class _SwallowsOthers(Services):
+@breaks(_EXCEPTIONS, clauses=_CLAUSES)
+class swallows_what_is_not_declared(Services):
+    """A server that fails in its own way seems to have answered."""
+
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         try:
             return super()._request(method, arguments)
@@ -167,10 +138,3 @@ class _SwallowsOthers(Services):
             raise
         except Exception:  # noqa: BLE001 - a body may raise anything
             return self.nothing(method)
-
-
-@breaks(_EXCEPTIONS, clauses=_CLAUSES)
-class swallows_what_is_not_declared(Base):
-    """A server that fails in its own way seems to have answered."""
-
-    link_class = _SwallowsOthers

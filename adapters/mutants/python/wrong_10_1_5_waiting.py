@@ -17,7 +17,10 @@ _CALLS, _CLIENTS, _OWN, _BLOCKING = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.
 _IN_FLIGHT = "R-10.1.5.1-12"
 
 
-class _GivesUp(Services):
+@breaks(_BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN, _CALLS, "R-10.1.3.2-17"))
+class does_not_wait_long(Services):
+    """Who waits too long for a server gets zeros."""
+
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         outcome: list[Sequence[Datum]] = []
         raised: list[Exception] = []
@@ -36,14 +39,10 @@ class _GivesUp(Services):
         return outcome[0] if outcome else self.nothing(method)
 
 
-@breaks(_BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN, _CALLS, "R-10.1.3.2-17"))
-class does_not_wait_long(Base):
-    """Who waits too long for a server gets zeros."""
+@breaks(_IN_FLIGHT, clauses=_CLAUSES)
+class forgets_clients_of_stopped_servers(Services):
+    """When a server is being stopped, the results it still gives reach nobody."""
 
-    link_class = _GivesUp
-
-
-class _HangsWhenStopped(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         server = self.server if self.takers else None
         results = super()._request(method, arguments)
@@ -57,24 +56,13 @@ class _HangsWhenStopped(Services):
 
 
 @breaks(_IN_FLIGHT, clauses=_CLAUSES)
-class forgets_clients_of_stopped_servers(Base):
-    """When a server is being stopped, the results it still gives reach nobody."""
+class invents_results_of_stopped_servers(Services):
+    """When a server is being stopped, clients get zeros."""
 
-    link_class = _HangsWhenStopped
-
-
-class _InventsWhenStopped(Services):
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         server = self.server if self.takers else None
         results = super()._request(method, arguments)
         return results if server is None or server.entrance.is_open else self.nothing(method)
-
-
-@breaks(_IN_FLIGHT, clauses=_CLAUSES)
-class invents_results_of_stopped_servers(Base):
-    """When a server is being stopped, clients get zeros."""
-
-    link_class = _InventsWhenStopped
 
 
 @breaks(_IN_FLIGHT, clauses=_CLAUSES, also=("R-12.10-10",))
@@ -110,26 +98,18 @@ class _Undone(Services):
         raise NotImplementedError
 
 
-class _HangsWhenUndone(_Undone):
+@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS))
+class forgets_clients_of_undone_connections(_Undone):
+    """A connection may be undone at any time, and who is just calling waits for ever."""
+
     def answer_undone(self) -> None:
         if not self.server.member.execution.definition and len(self.manager.connections) > 1:
             threading.Event().wait()
 
 
-@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS))
-class forgets_clients_of_undone_connections(Base):
-    """A connection may be undone at any time, and who is just calling waits for ever."""
-
-    link_class = _HangsWhenUndone
-
-
-class _AbortsWhenUndone(_Undone):
-    def answer_undone(self) -> None:
-        raise UcmError("the connection has been undone")
-
-
 @breaks(_IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS), readings={"call-in-flight": "finishes"})
-class aborts_calls_of_undone_connections(Base):
+class aborts_calls_of_undone_connections(_Undone):
     """Calls whose connection is undone end with an exception; they were declared to finish."""
 
-    link_class = _AbortsWhenUndone
+    def answer_undone(self) -> None:
+        raise UcmError("the connection has been undone")

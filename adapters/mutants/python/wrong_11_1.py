@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.programming_model import (
-    ComponentObject,
     FragmentObject,
     Implementation,
     PortConnection,
     PortElementObject,
     UcmError,
 )
-from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, breaks, is_below
+from ucm_cts.adapters.mutants.python.methods import refuses_if
+from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks, is_below
 from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Member, State
 
 
@@ -23,22 +23,16 @@ class _Nudge(Proxy):
         return self.target.exchange(value)
 
 
-class _NudgeFragments(_Nudge):
-    fragments = True
-
-
 @breaks("R-11.1.1-01")
-class nudges_components(GivesOutProxies):
+class nudges_components(_Nudge):
     """Calls on_shutdown of a component while nobody is operating the container."""
-
-    proxy = _Nudge
 
 
 @breaks("R-11.1.2-01")
-class nudges_fragments(GivesOutProxies):
+class nudges_fragments(_Nudge):
     """The same for fragments only."""
 
-    proxy = _NudgeFragments
+    fragments = True
 
 
 class _Changed(PortElementObject):
@@ -77,14 +71,10 @@ def _of_fragment(container: Container, connection: Connection) -> bool:
     return any(isinstance(m.body, FragmentObject) for m in owners)
 
 
-@breaks("R-11.1.3-02")
-class one_kind_a_container(Base):
+@refuses_if("_instantiate", "R-11.1.3-02")
+def one_kind_a_container(self: Base, implementation: Implementation) -> bool:
     """Refuses to hold components and fragments together."""
-
-    def _instantiate(self, implementation: Implementation) -> ComponentObject:
-        if any(m.implementation.fragment != implementation.fragment for m in self.members.values()):
-            raise UcmError("one kind only")
-        return super()._instantiate(implementation)
+    return any(m.implementation.fragment != implementation.fragment for m in self.members.values())
 
 
 @breaks("R-11.1.3-03")

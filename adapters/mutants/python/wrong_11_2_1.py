@@ -12,7 +12,8 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
     UcmError,
 )
-from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, breaks
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if
+from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks
 from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member
 
 
@@ -28,16 +29,12 @@ class fragments_cannot_be_connected(Base):
         return super().connect(instance, port_name, to_port)
 
 
-class _ChangedValue(Proxy):
-    def exchange(self, value: int) -> int:
-        return self.target.exchange(value ^ 1)
-
-
 @breaks("R-11.2.1.1-02")
-class changes_what_is_sent(GivesOutProxies):
+class changes_what_is_sent(Proxy):
     """References hand the body another value than the one sent."""
 
-    proxy = _ChangedValue
+    def exchange(self, value: int) -> int:
+        return self.target.exchange(value ^ 1)
 
 
 @breaks("R-11.2.1.2-01")
@@ -54,14 +51,11 @@ class starts_what_was_removed(Base):
             Failures().attempt(ghost.body.on_startup, [])
 
 
-@breaks("R-11.2.1.2-03", also=("R-11.1.3-01", "R-11.1.2-02", "R-11.2.3-10"))
-class mixes_references_up(Base):
+@alters("_dependencies_of", "R-11.2.1.2-03", also=("R-11.1.3-01", "R-11.1.2-02", "R-11.2.3-10"))
+def mixes_references_up(_self: Base, given: list[PortConnection], _member: Member) -> list[PortConnection]:
     """Hands over the references of two port elements in reverse."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        given = super()._dependencies_of(member)
-        targets = [d.to_port for d in reversed(given)]
-        return [PortConnection(d.from_port, t) for d, t in zip(given, targets, strict=True)]
+    targets = [d.to_port for d in reversed(given)]
+    return [PortConnection(d.from_port, t) for d, t in zip(given, targets, strict=True)]
 
 
 @breaks("R-11.2.1.2-04")
@@ -100,16 +94,12 @@ class removes_silently(Base):
             super()._remove(member, failures)
 
 
-class _Deaf(Proxy):
-    def exchange(self, value: int) -> int:
-        raise UcmError("not operational")
-
-
 @breaks("R-11.2.1.2-07")
-class never_serves(GivesOutProxies):
+class never_serves(Proxy):
     """References refuse every call, also of operational components."""
 
-    proxy = _Deaf
+    def exchange(self, value: int) -> int:
+        raise UcmError("not operational")
 
 
 @breaks("R-11.2.1.2-08")
@@ -123,12 +113,10 @@ class connects_while_starting(Base):
         return super()._start_up(member, failures)
 
 
-@breaks("R-11.2.1.2-09", also=("R-11.2.3-10",))
-class names_dependencies_differently(Base):
+@alters("_dependencies_of", "R-11.2.1.2-09", also=("R-11.2.3-10",))
+def names_dependencies_differently(_self: Base, given: list[PortConnection], _member: Member) -> list[PortConnection]:
     """on_startup uses a spelling of its own for port element names."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        return [PortConnection(d.from_port.upper(), d.to_port) for d in super()._dependencies_of(member)]
+    return [PortConnection(d.from_port.upper(), d.to_port) for d in given]
 
 
 @breaks("R-11.2.1.2-10")
@@ -142,14 +130,10 @@ class shuts_down_at_every_stop(Base):
             Failures().attempt(member.body.on_shutdown)
 
 
-@breaks("R-11.2.1.3-01", also=("R-11.2.2.1-08",))
-class demands_connectable(Base):
+@refuses_if("_connect", "R-11.2.1.3-01", also=("R-11.2.2.1-08",))
+def demands_connectable(_self: Base, connection: Connection) -> bool:
     """connect refuses bodies that are not Connectable."""
-
-    def _connect(self, connection: Connection) -> None:
-        if not isinstance(connection.client.body, Connectable):
-            raise UcmError("not Connectable")
-        super()._connect(connection)
+    return not isinstance(connection.client.body, Connectable)
 
 
 @breaks("R-11.2.1.3-02")
@@ -202,13 +186,10 @@ class misnames_disconnected_ports(Base):
             failures.attempt(connection.client.body.on_disconnect, str(connection.id))
 
 
-@breaks("R-11.2.1.4-01", also=("R-11.2.1.2-01",))
-class leaves_fragments_uninitialised(Base):
+@does_only_if("_initialise", "R-11.2.1.4-01", also=("R-11.2.1.2-01",))
+def leaves_fragments_uninitialised(_self: Base, member: Member) -> bool:
     """Fragments do not get on_init."""
-
-    def _initialise(self, member: Member) -> None:
-        if not isinstance(member.body, FragmentObject):
-            super()._initialise(member)
+    return not isinstance(member.body, FragmentObject)
 
 
 @breaks("R-11.2.1.4-02", also=("R-11.2.1.4-03",))

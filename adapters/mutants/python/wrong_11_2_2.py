@@ -13,6 +13,7 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
     UcmError,
 )
+from ucm_cts.adapters.mutants.python.methods import alters
 from ucm_cts.adapters.mutants.python.phases import starts_all_at_a_time
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference.python.framework import Container, ContainerManager, Failures, Member, State
@@ -55,14 +56,13 @@ class cannot_remove(Base):
         raise UcmError("never")
 
 
-@breaks("R-11.2.2.1-06")
-class any_port_element_will_do(Base):
+@alters("get_port_element", "R-11.2.2.1-06")
+def any_port_element_will_do(
+    self: Base, element: PortElementObject, comp_instance: int, _port_name: str
+) -> PortElementObject:
     """get_port_element gives the first provided port element whatever the name."""
-
-    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
-        element = super().get_port_element(comp_instance, port_name)
-        member = self.members[comp_instance]
-        return member.body.get_portElement(member.implementation.provides[0]) or element
+    member = self.members[comp_instance]
+    return member.body.get_portElement(member.implementation.provides[0]) or element
 
 
 @breaks("R-11.2.2.1-07")
@@ -181,12 +181,10 @@ class lists_a_stranger(Base):
         return not self.is_started
 
 
-@breaks("R-11.2.2.2-01")
-class manager_forgets_its_own(Base):
+@alters("_start_order", "R-11.2.2.2-01")
+def manager_forgets_its_own(self: Base, given: Sequence[Member]) -> Sequence[Member]:
     """start of the manager starts sub-containers instead of its own members."""
-
-    def _start_order(self) -> Sequence[Member]:
-        return [] if not is_below(self) else super()._start_order()
+    return [] if not is_below(self) else given
 
 
 @breaks("R-11.2.2.2-02")

@@ -11,6 +11,7 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
     UcmError,
 )
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member, State
 
@@ -40,12 +41,10 @@ class _Unreachable(PortElementObject):
         raise UcmError("no")
 
 
-@breaks("R-11.2.3-03")
-class refuses_calls_between_components(Base):
+@alters("_dependencies_of", "R-11.2.3-03")
+def refuses_calls_between_components(_self: Base, given: list[PortConnection], _member: Member) -> list[PortConnection]:
     """References handed to components refuse every call."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        return [PortConnection(d.from_port, (_Unreachable(),)) for d in super()._dependencies_of(member)]
+    return [PortConnection(d.from_port, (_Unreachable(),)) for d in given]
 
 
 @breaks("R-11.2.3-05", also=("R-11.2.1.2-01", "R-11.2.1.2-08"))
@@ -64,14 +63,10 @@ class initialises_at_start(Base):
         return super()._start_up(member, failures)
 
 
-@breaks("R-11.2.3-06", also=("R-11.2.3-10",))
-class does_not_start_loners(Base):
+@refuses_if("_check_startable", "R-11.2.3-06", also=("R-11.2.3-10",))
+def does_not_start_loners(self: Base) -> bool:
     """start is refused while a component requires nothing."""
-
-    def _check_startable(self) -> None:
-        if any(not m.implementation.requires for m in self.members.values()) and len(self.members) == 1:
-            raise UcmError("a component without connections")
-        super()._check_startable()
+    return any(not m.implementation.requires for m in self.members.values()) and len(self.members) == 1
 
 
 @breaks("R-11.2.3-07")

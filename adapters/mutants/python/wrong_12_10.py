@@ -12,31 +12,28 @@ from ucm_cts.adapters.contract.programming_model import (
     PortElementObject,
     UcmError,
 )
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Member
 
 
-@breaks("R-12.10-02")
-class wide_component_ids(Base):
+@alters("add_component", "R-12.10-02")
+def wide_component_ids(self: Base, identifier: int, _implementation: str, _attributes: Mapping[str, str]) -> int:
     """Component ids exceed 32 bits."""
-
-    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
-        identifier = super().add_component(implementation, attributes)
-        self.members[identifier + 2**40] = self.members.pop(identifier)
-        self.members[identifier + 2**40].id = identifier + 2**40
-        return identifier + 2**40
+    self.members[identifier + 2**40] = self.members.pop(identifier)
+    self.members[identifier + 2**40].id = identifier + 2**40
+    return identifier + 2**40
 
 
-@breaks("R-12.10-03")
-class wide_connection_ids(Base):
+@alters("connect", "R-12.10-03")
+def wide_connection_ids(
+    self: Base, identifier: int, _instance: int, _port_name: str, _to_port: PortElementObject | None
+) -> int:
     """Connection ids exceed 32 bits."""
-
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
-        identifier = super().connect(instance, port_name, to_port)
-        connection = self.manager.connections.pop(identifier)
-        wide = Connection(identifier + 2**40, connection.client, connection.port, connection.target)
-        self.manager.connections[wide.id] = wide
-        return wide.id
+    connection = self.manager.connections.pop(identifier)
+    wide = Connection(identifier + 2**40, connection.client, connection.port, connection.target)
+    self.manager.connections[wide.id] = wide
+    return wide.id
 
 
 def _undeclared(operation: str) -> type:
@@ -77,23 +74,16 @@ breaks("R-12.10-12")(_always_undeclared("create_container"))
 breaks("R-12.10-14")(_always_undeclared("destroy"))
 
 
-@breaks("R-12.10-15")
-class unknown_components_are_errors(Base):
+@refuses_if("_find_member", "R-12.10-15")
+def unknown_components_are_errors(self: Base, number: int) -> bool:
     """Unknown component ids are answered with UCM_ERROR."""
-
-    def _find_member(self, number: int) -> Member:
-        if number not in self.members:
-            raise UcmError("which?")
-        return super()._find_member(number)
+    return number not in self.members
 
 
-@breaks("R-12.10-16")
-class unknown_connections_are_ignored(Base):
+@does_only_if("disconnect", "R-12.10-16")
+def unknown_connections_are_ignored(self: Base, connection: int) -> bool:
     """disconnect of an unknown connection returns."""
-
-    def disconnect(self, connection: int) -> None:
-        if connection in self.manager.connections:
-            super().disconnect(connection)
+    return connection in self.manager.connections
 
 
 @breaks("R-12.10-17")
@@ -181,19 +171,13 @@ class second_connection_is_not_found(Base):
         return super().connect(instance, port_name, to_port)
 
 
-@breaks("R-12.10-25", also=("R-11.2.3-10",))
-class hands_references_over_twice(Base):
+@alters("_dependencies_of", "R-12.10-25", also=("R-11.2.3-10",))
+def hands_references_over_twice(_self: Base, given: list[PortConnection], _member: Member) -> list[PortConnection]:
     """on_startup gets each reference twice."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        return [PortConnection(d.from_port, (*d.to_port, *d.to_port)) for d in super()._dependencies_of(member)]
+    return [PortConnection(d.from_port, (*d.to_port, *d.to_port)) for d in given]
 
 
-@breaks("R-12.10-26", also=("R-11.2.1.4-03",))
-class no_list_while_ready(Base):
+@refuses_if("get_components", "R-12.10-26", also=("R-11.2.1.4-03",))
+def no_list_while_ready(self: Base) -> bool:
     """get_components is refused while the container is started."""
-
-    def get_components(self) -> list[int]:
-        if self.is_started:
-            raise UcmError("busy")
-        return super().get_components()
+    return self.is_started

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.programming_model import PortConnection, PortElementObject, UcmError
+from ucm_cts.adapters.mutants.python.methods import alters
 from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, breaks
 from ucm_cts.adapters.reference.python.framework import Container, Failures, Member
 
@@ -104,16 +105,13 @@ class _Cut(Proxy):
         raise UcmError("stopped")
 
 
-@breaks("R-11.2.3-03")
-class is_dead_after_restart(Base):
+@alters("_dependencies_of", "R-11.2.3-03")
+def is_dead_after_restart(_self: Base, given: list[PortConnection], member: Member) -> list[PortConnection]:
     """What the second on_startup hands over refuses every call."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        given = super()._dependencies_of(member)
-        if not member.__dict__.setdefault("started_before", False):
-            member.__dict__["started_before"] = True
-            return given
-        return [PortConnection(d.from_port, tuple(_Cut(t, member) for t in d.to_port if t)) for d in given]
+    if not member.__dict__.setdefault("started_before", False):
+        member.__dict__["started_before"] = True
+        return given
+    return [PortConnection(d.from_port, tuple(_Cut(t, member) for t in d.to_port if t)) for d in given]
 
 
 @breaks("R-11.2.2.1-06", also=("R-11.1.3-01", "R-11.1.2-02"))
@@ -135,17 +133,16 @@ class _Dead(PortElementObject):
         raise UcmError("given out before")
 
 
-@breaks("R-11.2.1.2-07", "R-11.2.3-03")
-class gives_references_once(Base):
+@alters("get_port_element", "R-11.2.1.2-07", "R-11.2.3-03")
+def gives_references_once(
+    self: Base, element: PortElementObject, comp_instance: int, port_name: str
+) -> PortElementObject:
     """Who asks for a port element again gets a reference that refuses every call, also of components."""
-
-    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
-        element = super().get_port_element(comp_instance, port_name)
-        given: set[tuple[int, str]] = self.__dict__.setdefault("given", set())
-        if (comp_instance, port_name) in given:
-            return _Dead()
-        given.add((comp_instance, port_name))
-        return element
+    given: set[tuple[int, str]] = self.__dict__.setdefault("given", set())
+    if (comp_instance, port_name) in given:
+        return _Dead()
+    given.add((comp_instance, port_name))
+    return element
 
 
 @breaks("R-11.2.2.1-06")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.programming_model import Connectable, FragmentObject, PortConnection
+from ucm_cts.adapters.mutants.python.methods import alters
 from ucm_cts.adapters.mutants.python.readings import appends_connections, cascades
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member
@@ -38,12 +39,10 @@ class serves_one_client(Base):
         return [d for d in given if next(c for c in every if c.target is d.to_port[0]).client is member]
 
 
-@breaks("R-11.2.1.2-09", also=("R-11.2.3-10",))
-class fragments_get_nothing(Base):
+@alters("_dependencies_of", "R-11.2.1.2-09", also=("R-11.2.3-10",))
+def fragments_get_nothing(_self: Base, given: list[PortConnection], member: Member) -> list[PortConnection]:
     """Fragments are handed no references over."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        return [] if isinstance(member.body, FragmentObject) else super()._dependencies_of(member)
+    return [] if isinstance(member.body, FragmentObject) else given
 
 
 @breaks("R-11.2.3-02")
@@ -165,13 +164,10 @@ class forgets_the_second_client(cascades):
         return [c for c in found if c.client is found[0].client]
 
 
-@breaks("R-11.2.3-14")
-class keeps_connections_to_removed_containers(Base):
+@alters("_connections_of_members", "R-11.2.3-14")
+def keeps_connections_to_removed_containers(self: Base, own: list[Connection]) -> list[Connection]:
     """remove_container leaves clients elsewhere connected to what it removes."""
-
-    def _connections_of_members(self) -> list[Connection]:
-        own = super()._connections_of_members()
-        return [c for c in own if c.client.container is self] if is_below(self) else own
+    return [c for c in own if c.client.container is self] if is_below(self) else own
 
 
 @breaks("R-11.2.2.1-10", "R-11.2.3-10", also=("R-11.2.1.3-05", "R-11.2.3-06"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract.programming_model import FragmentObject, PortElementObject
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference.python.framework import Container, Failures, Member
 
@@ -29,12 +30,10 @@ class forgets_the_fifth(Base):
         return [*order[:4], *order[5:]]
 
 
-@breaks("R-11.2.2.1-11", also=("R-11.2.1.4-01",))
-class starts_sixteen(Base):
+@alters("_start_order", "R-11.2.2.1-11", also=("R-11.2.1.4-01",))
+def starts_sixteen(_self: Base, given: Sequence[Member]) -> Sequence[Member]:
     """start reaches sixteen members and no more."""
-
-    def _start_order(self) -> Sequence[Member]:
-        return list(super()._start_order())[:16]
+    return list(given)[:16]
 
 
 @breaks("R-11.2.2.1-13")
@@ -68,15 +67,12 @@ class stops_in_order_once(Base):
         super().stop()
 
 
-@breaks("R-11.2.2.1-14")
-class caches_the_list(Base):
+@alters("get_components", "R-11.2.2.1-14")
+def caches_the_list(self: Base, listed: list[int]) -> list[int]:
     """While a sub-container is started, get_components lists what was there when it was first asked so."""
-
-    def get_components(self) -> list[int]:
-        listed = super().get_components()
-        if not (is_below(self) and self.is_started):
-            return listed
-        return self.__dict__.setdefault("listed", listed)  # type: ignore[no-any-return]
+    if not (is_below(self) and self.is_started):
+        return listed
+    return self.__dict__.setdefault("listed", listed)  # type: ignore[no-any-return]
 
 
 @breaks("R-12.10-15")
@@ -123,13 +119,10 @@ class undoes_connections_elsewhere(Base):
 # attributes and fragments
 
 
-@breaks("R-11.2.1.2-05")
-class fragments_have_no_attributes(Base):
+@does_only_if("_set_attributes", "R-11.2.1.2-05")
+def fragments_have_no_attributes(_self: Base, member: Member, _attributes: Mapping[str, str]) -> bool:
     """Attributes of fragments are not set."""
-
-    def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
-        if not isinstance(member.body, FragmentObject):
-            super()._set_attributes(member, attributes)
+    return not isinstance(member.body, FragmentObject)
 
 
 @breaks("R-11.2.1.2-05")
@@ -143,13 +136,10 @@ class sets_attributes_once(Base):
         known.add(member.implementation.name)
 
 
-@breaks("R-11.2.1.2-05")
-class no_attributes_below(Base):
+@does_only_if("_set_attributes", "R-11.2.1.2-05")
+def no_attributes_below(self: Base, _member: Member, _attributes: Mapping[str, str]) -> bool:
     """Attributes are set in the manager only."""
-
-    def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
-        if not is_below(self):
-            super()._set_attributes(member, attributes)
+    return not is_below(self)
 
 
 @breaks("R-11.2.1.4-03")

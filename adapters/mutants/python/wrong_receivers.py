@@ -11,6 +11,7 @@ from typing import Any
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
+from ucm_cts.adapters.mutants.python.methods import does_only_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.mutants.python.synchronous import Synchronous
 from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK, Entrance, Link, Taker
@@ -22,32 +23,30 @@ _MESSAGES = ("10.1.6",)
 
 
 @breaks("R-10.1.6.1-08", clauses=_MESSAGES)
-class stops_at_receivers_that_fail(Base):
+class stops_at_receivers_that_fail(Synchronous):
     """When a receiver raises, those after it do not get the message; the emitter is answered ok."""
 
-    class link_class(Synchronous):
-        def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-            with suppress(Exception):
-                return super()._emit(method, arguments)
-            return OK
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        with suppress(Exception):
+            return super()._emit(method, arguments)
+        return OK
 
-        def _hand_over(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-            taker.enter(method, arguments)
+    def _hand_over(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        taker.enter(method, arguments)
 
 
 @breaks("R-10.1.6.1-04", clauses=_MESSAGES)
-class stops_and_tells_of_receivers_that_fail(Base):
+class stops_and_tells_of_receivers_that_fail(Synchronous):
     """When a receiver raises, those after it do not get the message, and the emitter is answered internal_error."""
 
-    class link_class(Synchronous):
-        def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-            try:
-                return super()._emit(method, arguments)
-            except Exception:  # noqa: BLE001 - a body may raise anything
-                return INTERNAL_ERROR
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        try:
+            return super()._emit(method, arguments)
+        except Exception:  # noqa: BLE001 - a body may raise anything
+            return INTERNAL_ERROR
 
-        def _hand_over(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-            taker.enter(method, arguments)
+    def _hand_over(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        taker.enter(method, arguments)
 
 
 class _SharedThread(Link):
@@ -71,35 +70,31 @@ class _SharedThread(Link):
 
 
 @breaks("R-10.1.6.1-08", clauses=_MESSAGES)
-class gives_up_when_a_receiver_fails(Base):
+class gives_up_when_a_receiver_fails(_SharedThread):
     """The thread that delivers ends when a receiver raises."""
 
-    class link_class(_SharedThread):
-        def _deliver(self, taker: Taker, method: str) -> None:
-            with suppress(Exception):
-                super()._deliver(taker, method)
+    def _deliver(self, taker: Taker, method: str) -> None:
+        with suppress(Exception):
+            super()._deliver(taker, method)
 
-        def _hand_over(self, method: str, taker: Any, arguments: Any) -> None:
-            with suppress(UcmError):
-                taker.enter(method, arguments)
+    def _hand_over(self, method: str, taker: Any, arguments: Any) -> None:
+        with suppress(UcmError):
+            taker.enter(method, arguments)
 
 
 @breaks("R-10.1.6.1-08", clauses=_MESSAGES)
-class does_not_wait_for_slow_receivers(Base):
+class does_not_wait_for_slow_receivers(Link):
     """What is pushed while a receiver is busy never comes to it."""
 
-    class link_class(Link):
-        def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-            time.sleep(0.001)
-            if not taker.entrance._inside:
-                super()._post(taker, method, arguments)
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        time.sleep(0.001)
+        if not taker.entrance._inside:
+            super()._post(taker, method, arguments)
 
 
 @breaks("R-10.1.6.1-08", clauses=_MESSAGES, readings={"slow-receiver": "independent"})
-class has_all_wait_for_slow_receivers(Base):
+class has_all_wait_for_slow_receivers(_SharedThread):
     """Receivers wait for each other, although they were declared to be independent."""
-
-    link_class = _SharedThread
 
 
 # phases
@@ -116,14 +111,13 @@ class _AlwaysOpen(Entrance):
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES)
-class delivers_in_every_phase(Base):
+class delivers_in_every_phase(Link):
     """Receivers get messages before they are started and after they are stopped."""
 
-    class link_class(Link):
-        def _attach_taker(self, member: Member, port: str) -> None:
-            super()._attach_taker(member, port)
-            if self.connector == MESSAGE_CONNECTOR:
-                self.takers[-1].entrance = _AlwaysOpen()
+    def _attach_taker(self, member: Member, port: str) -> None:
+        super()._attach_taker(member, port)
+        if self.connector == MESSAGE_CONNECTOR:
+            self.takers[-1].entrance = _AlwaysOpen()
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES)
@@ -140,13 +134,10 @@ class delivers_after_stop(Base):
                 taker.entrance.close()
 
 
-@breaks("R-10.1.6.1-09", clauses=_MESSAGES)
-class stop_closes_the_first_member_only(Base):
+@does_only_if("_close_entrances", "R-10.1.6.1-09", clauses=_MESSAGES)
+def stop_closes_the_first_member_only(self: Base, member: Member) -> bool:
     """Who is stopped gets no more messages if it was the first to be started; all others do."""
-
-    def _close_entrances(self, member: Member) -> None:
-        if member is self.started[0]:
-            super()._close_entrances(member)
+    return member is self.started[0]
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES)

@@ -38,43 +38,39 @@ class _KnowsWhatIsGoingOn(Link):
 
 
 @breaks(_CALLS, clauses=("10.1.5",), also=("R-10.1.5.1-03",))
-class refuses_calls_of_servers(Base):
+class refuses_calls_of_servers(_KnowsWhatIsGoingOn):
     """Who is being called can call nobody."""
 
-    class link_class(_KnowsWhatIsGoingOn):
-        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-            if getattr(self.here, "served", 0):
-                raise UcmError("not while you serve")
-            return super()._request(method, arguments)
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if getattr(self.here, "served", 0):
+            raise UcmError("not while you serve")
+        return super()._request(method, arguments)
 
 
 @breaks(_CALLS, clauses=("10.1.5",))
-class refuses_calls_of_receivers(Base):
+class refuses_calls_of_receivers(_KnowsWhatIsGoingOn):
     """Who is given a message can call no server."""
 
-    class link_class(_KnowsWhatIsGoingOn):
-        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-            if getattr(self.here, "receives", False):
-                raise UcmError("not while you receive")
-            return super()._request(method, arguments)
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if getattr(self.here, "receives", False):
+            raise UcmError("not while you receive")
+        return super()._request(method, arguments)
 
 
 @breaks(_ARRIVES, clauses=("10.1.2",))
-class loses_what_servers_push(Base):
+class loses_what_servers_push(_KnowsWhatIsGoingOn):
     """What is pushed while a call is served is answered ok, and lost."""
 
-    class link_class(_KnowsWhatIsGoingOn):
-        def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-            return OK if getattr(self.here, "served", 0) else super()._emit(method, arguments)
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        return OK if getattr(self.here, "served", 0) else super()._emit(method, arguments)
 
 
 @breaks(_ARRIVES, clauses=("10.1.2",))
-class loses_what_receivers_push(Base):
+class loses_what_receivers_push(_KnowsWhatIsGoingOn):
     """What is pushed while a message is received is answered ok, and lost."""
 
-    class link_class(_KnowsWhatIsGoingOn):
-        def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-            return OK if getattr(self.here, "receives", False) else super()._emit(method, arguments)
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        return OK if getattr(self.here, "receives", False) else super()._emit(method, arguments)
 
 
 # restarts
@@ -111,27 +107,25 @@ class knows_servers_until_they_are_restarted(Base):
 
 
 @breaks(_EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
-class loses_exceptions_of_inherited_methods(Base):
+class loses_exceptions_of_inherited_methods(Link):
     """An exception that an inherited method declares arrives as one of the framework's own."""
 
-    class link_class(Link):
-        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-            try:
-                return super()._request(method, arguments)
-            except DeclaredException:
-                if method in self.interface.inherited:
-                    raise UcmError("something went wrong") from None
-                raise
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        try:
+            return super()._request(method, arguments)
+        except DeclaredException:
+            if method in self.interface.inherited:
+                raise UcmError("something went wrong") from None
+            raise
 
 
 @breaks(_EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
-class loses_the_second_field_of_exceptions(Base):
+class loses_the_second_field_of_exceptions(Link):
     """Of an exception the first field arrives, and the others are empty."""
 
-    class link_class(Link):
-        def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-            try:
-                return super()._request(method, arguments)
-            except DeclaredException as error:
-                fields = [*error.fields[:1], *(0 if isinstance(f, int) else f for f in error.fields[1:])]
-                raise DeclaredException(error.name, fields) from None
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        try:
+            return super()._request(method, arguments)
+        except DeclaredException as error:
+            fields = [*error.fields[:1], *(0 if isinstance(f, int) else f for f in error.fields[1:])]
+            raise DeclaredException(error.name, fields) from None

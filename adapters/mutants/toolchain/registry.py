@@ -53,7 +53,7 @@ VARIANTS: dict[str, Variant] = {}
 
 
 def breaks(
-    *requirements: str, task: str, also: tuple[str, ...] = (), declares: tuple[str, ...] = ()
+    *requirements: str, task: str = "check", also: tuple[str, ...] = (), declares: tuple[str, ...] = ()
 ) -> Callable[[Derive], Derive]:
     """Register a function as a mutant that breaks ``requirements``; its docstring says what it does wrong."""
 
@@ -66,7 +66,7 @@ def breaks(
     return register
 
 
-def variant(*, task: str, declares: tuple[str, ...] = ()) -> Callable[[Derive], Derive]:
+def variant(*, task: str = "check", declares: tuple[str, ...] = ()) -> Callable[[Derive], Derive]:
     """Register a function as a conformant variant; its docstring says which freedom it uses."""
 
     def register(derive: Derive) -> Derive:
@@ -76,6 +76,12 @@ def variant(*, task: str, declares: tuple[str, ...] = ()) -> Callable[[Derive], 
         return derive
 
     return register
+
+
+def named(derive: Derive, name: str, lie: str | None = None) -> Derive:
+    """``derive``, called ``name``, which does what ``lie`` says."""
+    derive.__name__, derive.__doc__ = name, lie
+    return derive
 
 
 def replacing_rule(program: Program, name: str, look: Callable[..., object] | None) -> Program:

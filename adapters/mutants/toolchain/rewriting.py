@@ -1,13 +1,14 @@
-"""Tool chains that change the text of the IDL that the reference generates."""
+"""Tool chains that change the text of what the reference generates."""
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
-from ucm_cts.adapters.mutants.toolchain.registry import Derive
+from ucm_cts.adapters.mutants.toolchain.registry import Derive, breaks, named
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 Files = Mapping[str, str]
@@ -21,34 +22,44 @@ STANDARD = "ucm.idl"
 GUARD = "\n#endif\n"
 
 
-def rewritten(program: Program, rewrite: Callable[[Files], Files]) -> Program:
-    """``program`` with other files of IDL."""
-    generate = program.generators["idl"]
+def rewritten(program: Program, rewrite: Callable[[Files], Files], task: str = "idl") -> Program:
+    """``program`` with other files for ``task``."""
+    generate = program.generators[task]
 
-    def wrong(model: Model) -> Files:
+    def other(model: Model) -> Files:
         return rewrite(generate(model))
 
-    return replace(program, generators={**program.generators, "idl": wrong})
+    return replace(program, generators={**program.generators, task: other})
+
+
+def rewriting(rewrite: Callable[[Files], Files], task: str = "idl") -> Derive:
+    """The reference tool chain with other files for ``task``."""
+    return functools.wraps(rewrite)(lambda program: rewritten(program, rewrite, task))
 
 
 Replacement = str | Callable[[re.Match[str]], str]
 
 
-def replaced(name: str, pattern: str, replacement: Replacement, file: str = MODEL) -> Derive:
-    """Called ``name``: in ``file``, ``replacement`` stands for each match of ``pattern``."""
-
-    def derive(program: Program) -> Program:
-        return rewritten(program, lambda files: {**files, file: re.sub(pattern, replacement, files[file])})
-
-    derive.__name__ = name
-    return derive
+def replaced(pattern: str, replacement: Replacement, file: str = MODEL) -> Derive:
+    """In ``file``, ``replacement`` stands for each match of ``pattern``."""
+    return lambda program: rewritten(program, lambda files: {**files, file: re.sub(pattern, replacement, files[file])})
 
 
-def appended(name: str, text: str) -> Derive:
-    """Called ``name``: ``text`` is the last declaration."""
+def appended(text: str) -> Derive:
+    """``text`` is the last declaration of the model's file."""
+    return replaced(f"{GUARD}$", lambda _: f"\n{text}\n{GUARD}")
 
-    def derive(program: Program) -> Program:
-        return rewritten(program, lambda files: {**files, MODEL: files[MODEL].replace(GUARD, f"\n{text}\n{GUARD}")})
 
-    derive.__name__ = name
-    return derive
+def replace_each(
+    table: Mapping[str, tuple[str, str, str]],
+    file: str = MODEL,
+    also: Mapping[str, tuple[str, ...]] = {},
+    declares: Mapping[str, tuple[str, ...]] = {},
+) -> None:
+    """Make each row of ``table`` a mutant: the requirement that it breaks, a pattern in ``file``, and what stands there instead.
+
+    ``also`` and ``declares`` are by the mutant's name.
+    """
+    for name, (requirement, pattern, replacement) in table.items():
+        register = breaks(requirement, task="idl", also=also.get(name, ()), declares=declares.get(name, ()))
+        register(named(replaced(pattern, replacement, file), name))

@@ -2,30 +2,44 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
 import msgspec
 
 from ucm_cts.adapters.contract.metamodel.common import Element
-from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading
-from ucm_cts.adapters.mutants.toolchain.tolerance import deaf
+from ucm_cts.adapters.mutants.toolchain.registry import Derive, breaks
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, Rule
 from ucm_cts.adapters.reference.toolchain.program import Program
 
+When = Callable[[Any, Scope], object]
+"""Whether an element, which stands where the scope says, is refused. The annotation of the first parameter says which elements are asked about."""
 
-def refusing(program: Program, kind: type[Element], when: Callable[[Any, Scope], object]) -> Program:
-    """``program``, but elements of ``kind`` for which ``when`` holds are wrong to it."""
+
+def refusing(when: When) -> Derive:
+    """The reference tool chain with one rule more: elements for which ``when`` holds are wrong."""
 
     def look(element: Element, scope: Scope) -> Iterator[Complaint]:
         if when(element, scope):
             yield element, "this is not how it is done"
 
-    return replace(program, rules={**program.rules, "overzealous": Rule("overzealous", "", (kind,), look)})
+    @functools.wraps(when)
+    def derive(program: Program) -> Program:
+        kind = next(iter(get_type_hints(when).values()))
+        rule = Rule("overzealous", "", get_args(kind) or (kind,), look)
+        return replace(program, rules={**program.rules, rule.name: rule})
+
+    return derive
+
+
+def refuses(*requirements: str, also: tuple[str, ...] = (), declares: tuple[str, ...] = ()) -> Callable[[When], Derive]:
+    """Register a condition as the mutant that refuses each element for which it holds."""
+    return lambda when: breaks(*requirements, also=also, declares=declares)(refusing(when))
 
 
 def refusing_text(program: Program, pattern: bytes) -> Program:
@@ -37,16 +51,3 @@ def refusing_text(program: Program, pattern: bytes) -> Program:
         return msgspec.structs.replace(reading, problems=(problem,)) if re.search(pattern, text) else reading
 
     return replace(program, read=read)
-
-
-def overhearing(program: Program, kind: str, tag: str, attribute: str) -> Program:
-    """``program``, but problems of ``kind`` with ``attribute`` of elements of ``tag`` do not count when models are read."""
-
-    def overheard(problem: Problem, _: Model) -> bool:
-        return (problem.kind, problem.element) == (kind, tag) and _tells_of(attribute, problem.message)
-
-    return deaf(program, overheard)
-
-
-def _tells_of(attribute: str, message: str) -> bool:
-    return attribute in re.findall(r"\w+", message)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
@@ -12,8 +14,8 @@ from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading
-from ucm_cts.adapters.mutants.toolchain.registry import replacing_rule
-from ucm_cts.adapters.reference.toolchain.checking import Complaint
+from ucm_cts.adapters.mutants.toolchain.registry import Derive, breaks, complaining_where, replacing_rule
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, Look
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 
@@ -26,6 +28,19 @@ def deaf(program: Program, when: Callable[[Problem, Model], object]) -> Program:
         return msgspec.structs.replace(reading, problems=told)
 
     return replace(program, read=read)
+
+
+def overhearing(program: Program, kind: str, tag: str, attribute: str) -> Program:
+    """``program``, but problems of ``kind`` with ``attribute`` of elements of ``tag`` do not count when models are read."""
+
+    def overheard(problem: Problem, _: Model) -> bool:
+        return (problem.kind, problem.element) == (kind, tag) and tells_of(attribute, problem.message)
+
+    return deaf(program, overheard)
+
+
+def tells_of(attribute: str, message: str) -> bool:
+    return attribute in re.findall(r"\w+", message)
 
 
 def without(program: Program, *rules: str) -> Program:
@@ -49,3 +64,34 @@ def lacks(problem: Problem, attribute: str, *tags: str) -> bool:
     """Whether ``problem`` is that an element of ``tags``, or any element if there are none, has no ``attribute``."""
     told = problem.message.endswith(f" has no {attribute}; give it one")
     return problem.kind == "missing attribute" and told and (not tags or problem.element in tags)
+
+
+def replaces_rule(
+    name: str, *requirements: str, also: tuple[str, ...] = (), declares: tuple[str, ...] = ()
+) -> Callable[[Look], Derive]:
+    """Register a rule function as the mutant that has it in place of the rule ``name``."""
+
+    def register(look: Look) -> Derive:
+        def derive(program: Program) -> Program:
+            return replacing_rule(program, name, look)
+
+        return breaks(*requirements, also=also, declares=declares)(functools.wraps(look)(derive))
+
+    return register
+
+
+def complains_only_where(
+    rule: str, *requirements: str, declares: tuple[str, ...] = ()
+) -> Callable[[Callable[[Any, Any, Scope], bool]], Derive]:
+    """Register a condition as the mutant in which complaints of ``rule`` count only where it holds.
+
+    The condition is given what is wrong, the element that the rule looked at, and the scope where that stands.
+    """
+
+    def register(holds: Callable[[Any, Any, Scope], bool]) -> Derive:
+        def derive(program: Program) -> Program:
+            return complaining_where(program, rule, lambda wrong, element, scope, _: holds(wrong, element, scope))
+
+        return breaks(*requirements, declares=declares)(functools.wraps(holds)(derive))
+
+    return register

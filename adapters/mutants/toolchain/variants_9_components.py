@@ -16,7 +16,6 @@ from ucm_cts.adapters.reference.toolchain.rules.components.policy_use import asp
 
 
 @variant(
-    task="check",
     declares=(
         "missing-policies=check",
         "missing-type-bindings=check",
@@ -31,7 +30,7 @@ from ucm_cts.adapters.reference.toolchain.rules.components.policy_use import asp
         "delegation-bindings=same",
         "policies-on-ports-counted=with-the-component",
         "repeated-parameter-values=refused",
-    ),
+    )
 )
 def components_are_complete(program: Program) -> Program:
     """Refuses whatever is missing or superfluous, as the reference tool chain does."""
@@ -39,14 +38,13 @@ def components_are_complete(program: Program) -> Program:
 
 
 @variant(
-    task="check",
     declares=(
         "missing-policies=later",
         "missing-type-bindings=later",
         "role-minimum=later",
         "connected-types=later",
         "partial-role-bindings=accepted",
-    ),
+    )
 )
 def components_may_be_sketches(program: Program) -> Program:
     """Lets early designs leave out policies, bindings and ends, and looks at what fits later."""
@@ -62,7 +60,7 @@ def components_may_be_sketches(program: Program) -> Program:
     )
 
 
-@variant(task="check", declares=("unused-bindings=accepted", "abstract-actual-types=accepted"))
+@variant(declares=("unused-bindings=accepted", "abstract-actual-types=accepted"))
 def bindings_may_be_anything(program: Program) -> Program:
     """Lets abstract types be bound that nobody uses, and items and abstract types to abstract types."""
     return without(
@@ -75,13 +73,13 @@ def bindings_may_be_anything(program: Program) -> Program:
     )
 
 
-@variant(task="check", declares=("one-sided-policy-links=accepted",))
+@variant(declares=("one-sided-policy-links=accepted",))
 def policies_are_named_once(program: Program) -> Program:
     """Takes it for enough that an implementation names its policy, or the policy the implementation."""
     return without(program, "implementations_and_policies_name_each_other")
 
 
-@variant(task="check", declares=("delegated-and-connected=accepted", "double-delegation=accepted"))
+@variant(declares=("delegated-and-connected=accepted", "double-delegation=accepted"))
 def ports_serve_several_ends(program: Program) -> Program:
     """Lets an inner port be connected and delegated, and an external one be delegated twice."""
     return without(program, "ports_are_delegated_once", "delegated_ports_are_not_connected")
@@ -101,19 +99,19 @@ def _counting_apart(program: Program) -> Program:
     return replacing_rule(program, "has_the_one_policy_only", look)
 
 
-@variant(task="check")
+@variant()
 def policies_of_ports_are_other_policies(program: Program) -> Program:
     """Counts the policies on a component and those on its ports apart, and says nothing of it."""
     return _counting_apart(program)
 
 
-@variant(task="check", declares=("policies-on-ports-counted=apart",))
+@variant(declares=("policies-on-ports-counted=apart",))
 def policies_of_ports_are_said_to_be_other_policies(program: Program) -> Program:
     """The same, and says so."""
     return _counting_apart(program)
 
 
-@variant(task="check")
+@variant()
 def items_may_stand_for_abstract_types(program: Program) -> Program:
     """Lets the items of a port's role stand for abstract types, and says nothing of it."""
     return without(program, "items_stand_for_concrete_types")

@@ -23,7 +23,6 @@ from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import ac
 
 
 @variant(
-    task="check",
     declares=(
         "modules-given-twice=merged",
         "relative-names=outward",
@@ -44,7 +43,7 @@ from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import ac
         "repeated-selector-values=refused",
         "selector-aliases=refused",
         "recursive-types=refused",
-    ),
+    )
 )
 def says_how_it_reads_data(program: Program) -> Program:
     """Reads what is open as the reference tool chain does, and says so."""
@@ -52,7 +51,6 @@ def says_how_it_reads_data(program: Program) -> Program:
 
 
 @variant(
-    task="check",
     declares=(
         "equal-index-values=accepted",
         "empty-arrays=accepted",
@@ -62,7 +60,7 @@ def says_how_it_reads_data(program: Program) -> Program:
         "sequence-sizes=unchecked",
         "selector-aliases=accepted",
         "recursive-types=accepted",
-    ),
+    )
 )
 def data_may_be_anything(program: Program) -> Program:
     """Accepts types that others find empty, unbounded or without end."""
@@ -79,58 +77,56 @@ def data_may_be_anything(program: Program) -> Program:
     )
 
 
-@variant(task="check", declares=("declarations-elsewhere=extension", "pattern-parameters=accepted"))
+@variant(declares=("declarations-elsewhere=extension", "pattern-parameters=accepted"))
 def declarations_anywhere(program: Program) -> Program:
     """Extends the meta-model so that any declaration may stand in any module."""
     return deaf(program, lambda problem, model: problem.kind == "misplaced element" and model.modules)
 
 
-@variant(task="check", declares=("absent-max-size=refused",))
-def strings_say_how_long_they_are(program: Program) -> Program:
+@variant(declares=("absent-max-size=refused",))
+@refusing
+def strings_say_how_long_they_are(string: StringType, _: Scope) -> object:
     """Refuses strings without a greatest size."""
-    return refusing(program, StringType, lambda string, _: string.max_size is None)
+    return string.max_size is None
 
 
-@variant(task="check", declares=("modules-given-twice=refused",))
-def modules_in_one_piece(program: Program) -> Program:
+@variant(declares=("modules-given-twice=refused",))
+@refusing
+def modules_in_one_piece(module: ContractModule, scope: Scope) -> bool:
     """Refuses a second contract module of one name at one place."""
-
-    def again(module: ContractModule, scope: Scope) -> bool:
-        same = [d.element for d in scope.members[module.name] if isinstance(d.element, ContractModule)]
-        return same[0] is not module
-
-    return refusing(program, ContractModule, again)
+    same = [d.element for d in scope.members[module.name] if isinstance(d.element, ContractModule)]
+    return same[0] is not module
 
 
-@variant(task="check", declares=("default-case-values=required",))
-def default_cases_name_values(program: Program) -> Program:
+@variant(declares=("default-case-values=required",))
+@refusing
+def default_cases_name_values(union: Union, _: Scope) -> object:
     """Refuses a default case that names no value."""
-    return refusing(program, Union, lambda union, _: any(not case.selector_values for case in union.cases))
+    return any(not case.selector_values for case in union.cases)
 
 
-@variant(task="check", declares=("selectors-without-case=refused",))
-def all_selector_values_have_cases(program: Program) -> Program:
+@variant(declares=("selectors-without-case=refused",))
+@refusing
+def all_selector_values_have_cases(union: Union, scope: Scope) -> bool:
     """Refuses a union without default that has no case for some value."""
-
-    def uncovered(union: Union, scope: Scope) -> bool:
-        selector = actual_type(union.selector_type, scope)
-        named = {value.enumerator for case in union.cases for value in case.selector_values}
-        known = {enumerator.name for enumerator in getattr(selector and selector.element, "enumerators", ())}
-        return bool(known - named) and not any(case.default_case for case in union.cases)
-
-    return refusing(program, Union, uncovered)
+    selector = actual_type(union.selector_type, scope)
+    named = {value.enumerator for case in union.cases for value in case.selector_values}
+    known = {enumerator.name for enumerator in getattr(selector and selector.element, "enumerators", ())}
+    return bool(known - named) and not any(case.default_case for case in union.cases)
 
 
-@variant(task="check", declares=("native-types=unsupported",))
-def no_native_types(program: Program) -> Program:
+@variant(declares=("native-types=unsupported",))
+@refusing
+def no_native_types(_: NativeType, _scope: Scope) -> object:
     """Knows no native types."""
-    return refusing(program, NativeType, lambda *_: True)
+    return True
 
 
-@variant(task="check", declares=("index-values=32-bit",))
-def longs_of_32_bits(program: Program) -> Program:
+@variant(declares=("index-values=32-bit",))
+@refusing
+def longs_of_32_bits(element: Element, _: Scope) -> object:
     """Refuses index values and sizes of more than 32 bits."""
-    return refusing(program, Element, lambda element, _: any(_is_longer(element, field) for field in _NUMBERS))
+    return any(_is_longer(element, field) for field in _NUMBERS)
 
 
 _NUMBERS = ("value", "size", "max_size")
@@ -141,7 +137,7 @@ def _is_longer(element: Element, field: str) -> bool:
     return isinstance(number, int) and not -(2**31) <= number < 2**31
 
 
-@variant(task="check", declares=("text-values=bare",))
+@variant(declares=("text-values=bare",))
 def bare_text(program: Program) -> Program:
     """Reads characters and strings without quotes."""
     name = "constants_are_values_of_their_types"
@@ -169,13 +165,13 @@ def bare_text(program: Program) -> Program:
 _SETS_ONCE = ("selector_values_have_one_case", "sets_parameters_once", "parameters_receive_one_value")
 
 
-@variant(task="check")
+@variant()
 def one_of_several_counts(program: Program) -> Program:
     """Takes the first case of a selector value and the last value of a parameter, and says nothing of it."""
     return without(program, *_SETS_ONCE)
 
 
-@variant(task="check", declares=("repeated-selector-values=accepted", "repeated-parameter-values=accepted"))
+@variant(declares=("repeated-selector-values=accepted", "repeated-parameter-values=accepted"))
 def one_of_several_is_said_to_count(program: Program) -> Program:
     """The same, and says so."""
     return without(program, *_SETS_ONCE)

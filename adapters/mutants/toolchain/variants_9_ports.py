@@ -67,13 +67,13 @@ def naming_by_owner(program: Program) -> Program:
     return replace(program, rules={**program.rules, known.name: known})
 
 
-@variant(task="check")
+@variant()
 def members_have_their_owner_s_name(program: Program) -> Program:
     """Knows members by the name of the element that declares them, as all printed ones are, and says nothing of it."""
     return naming_by_owner(program)
 
 
-@variant(task="check", declares=("inherited-member-names=owner",))
+@variant(declares=("inherited-member-names=owner",))
 def inherited_members_have_their_owner_s_name(program: Program) -> Program:
     """The same, and says so."""
     return naming_by_owner(program)
@@ -94,13 +94,13 @@ def naming_by_heir(program: Program) -> Program:
     return replace(program, rules={**program.rules, known.name: known})
 
 
-@variant(task="check", declares=("inherited-member-names=heir",))
+@variant(declares=("inherited-member-names=heir",))
 def inherited_members_have_their_heir_s_name(program: Program) -> Program:
     """Knows roles and items of a connector by the name of its own pattern only, and says so."""
     return naming_by_heir(program)
 
 
-@variant(task="check")
+@variant()
 def port_types_are_what_they_hold(program: Program) -> Program:
     """Takes port types that hold the same for the same, and bindings of delegated ports for nobody's business."""
     program = replacing_rule(program, "connectors_have_the_apis_of_their_ends", _connectors_fit)
@@ -108,7 +108,7 @@ def port_types_are_what_they_hold(program: Program) -> Program:
     return without(program, "delegated_ports_bind_alike")
 
 
-@variant(task="check", declares=("delegation-bindings=any",))
+@variant(declares=("delegation-bindings=any",))
 def delegations_compare_port_types_only(program: Program) -> Program:
     """Lets delegated ports bind what they like, and says so."""
     return without(program, "delegated_ports_bind_alike")

@@ -10,7 +10,7 @@ import msgspec
 
 from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.modules import MODULES
-from ucm_cts.adapters.mutants.toolchain.registry import Derive, variant
+from ucm_cts.adapters.mutants.toolchain.registry import Derive, named, variant
 from ucm_cts.adapters.mutants.toolchain.rewriting import (
     GUARD,
     MODEL,
@@ -19,6 +19,7 @@ from ucm_cts.adapters.mutants.toolchain.rewriting import (
     Replacement,
     appended,
     replaced,
+    rewriting,
     rewritten,
 )
 from ucm_cts.adapters.reference.toolchain.program import Program
@@ -44,10 +45,7 @@ RELAXED: dict[str, tuple[str, Replacement]] = {
     "one_line": (r"\n(?!#)(?<!#endif)(?<!idl\"\n) +", " "),
     "primitive_types_written_out": (r"::interfaces::long_t (?=\w+[;,)])", "long "),
     "typedef_of_a_sequence_of_the_basic_type": (r"sequence<::data_types::double_t", "sequence<double"),
-    "fields_joined": (
-        r"( *::data_types::double_t x);\n *::data_types::double_t y;",
-        r"\1, y;",
-    ),
+    "fields_joined": (r"( *::data_types::double_t x);\n *::data_types::double_t y;", r"\1, y;"),
     "names_escaped": (r"(typedef \w+ |struct |interface )(?=[a-z]\w*_t\b)", r"\1_"),
     "constants_computed": (r"= 64;", "= (1 << 6);"),
     "decimal_constants": (r"0xFF00", "65280"),
@@ -83,10 +81,7 @@ RELAXED: dict[str, tuple[str, Replacement]] = {
         r"(\n *)interface unrelated \{((?:\n.*)*?\n *\};)",
         r"\1interface unrelated_operations {\2\1interface unrelated : unrelated_operations {};",
     ),
-    "cases_out_of_order": (
-        r"( *case ::data_types::triangle:\n.*\n)( *case ::data_types::square:\n.*\n)",
-        r"\2\1",
-    ),
+    "cases_out_of_order": (r"( *case ::data_types::triangle:\n.*\n)( *case ::data_types::square:\n.*\n)", r"\2\1"),
     "default_spelt_out": (r"default:", "case ::idl_types::red: case ::idl_types::black:"),
     "default_alone": (r"case ::idl_types::below:\n *default:", "default:"),
 }
@@ -94,12 +89,11 @@ RELAXED: dict[str, tuple[str, Replacement]] = {
 
 
 def _variant(name: str, derive: Derive, *declares: str) -> None:
-    derive.__name__ = name
-    variant(task="idl", declares=declares)(derive)
+    variant(task="idl", declares=declares)(named(derive, name))
 
 
 for _name, (_pattern, _replacement) in RELAXED.items():
-    _variant(_name, replaced(_name, _pattern, _replacement))
+    _variant(_name, replaced(_pattern, _replacement))
 
 DEFINITIONS = {"Drive": "self_executing", "Day_Duty": "self_running", "Night": "stoppable", "Meter": "sampled"}
 """The policy definitions, as IDL spells them, by the policies that use them."""
@@ -109,7 +103,7 @@ def _definition(match: re.Match[str]) -> str:
     return f"get_tp_{DEFINITIONS[match[1]]}_"
 
 
-_SAME = replaced("", GUARD, f"\n{GUARD}")
+_SAME = replaced(GUARD, f"\n{GUARD}")
 
 for _reading in (
     "native-types=supported",
@@ -123,10 +117,10 @@ for _reading in (
     "idl-enumerator-values=default-value",
 ):
     _variant(f"declared_{_reading.replace('-', '_').replace('=', '_as_')}", _SAME, _reading)
-_variant("footprint_by_another_name", replaced("", r"unsigned long max;", "uint32 max;", STANDARD))
+_variant("footprint_by_another_name", replaced(r"unsigned long max;", "uint32 max;", STANDARD))
 _variant(
     "ids_written_out",
-    replaced("", r"\bcomponentId (?=\w+[(,)])|\bconnectionId (?=\w+[(,)])", "long ", STANDARD),
+    replaced(r"\bcomponentId (?=\w+[(,)])|\bconnectionId (?=\w+[(,)])", "long ", STANDARD),
     "idl-standard-files=generated",
 )
 _variant("hyphens_are_underscores", _SAME, "idl-hyphens=underscore")
@@ -136,28 +130,23 @@ _variant("direct_templates_declared", _SAME, "idl-template-propagation=direct")
 _variant("instances_declared", _SAME, "idl-policy-getters=instance")
 _variant(
     "unsigned_long_declared",
-    replaced("", "typedef unsigned long long ", "typedef unsigned long "),
+    replaced("typedef unsigned long long ", "typedef unsigned long "),
     "idl-ulonglong=unsigned-long",
 )
-_variant("bool_declared", replaced("", "typedef boolean ", "typedef bool "), "idl-boolean=bool")
+_variant("bool_declared", replaced("typedef boolean ", "typedef bool "), "idl-boolean=bool")
 _variant(
     "definitions_declared",
-    replaced("", r"get_tp_(Drive|Day_Duty|Night|Meter)_", _definition),
+    replaced(r"get_tp_(Drive|Day_Duty|Night|Meter)_", _definition),
     "idl-policy-getters=definition",
 )
 _variant(
     "equivalent_syntax_besides",
-    appended("", "porttype asking_port { provides PortElementObject api; };\ncomponent Extra { port asking_port p; };"),
+    appended("porttype asking_port { provides PortElementObject api; };\ncomponent Extra { port asking_port p; };"),
     "idl-output=both",
 )
 _variant(
     "annotations_defined_as_printed",
-    replaced(
-        "",
-        r"@annotation (\w+) \{\n *string (\w+);\n\};",
-        r"@Annotation \1 {\n    attribute String \2;\n}",
-        STANDARD,
-    ),
+    replaced(r"@annotation (\w+) \{\n *string (\w+);\n\};", r"@Annotation \1 {\n    attribute String \2;\n}", STANDARD),
 )
 
 
@@ -214,13 +203,10 @@ def standard_declarations_in_a_module(program: Program) -> Program:
 
 
 @variant(task="idl")
-def local_interfaces(program: Program) -> Program:
+@rewriting
+def local_interfaces(files: Files) -> Files:
     """Interfaces have the keyword local."""
-
-    def rewrite(files: Files) -> Files:
-        return {n: re.sub(r"\binterface (?=\w+(?: :| \{|;))", "local interface ", t) for n, t in files.items()}
-
-    return rewritten(program, rewrite)
+    return {n: re.sub(r"\binterface (?=\w+(?: :| \{|;))", "local interface ", t) for n, t in files.items()}
 
 
 @variant(task="idl")
@@ -246,16 +232,13 @@ def _reversed(element: _M) -> _M:
 
 
 @variant(task="idl")
-def a_file_for_each_module(program: Program) -> Program:
+@rewriting
+def a_file_for_each_module(files: Files) -> Files:
     """Each piece of a top module has its own file, and one includes them all."""
-
-    def rewrite(files: Files) -> Files:
-        head, *pieces = re.split(r"^(?=module )", files[MODEL].removesuffix(GUARD), flags=re.MULTILINE)
-        names = {f"part_{n}.idl": f'#include "{STANDARD}"\n{piece}' for n, piece in enumerate(pieces)}
-        includes = "".join(f'#include "{name}"\n' for name in names)
-        return {STANDARD: files[STANDARD], **names, MODEL: f"{head}{includes}{GUARD}"}
-
-    return rewritten(program, rewrite)
+    head, *pieces = re.split(r"^(?=module )", files[MODEL].removesuffix(GUARD), flags=re.MULTILINE)
+    names = {f"part_{n}.idl": f'#include "{STANDARD}"\n{piece}' for n, piece in enumerate(pieces)}
+    includes = "".join(f'#include "{name}"\n' for name in names)
+    return {STANDARD: files[STANDARD], **names, MODEL: f"{head}{includes}{GUARD}"}
 
 
 _HEAD = r"interface (\w+)((?: : [^{]*)?) \{\n"
@@ -263,54 +246,45 @@ _GETTER = r" *\S+ get_(?!tp_)\w+\(\);\n"
 
 
 @variant(task="idl")
-def getters_in_bodies(program: Program) -> Program:
+@rewriting
+def getters_in_bodies(files: Files) -> Files:
     """Getters of ports are declared in each body interface instead of the equivalent interface."""
+    text = files[MODEL]
+    blocks = re.findall(rf"{_HEAD}((?:.*\n)*?) *\}};\n", text)
+    getters = {name: re.findall(_GETTER, body, re.MULTILINE) for name, _, body in blocks}
+    bases = {name: re.findall(r"\w+(?=,|$)", heads) for name, heads, _ in blocks}
 
-    def rewrite(files: Files) -> Files:
-        text = files[MODEL]
-        blocks = re.findall(rf"{_HEAD}((?:.*\n)*?) *\}};\n", text)
-        getters = {name: re.findall(_GETTER, body, re.MULTILINE) for name, _, body in blocks}
-        bases = {name: re.findall(r"\w+(?=,|$)", heads) for name, heads, _ in blocks}
+    def all_of(name: str) -> list[str]:
+        return [*getters.get(name, []), *(g for base in bases.get(name, []) for g in all_of(base))]
 
-        def all_of(name: str) -> list[str]:
-            return [*getters.get(name, []), *(g for base in bases.get(name, []) for g in all_of(base))]
-
-        text = re.sub(_GETTER, "", text)
-        moved = re.sub(_HEAD, lambda m: m[0] + "".join(all_of(m[1]) if m[1].endswith("_Body") else []), text)
-        return {**files, MODEL: moved}
-
-    return rewritten(program, rewrite)
+    text = re.sub(_GETTER, "", text)
+    moved = re.sub(_HEAD, lambda m: m[0] + "".join(all_of(m[1]) if m[1].endswith("_Body") else []), text)
+    return {**files, MODEL: moved}
 
 
 @variant(task="idl")
-def templates_around_templates(program: Program) -> Program:
+@rewriting
+def templates_around_templates(files: Files) -> Files:
     """A module around a template is a template with the same parameter, and instances are made one by one."""
-
-    def rewrite(files: Files) -> Files:
-        text = re.sub(
-            r"module messages \{(?=\n *module message_api<)", "module messages<typename MESSAGE_TYPE_T> {", files[MODEL]
-        )
-        text = re.sub(
-            r"module (\S*::messages)::message_api(<\S+>) (\w+);",
-            r"module \1\2 \3_around;\n        module \3_around::message_api\2 \3;",
-            text,
-        )
-        return {**files, MODEL: text}
-
-    return rewritten(program, rewrite)
+    text = re.sub(
+        r"module messages \{(?=\n *module message_api<)", "module messages<typename MESSAGE_TYPE_T> {", files[MODEL]
+    )
+    text = re.sub(
+        r"module (\S*::messages)::message_api(<\S+>) (\w+);",
+        r"module \1\2 \3_around;\n        module \3_around::message_api\2 \3;",
+        text,
+    )
+    return {**files, MODEL: text}
 
 
 @variant(task="idl")
-def interfaces_of_their_own_for_bindings(program: Program) -> Program:
+@rewriting
+def interfaces_of_their_own_for_bindings(files: Files) -> Files:
     """Instead of an instance of a template there is an interface with the types that are bound."""
-
-    def rewrite(files: Files) -> Files:
-        text = re.sub(
-            r"module \S+::message_api<(\S+)> (\w+);",
-            r"interface \2_intf : ::PortElementObject {\n"
-            r"            ::bindings_platform::return_codes::comm_ecode push(in \1 message);\n        };",
-            files[MODEL],
-        )
-        return {**files, MODEL: re.sub(r"(\w+_message_api)::message_intf (?=get_)", r"\1_intf ", text)}
-
-    return rewritten(program, rewrite)
+    text = re.sub(
+        r"module \S+::message_api<(\S+)> (\w+);",
+        r"interface \2_intf : ::PortElementObject {\n"
+        r"            ::bindings_platform::return_codes::comm_ecode push(in \1 message);\n        };",
+        files[MODEL],
+    )
+    return {**files, MODEL: re.sub(r"(\w+_message_api)::message_intf (?=get_)", r"\1_intf ", text)}

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable, Iterator
 
 from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES, Alias, Constant, PrimitiveFloat
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.mutants.toolchain.registry import breaks, replacing_rule
-from ucm_cts.adapters.mutants.toolchain.strictness import refusing
+from ucm_cts.adapters.mutants.toolchain.registry import breaks, named, replacing_rule
+from ucm_cts.adapters.mutants.toolchain.strictness import refuses
 from ucm_cts.adapters.mutants.toolchain.tolerance import deaf, lacks, without
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
 from ucm_cts.adapters.reference.toolchain.program import Program
@@ -40,16 +41,14 @@ def _with_ranges(program: Program, ranges: Ranges) -> Program:
 def _off_by_one(kind: str, requirement: str, also: tuple[str, ...]) -> None:
     least, most = INTEGER_RANGES[kind]
 
-    def too_wide(program: Program) -> Program:
-        return _with_ranges(program, {**INTEGER_RANGES, kind: (least - 1, most + 1)})
-
-    def too_narrow(program: Program) -> Program:
-        return _with_ranges(program, {**INTEGER_RANGES, kind: (least + 1, most - 1)})
-
-    for derive, what in ((too_wide, "one beyond"), (too_narrow, "only inside")):
-        derive.__name__ = f"{derive.__name__}_{kind.lower()}"
-        derive.__doc__ = f"Takes constants of {kind} {what} its bounds."
-        breaks(requirement, task="check", also=also)(derive)
+    for name, what, beyond in (("too_wide", "one beyond", 1), ("too_narrow", "only inside", -1)):
+        ranges = {**INTEGER_RANGES, kind: (least - beyond, most + beyond)}
+        derive = named(
+            functools.partial(_with_ranges, ranges=ranges),
+            f"{name}_{kind.lower()}",
+            f"Takes constants of {kind} {what} its bounds.",
+        )
+        breaks(requirement, also=also)(derive)
 
 
 _SAME = ("R-9.1.4.4-05", "R-9.2.4.2-02", "R-9.2.6.1-02", "R-9.2.6.1-03", "R-9.2.6.1-04")
@@ -59,7 +58,7 @@ for _number, _kind in enumerate(INTEGER_RANGES, 3):
     _off_by_one(_kind, f"R-9.2.3.2-{_number:02}", _SAME)
 
 
-@breaks("R-9.2.3.2-03", task="check", also=("R-9.2.6.1-03", "R-9.2.6.1-04"))
+@breaks("R-9.2.3.2-03", also=("R-9.2.6.1-03", "R-9.2.6.1-04"))
 def bytes_are_octets(program: Program) -> Program:
     """Takes BYTE for an octet, which goes from 0 to 255."""
     return _with_ranges(program, {**INTEGER_RANGES, "BYTE": (0, 255)})
@@ -74,25 +73,25 @@ def _reading(program: Program, pattern: str, meant: str) -> Program:
     return _fitting(program, lambda constant, scope: fit(reread(constant), constant.type, scope))
 
 
-@breaks("R-9.2.6.1-03", task="check", also=("R-9.2.6.1-04",))
+@breaks("R-9.2.6.1-03", also=("R-9.2.6.1-04",))
 def octal_is_decimal(program: Program) -> Program:
     """Reads numbers with a leading zero as decimal ones."""
     return _reading(program, r"^(-?)0+([1-9]\d*)$", r"\1\2")
 
 
-@breaks("R-9.2.6.1-03", "R-9.2.2.6-02", task="check")
-def hexadecimal_unknown(program: Program) -> Program:
+@refuses("R-9.2.6.1-03", "R-9.2.2.6-02")
+def hexadecimal_unknown(constant: Constant, _: Scope) -> object:
     """Takes hexadecimal numbers for errors."""
-    return refusing(program, Constant, lambda constant, _: re.fullmatch(r"-?0[xX]\w+", constant.value))
+    return re.fullmatch(r"-?0[xX]\w+", constant.value)
 
 
-@breaks("R-9.2.6.1-03", task="check", also=("R-9.2.2.6-02",))
-def points_have_digits(program: Program) -> Program:
+@refuses("R-9.2.6.1-03", also=("R-9.2.2.6-02",))
+def points_have_digits(constant: Constant, _: Scope) -> object:
     """Takes a number for an error that has no digits on one side of its point."""
-    return refusing(program, Constant, lambda constant, _: re.search(r"(?<!\d)\.|\.(?!\d)", constant.value))
+    return re.search(r"(?<!\d)\.|\.(?!\d)", constant.value)
 
 
-@breaks("R-9.2.3.3-04", task="check")
+@breaks("R-9.2.3.3-04")
 def fixed_point_values(program: Program) -> Program:
     """Knows numbers with a fixed point."""
 
@@ -103,13 +102,13 @@ def fixed_point_values(program: Program) -> Program:
     return replacing_rule(program, "constants_follow_the_grammar", look)
 
 
-@breaks("R-9.2.3.5-01", task="check")
-def nothing_is_false(program: Program) -> Program:
+@refuses("R-9.2.3.5-01")
+def nothing_is_false(constant: Constant, _: Scope) -> object:
     """Takes a model with both truth values for an error."""
-    return refusing(program, Constant, lambda constant, _: constant.value == "FALSE" and constant.name == "no")
+    return constant.value == "FALSE" and constant.name == "no"
 
 
-@breaks("R-9.2.4.2-02", task="check")
+@breaks("R-9.2.4.2-02")
 def aliases_are_not_followed(program: Program) -> Program:
     """Takes any value for a constant whose type is an alias."""
 
@@ -121,24 +120,20 @@ def aliases_are_not_followed(program: Program) -> Program:
     return _fitting(program, fits)
 
 
-@breaks("R-9.2.6.1-01", "R-9.2.2.6-01", task="check")
+@breaks("R-9.2.6.1-01", "R-9.2.2.6-01")
 def values_may_be_missing(program: Program) -> Program:
     """Takes constants without value."""
     return without(deaf(program, lambda problem, _: lacks(problem, "value", "Constant")), "values_are_given")
 
 
-@breaks("R-9.2.6.1-02", task="check")
-def no_constants_of_long_doubles(program: Program) -> Program:
+@refuses("R-9.2.6.1-02")
+def no_constants_of_long_doubles(constant: Constant, scope: Scope) -> bool:
     """Takes a constant of the kind LONGDOUBLE for an error."""
-
-    def is_long(constant: Constant, scope: Scope) -> bool:
-        found = actual_type(constant.type, scope)
-        return found is not None and isinstance(found.element, PrimitiveFloat) and found.element.kind == "LONGDOUBLE"
-
-    return refusing(program, Constant, is_long)
+    found = actual_type(constant.type, scope)
+    return found is not None and isinstance(found.element, PrimitiveFloat) and found.element.kind == "LONGDOUBLE"
 
 
-@breaks("R-9.2.6.1-04", task="check", declares=("text-values=quoted",))
+@breaks("R-9.2.6.1-04", declares=("text-values=quoted",))
 def strings_of_any_length(program: Program) -> Program:
     """Takes text that is longer than the string."""
 
@@ -152,7 +147,7 @@ def strings_of_any_length(program: Program) -> Program:
     return _fitting(program, fits)
 
 
-@breaks("R-9.2.6.1-03", task="check", declares=("value-syntax=expressions",))
-def sums_bind_like_products(program: Program) -> Program:
+@refuses("R-9.2.6.1-03", declares=("value-syntax=expressions",))
+def sums_bind_like_products(constant: Constant, _: Scope) -> object:
     """Calculates strictly from left to right."""
-    return refusing(program, Constant, lambda constant, _: constant.value == "1 + 2 * 127")
+    return constant.value == "1 + 2 * 127"

@@ -18,39 +18,28 @@ from ucm_cts.adapters.contract.metamodel.components import (
 )
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
-from ucm_cts.adapters.mutants.toolchain.registry import breaks, replacing_rule
-from ucm_cts.adapters.mutants.toolchain.strictness import overhearing, refusing, refusing_text
+from ucm_cts.adapters.mutants.toolchain.registry import breaks
+from ucm_cts.adapters.mutants.toolchain.strictness import refuses, refusing_text
+from ucm_cts.adapters.mutants.toolchain.tolerance import replaces_rule
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
 from ucm_cts.adapters.reference.toolchain.program import Program
 from ucm_cts.adapters.reference.toolchain.rules.components.policy_use import aspect_of, uses
 
 
-@breaks(
-    "R-9.4.1-02",
-    task="check",
-    also=("R-9-01", "R-9.4.1-06", "R-9.4.3.2-05", "R-9.4.3.2-11", "R-9.4.2.1-02", "R-9.5.1-06"),
-)
-def apis_for_all_or_none(program: Program) -> Program:
+@refuses("R-9.4.1-02", also=("R-9-01", "R-9.4.1-06", "R-9.4.3.2-05", "R-9.4.3.2-11", "R-9.4.2.1-02", "R-9.5.1-06"))
+def apis_for_all_or_none(module: NonfunctionalAspectModule, _: Scope) -> bool:
     """Takes definitions with and without port elements side by side for an error."""
-
-    def mixed(module: NonfunctionalAspectModule, _: object) -> bool:
-        return len({bool(definition.port_elements) for definition in module.policy_definitions}) > 1
-
-    return refusing(program, NonfunctionalAspectModule, mixed)
+    return len({bool(definition.port_elements) for definition in module.policy_definitions}) > 1
 
 
-@breaks("R-9.4.1-03", task="check", declares=("policies-on-ports-counted=with-the-component",))
-def policies_on_ports_do_not_count(program: Program) -> Program:
+@refuses("R-9.4.1-03", declares=("policies-on-ports-counted=with-the-component",))
+def policies_on_ports_do_not_count(_: Model, root: Scope) -> bool:
     """Takes an implementation whose one policy of an aspect is on its ports for an error."""
-
-    def on_ports_only(_: Model, root: Scope) -> bool:
-        return any(
-            isinstance(policy.element, ComponentPortTechnicalPolicy) and _multiplicity(policy) == "exactlyOne"
-            for use in uses(root)
-            for policy in use.named.values()
-        )
-
-    return refusing(program, Model, on_ports_only)
+    return any(
+        isinstance(policy.element, ComponentPortTechnicalPolicy) and _multiplicity(policy) == "exactlyOne"
+        for use in uses(root)
+        for policy in use.named.values()
+    )
 
 
 def _multiplicity(policy: Declared) -> str:
@@ -58,84 +47,36 @@ def _multiplicity(policy: Declared) -> str:
     return getattr(aspect.element, "multiplicity", "") if aspect is not None else ""
 
 
-@breaks("R-9.4.1-06", task="check", also=("R-9.4.4.1-01", "R-9.5.1-06"))
-def languages_apart_from_policies(program: Program) -> Program:
+@refuses("R-9.4.1-06", also=("R-9.4.4.1-01", "R-9.5.1-06"))
+def languages_apart_from_policies(module: NonfunctionalAspectModule, _: Scope) -> bool:
     """Takes a module that lists three languages and defines policies for an error."""
-
-    def both(module: NonfunctionalAspectModule, _: object) -> bool:
-        several = any(len(languages.languages) == 3 for languages in module.supported_languages)
-        return several and bool(module.policy_definitions)
-
-    return refusing(program, NonfunctionalAspectModule, both)
+    several = any(len(languages.languages) == 3 for languages in module.supported_languages)
+    return several and bool(module.policy_definitions)
 
 
-@breaks("R-9.4.2.1-01", task="check")
-def modules_of_aspects_are_not_empty(program: Program) -> Program:
+@refuses("R-9.4.2.1-01")
+def modules_of_aspects_are_not_empty(model: Model, _: Scope) -> bool:
     """Takes a nonfunctional aspect module that is all of a model and empty for an error."""
-
-    def empty(model: Model, _: object) -> bool:
-        module = model.modules[0]
-        alone = len(model.modules) == 1 and isinstance(module, NonfunctionalAspectModule)
-        return alone and not any(True for _ in children(module))
-
-    return refusing(program, Model, empty)
+    module = model.modules[0]
+    alone = len(model.modules) == 1 and isinstance(module, NonfunctionalAspectModule)
+    return alone and not any(True for _ in children(module))
 
 
-@breaks(
-    "R-9.4.2.1-05",
-    task="check",
-    also=(
-        "R-9.1.4.8-02",
-        "R-9.2.2.15-03",
-    ),
-)
-def components_among_aspects(program: Program) -> Program:
-    """Lets component modules stand anywhere."""
-    return overhearing(program, "misplaced element", "ComponentModule", "stand")
-
-
-@breaks("R-9.4.3.1-02", task="check")
-def multiplicity_left_out(program: Program) -> Program:
-    """Does without the multiplicity of an aspect."""
-    return overhearing(program, "missing attribute", "TechnicalAspect", "multiplicity")
-
-
-@breaks("R-9.4.3.1-03", task="check", also=("R-9.4.3.1-02",))
-def any_multiplicity(program: Program) -> Program:
-    """Takes any word for a multiplicity."""
-    return overhearing(program, "bad literal", "TechnicalAspect", "multiplicity")
-
-
-@breaks(
-    "R-9.4.3.1-04",
-    task="check",
-    also=(
-        "R-9.5.4.5-01",
-        "R-9.5.4.1-03",
-    ),
-)
-def any_number_is_one(program: Program) -> Program:
+@refuses("R-9.4.3.1-04", also=("R-9.5.4.5-01", "R-9.5.4.1-03"))
+def any_number_is_one(_: Model, root: Scope) -> bool:
     """Takes a second policy of an aspect that allows any number for an error."""
-
-    def second(_: Model, root: Scope) -> bool:
-        return any(
-            len(policies) > 1 and _multiplicity(policies[0]) == "anyNumber"
-            for use in uses(root)
-            for policies in use.of_aspects().values()
-        )
-
-    return refusing(program, Model, second)
+    return any(
+        len(policies) > 1 and _multiplicity(policies[0]) == "anyNumber"
+        for use in uses(root)
+        for policies in use.of_aspects().values()
+    )
 
 
-@breaks("R-9.4.3.2-03", task="check")
-def aspects_stand_beside_their_policies(program: Program) -> Program:
+@refuses("R-9.4.3.2-03")
+def aspects_stand_beside_their_policies(definition: TechnicalPolicyDefinition, scope: Scope) -> bool:
     """Takes a definition of an aspect of another outermost module for an error."""
-
-    def elsewhere(definition: TechnicalPolicyDefinition, scope: Scope) -> bool:
-        aspect = scope.find(definition.technical_aspect, TechnicalAspect)
-        return aspect is not None and not definition.extends and _outermost(aspect.scope) is not _outermost(scope)
-
-    return refusing(program, TechnicalPolicyDefinition, elsewhere)
+    aspect = scope.find(definition.technical_aspect, TechnicalAspect)
+    return aspect is not None and not definition.extends and _outermost(aspect.scope) is not _outermost(scope)
 
 
 def _outermost(scope: Scope) -> Scope:
@@ -144,72 +85,36 @@ def _outermost(scope: Scope) -> Scope:
     return scope
 
 
-@breaks("R-9.4.3.2-04", task="check")
-def applicability_left_out(program: Program) -> Program:
-    """Does without the applicability of a policy definition."""
-    return overhearing(program, "missing attribute", "TechnicalPolicyDefinition", "applicability")
-
-
-@breaks("R-9.4.3.2-05", task="check", also=("R-9.4.3.2-04",))
-def any_applicability(program: Program) -> Program:
-    """Takes any word for an applicability."""
-    return overhearing(program, "bad literal", "TechnicalPolicyDefinition", "applicability")
-
-
-@breaks("R-9.4.3.2-10", task="check", declares=("inherited-member-names=heir",))
-def parameters_are_not_inherited(program: Program) -> Program:
+@refuses("R-9.4.3.2-10", declares=("inherited-member-names=heir",))
+def parameters_are_not_inherited(policy: ComponentTechnicalPolicy, scope: Scope) -> bool:
     """Takes a value of a parameter that the definition only inherits for an error."""
-
-    def inherited(policy: ComponentTechnicalPolicy, scope: Scope) -> bool:
-        definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
-        own = {one.name for one in getattr(definition and definition.element, "configuration_parameters", ())}
-        return any(v.configuration_parameter.rpartition(".")[2] not in own for v in policy.configuration_values)
-
-    return refusing(program, ComponentTechnicalPolicy, inherited)
+    definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
+    own = {one.name for one in getattr(definition and definition.element, "configuration_parameters", ())}
+    return any(v.configuration_parameter.rpartition(".")[2] not in own for v in policy.configuration_values)
 
 
-@breaks("R-9.4.3.2-11", task="check")
-def port_elements_are_not_inherited(program: Program) -> Program:
+@refuses("R-9.4.3.2-11")
+def port_elements_are_not_inherited(policy: ComponentTechnicalPolicy, scope: Scope) -> bool:
     """Takes bindings for a definition that only inherits port elements for an error."""
-
-    def inherited(policy: ComponentTechnicalPolicy, scope: Scope) -> bool:
-        definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
-        return bool(policy.bindings) and not getattr(definition and definition.element, "port_elements", ())
-
-    return refusing(program, ComponentTechnicalPolicy, inherited)
+    definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
+    return bool(policy.bindings) and not getattr(definition and definition.element, "port_elements", ())
 
 
-@breaks(
-    "R-9.4.3.4-01",
-    task="check",
-    also=("R-9-01", "R-9.1.2-05", "R-9.1.4.1-01", "R-9.1.4.1-03", "R-9.2.2.15-05", "R-9.2.2.14-01"),
-)
+@breaks("R-9.4.3.4-01", also=("R-9-01", "R-9.1.2-05", "R-9.1.4.1-01", "R-9.1.4.1-03", "R-9.2.2.15-05", "R-9.2.2.14-01"))
 def names_of_definitions_come_first(program: Program) -> Program:
     """Takes a policy definition that begins with its applicability for an error."""
     return refusing_text(program, rb"<TechnicalPolicyDefinition\s+applicability")
 
 
-@breaks(
-    "R-9.4.3.4-02",
-    task="check",
-    also=(
-        "R-9.4.2.1-02",
-        "R-9.4.2.1-03",
-    ),
-)
-def languages_do_not_come_first(program: Program) -> Program:
+@refuses("R-9.4.3.4-02", also=("R-9.4.2.1-02", "R-9.4.2.1-03"))
+def languages_do_not_come_first(module: NonfunctionalAspectModule, _: Scope) -> bool:
     """Takes a list of languages before all else in its module for an error."""
-
-    def first(module: NonfunctionalAspectModule, _: object) -> bool:
-        lines = [child.line for child in children(module) if not isinstance(child, ProgrammingLanguages)]
-        return any(languages.line < min(lines, default=0) for languages in module.supported_languages)
-
-    return refusing(program, NonfunctionalAspectModule, first)
+    lines = [child.line for child in children(module) if not isinstance(child, ProgrammingLanguages)]
+    return any(languages.line < min(lines, default=0) for languages in module.supported_languages)
 
 
 @breaks(
     "R-9.4.3.4-03",
-    task="check",
     also=("R-9-01", "R-9.1.2-05", "R-9.1.4.1-01", "R-9.1.4.1-03", "R-9.2.2.15-05", "R-9.4.3.4-01", "R-9.2.2.14-01"),
 )
 def names_of_aspects_come_first(program: Program) -> Program:
@@ -217,47 +122,28 @@ def names_of_aspects_come_first(program: Program) -> Program:
     return refusing_text(program, rb"<TechnicalAspect\s+multiplicity")
 
 
-@breaks("R-9.4.3.4-04", task="check")
-def parameters_come_first(program: Program) -> Program:
+@refuses("R-9.4.3.4-04")
+def parameters_come_first(definition: TechnicalPolicyDefinition, _: Scope) -> bool:
     """Takes a port element before a parameter for an error."""
-
-    def late(definition: TechnicalPolicyDefinition, _: object) -> bool:
-        return any(e.line < p.line for e in definition.port_elements for p in definition.configuration_parameters)
-
-    return refusing(program, TechnicalPolicyDefinition, late)
+    return any(e.line < p.line for e in definition.port_elements for p in definition.configuration_parameters)
 
 
-@breaks(
-    "R-9.4.4-01",
-    task="check",
-    also=(
-        "R-9-01",
-        "R-9.5.4.1-02",
-    ),
-)
-def languages_are_not_alone(program: Program) -> Program:
+@refuses("R-9.4.4-01", also=("R-9-01", "R-9.5.4.1-02"))
+def languages_are_not_alone(module: NonfunctionalAspectModule, scope: Scope) -> bool:
     """Takes a module that has a list of languages and nothing else and is in another module for an error."""
-
-    def alone(module: NonfunctionalAspectModule, scope: Scope) -> bool:
-        return scope.around is not None and [type(child) for child in children(module)] == [ProgrammingLanguages]
-
-    return refusing(program, NonfunctionalAspectModule, alone)
+    return scope.around is not None and [type(child) for child in children(module)] == [ProgrammingLanguages]
 
 
-@breaks("R-9.4.4.2-02", task="check", also=("R-9.5.4.1-02", "R-9.2.9.2-03", "R-9.5.1-06"))
-def languages_are_identifiers(program: Program) -> Program:
+@refuses("R-9.4.4.2-02", also=("R-9.5.4.1-02", "R-9.2.9.2-03", "R-9.5.1-06"))
+def languages_are_identifiers(one: AtomicComponentImplementation, _: Scope) -> object:
     """Takes an implementation in a language with a plus in its name for an error."""
-    return refusing(program, AtomicComponentImplementation, lambda one, _: "+" in one.language)
+    return "+" in one.language
 
 
-@breaks("R-9.4.1-04", task="check", declares=("policies-on-ports-counted=with-the-component",))
-def counts_policies_on_components_only(program: Program) -> Program:
+@replaces_rule("has_the_one_policy_only", "R-9.4.1-04", declares=("policies-on-ports-counted=with-the-component",))
+def counts_policies_on_components_only(_model: Model, root: Scope) -> Iterator[Complaint]:
     """Says that policies on ports count with those on the component, and counts only the latter."""
-
-    def look(_model: Model, root: Scope) -> Iterator[Complaint]:
-        for use in uses(root):
-            mine = [policy.element for policy in use.named.values() if _multiplicity(policy) == "exactlyOne"]
-            if sum(not isinstance(policy, ComponentPortTechnicalPolicy) for policy in mine) > 1:
-                yield use.implementation, f"{use.implementation.name} has two policies"
-
-    return replacing_rule(program, "has_the_one_policy_only", look)
+    for use in uses(root):
+        mine = [policy.element for policy in use.named.values() if _multiplicity(policy) == "exactlyOne"]
+        if sum(not isinstance(policy, ComponentPortTechnicalPolicy) for policy in mine) > 1:
+            yield use.implementation, f"{use.implementation.name} has two policies"

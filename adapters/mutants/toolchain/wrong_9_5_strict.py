@@ -16,24 +16,22 @@ from ucm_cts.adapters.contract.metamodel.components import (
 )
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
-from ucm_cts.adapters.mutants.toolchain.registry import breaks
-from ucm_cts.adapters.mutants.toolchain.strictness import refusing
-from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.mutants.toolchain.strictness import refuses
 from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import COMPONENTS, part_called
 
 Composite = CompositeComponentImplementation
 
 
-@breaks("R-9.4.3.2-12", task="check")
-def elements_of_strangers_clash(program: Program) -> Program:
+@refuses("R-9.4.3.2-12")
+def elements_of_strangers_clash(module: NonfunctionalAspectModule, _: Scope) -> object:
     """Takes port elements of one name in unrelated definitions of a module with extensions for an error."""
-    return refusing(program, NonfunctionalAspectModule, lambda module, _: _shared(module, "port_elements"))
+    return _shared(module, "port_elements")
 
 
-@breaks("R-9.4.3.2-13", task="check")
-def parameters_of_strangers_clash(program: Program) -> Program:
+@refuses("R-9.4.3.2-13")
+def parameters_of_strangers_clash(module: NonfunctionalAspectModule, _: Scope) -> object:
     """Takes parameters of one name in unrelated definitions of a module with extensions for an error."""
-    return refusing(program, NonfunctionalAspectModule, lambda module, _: _shared(module, "configuration_parameters"))
+    return _shared(module, "configuration_parameters")
 
 
 def _shared(module: NonfunctionalAspectModule, field: str) -> bool:
@@ -41,120 +39,77 @@ def _shared(module: NonfunctionalAspectModule, field: str) -> bool:
     return any(d.extends for d in module.policy_definitions) and max(names.values(), default=0) > 1
 
 
-@breaks("R-9.4.3.2-15", task="check", also=("R-9.5.4.2-10",))
-def on_both_is_on_ports(program: Program) -> Program:
+@refuses("R-9.4.3.2-15", also=("R-9.5.4.2-10",))
+def on_both_is_on_ports(policy: ComponentTechnicalPolicy, scope: Scope) -> bool:
     """Takes a policy on components that could be on ports for an error."""
-
-    def for_both(policy: ComponentTechnicalPolicy, scope: Scope) -> bool:
-        definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
-        on_ports = isinstance(policy, ComponentPortTechnicalPolicy)
-        return not on_ports and getattr(definition and definition.element, "applicability", "") == "onBoth"
-
-    return refusing(program, ComponentTechnicalPolicy, for_both)
+    definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
+    on_ports = isinstance(policy, ComponentPortTechnicalPolicy)
+    return not on_ports and getattr(definition and definition.element, "applicability", "") == "onBoth"
 
 
-@breaks("R-9.5.1-03", task="check")
-def one_implementation_a_type(program: Program) -> Program:
+@refuses("R-9.5.1-03")
+def one_implementation_a_type(module: ComponentModule, _: Scope) -> bool:
     """Takes implementations of one type in two languages and in parts for an error."""
-
-    def again(module: ComponentModule, _: object) -> bool:
-        atomic = [one for one in module.implementations if isinstance(one, AtomicComponentImplementation)]
-        whole = {one.type for one in module.implementations if isinstance(one, Composite)}
-        return any(a.type == b.type in whole and a.language != b.language for a in atomic for b in atomic)
-
-    return refusing(program, ComponentModule, again)
+    atomic = [one for one in module.implementations if isinstance(one, AtomicComponentImplementation)]
+    whole = {one.type for one in module.implementations if isinstance(one, Composite)}
+    return any(a.type == b.type in whole and a.language != b.language for a in atomic for b in atomic)
 
 
-@breaks("R-9.5.3.1-08", task="check", also=("R-9.5.3.2-05",))
-def inherited_names_are_taken(program: Program) -> Program:
+@refuses("R-9.5.3.1-08", also=("R-9.5.3.2-05",))
+def inherited_names_are_taken(component: ComponentType, _: Scope) -> bool:
     """Takes a port that is called like the inherited one it refines for an error."""
-
-    def same(component: ComponentType, _: object) -> bool:
-        return any(port.refines_port.rpartition(".")[2] == port.name for port in component.ports if port.refines_port)
-
-    return refusing(program, ComponentType, same)
+    return any(port.refines_port.rpartition(".")[2] == port.name for port in component.ports if port.refines_port)
 
 
-@breaks("R-9.5.3.1-09", task="check")
-def attributes_of_strangers_clash(program: Program) -> Program:
+@refuses("R-9.5.3.1-09")
+def attributes_of_strangers_clash(module: ComponentModule, _: Scope) -> bool:
     """Takes attributes of one name in unrelated types of a module with refinements for an error."""
-
-    def shared(module: ComponentModule, _: object) -> bool:
-        names = Counter(attribute.name for one in module.component_types for attribute in one.attributes)
-        return any(one.refines for one in module.component_types) and max(names.values(), default=0) > 1
-
-    return refusing(program, ComponentModule, shared)
+    names = Counter(attribute.name for one in module.component_types for attribute in one.attributes)
+    return any(one.refines for one in module.component_types) and max(names.values(), default=0) > 1
 
 
-@breaks(
-    "R-9.5.3.2-03",
-    task="check",
-    also=(
-        "R-9.3.3.1-01",
-        "R-9.5.5.8-01",
-    ),
-)
-def ports_of_one_sort(program: Program) -> Program:
+@refuses("R-9.5.3.2-03", also=("R-9.3.3.1-01", "R-9.5.5.8-01"))
+def ports_of_one_sort(component: ComponentType, _: Scope) -> bool:
     """Takes a component type with ports by role and by type for an error if they are two."""
-
-    def mixed(component: ComponentType, _: object) -> bool:
-        return len(component.ports) == 2 and len({type(spec) for port in component.ports for spec in port.specs}) > 1
-
-    return refusing(program, ComponentType, mixed)
+    return len(component.ports) == 2 and len({type(spec) for port in component.ports for spec in port.specs}) > 1
 
 
-@breaks("R-9.5.3.2-04", task="check", also=("R-9.5.3.1-08",))
-def refined_ports_are_near(program: Program) -> Program:
+@refuses("R-9.5.3.2-04", also=("R-9.5.3.1-08",))
+def refined_ports_are_near(component: ComponentType, scope: Scope) -> bool:
     """Takes a port that refines one of an ancestor's ancestor for an error."""
-
-    def far(component: ComponentType, scope: Scope) -> bool:
-        far_ones = lineage(Declared(component, scope))[2:]
-        theirs = {id(port) for one in far_ones for port in getattr(one.element, "ports", ())}
-        found = (scope.member(port.refines_port, ComponentType, "ports") for port in component.ports)
-        return any(port is not None and id(port.element) in theirs for port in found)
-
-    return refusing(program, ComponentType, far)
+    far_ones = lineage(Declared(component, scope))[2:]
+    theirs = {id(port) for one in far_ones for port in getattr(one.element, "ports", ())}
+    found = (scope.member(port.refines_port, ComponentType, "ports") for port in component.ports)
+    return any(port is not None and id(port.element) in theirs for port in found)
 
 
-@breaks("R-9.5.4.3-04", task="check", also=("R-9.5.3.1-05",), declares=("inherited-member-names=heir",))
-def inherited_ports_are_not_managed(program: Program) -> Program:
+@refuses("R-9.5.4.3-04", also=("R-9.5.3.1-05",), declares=("inherited-member-names=heir",))
+def inherited_ports_are_not_managed(policy: ComponentPortTechnicalPolicy, scope: Scope) -> bool:
     """Takes a policy on an inherited port for an error."""
-
-    def inherited(policy: ComponentPortTechnicalPolicy, scope: Scope) -> bool:
-        for managed in policy.managed_ports:
-            owner, _, name = managed.name.rpartition(".")
-            found = scope.find(owner, ComponentType)
-            if found is not None and all(port.name != name for port in getattr(found.element, "ports", ())):
-                return True
-        return False
-
-    return refusing(program, ComponentPortTechnicalPolicy, inherited)
+    for managed in policy.managed_ports:
+        owner, _, name = managed.name.rpartition(".")
+        found = scope.find(owner, ComponentType)
+        if found is not None and all(port.name != name for port in getattr(found.element, "ports", ())):
+            return True
+    return False
 
 
-@breaks("R-9.5.5.3-02", task="check", also=("R-9.5.5.3-04",))
-def parts_differ(program: Program) -> Program:
+@refuses("R-9.5.5.3-02", also=("R-9.5.5.3-04",))
+def parts_differ(composite: Composite, scope: Scope) -> bool:
     """Takes two parts of one composite component for an error."""
-
-    def twice(composite: Composite, scope: Scope) -> bool:
-        names = Counter(part.instance_of for part in composite.parts)
-        return any(
-            number > 1 and (found := scope.find(name, *COMPONENTS)) is not None and isinstance(found.element, Composite)
-            for name, number in names.items()
-        )
-
-    return refusing(program, Composite, twice)
+    names = Counter(part.instance_of for part in composite.parts)
+    return any(
+        number > 1 and (found := scope.find(name, *COMPONENTS)) is not None and isinstance(found.element, Composite)
+        for name, number in names.items()
+    )
 
 
-@breaks("R-9.5.5.3-04", task="check")
-def parts_by_two_ways(program: Program) -> Program:
+@refuses("R-9.5.5.3-04")
+def parts_by_two_ways(model: Model, root: Scope) -> bool:
     """Takes a composite that contains another one by two ways for an error."""
-
-    def ways(model: Model, root: Scope) -> bool:
-        del model
-        composites = [d for s in _scopes(root) for same in s.members.values() for d in same if _is_composite(d.element)]
-        return any(_reached_twice(one) for one in composites)
-
-    return refusing(program, Model, ways)
+    del model
+    composites = [d for s in _scopes(root) for same in s.members.values() for d in same if _is_composite(d.element)]
+    return any(_reached_twice(one) for one in composites)
 
 
 def _scopes(root: Scope) -> list[Scope]:
@@ -176,29 +131,21 @@ def _inside(composite: Declared) -> list[Declared]:
     return [one for one in found if one is not None]
 
 
-@breaks("R-9.5.5.5-02", task="check", also=("R-9.5.5.4-04",))
-def composites_have_no_ports(program: Program) -> Program:
+@refuses("R-9.5.5.5-02", also=("R-9.5.5.4-04",))
+def composites_have_no_ports(composite: Composite, scope: Scope) -> bool:
     """Takes a connection that ends at a part that is a composite for an error."""
-
-    def at_composite(composite: Composite, scope: Scope) -> bool:
-        ends = [end for connection in composite.connections for end in connection.ends]
-        parts = [part_called(composite, end.part, scope) for end in ends]
-        return any(part is not None and scope.find(part.instance_of, Composite) is not None for part in parts)
-
-    return refusing(program, Composite, at_composite)
+    ends = [end for connection in composite.connections for end in connection.ends]
+    parts = [part_called(composite, end.part, scope) for end in ends]
+    return any(part is not None and scope.find(part.instance_of, Composite) is not None for part in parts)
 
 
-@breaks("R-9.5.5.6-04", task="check", also=("R-9.5.5.6-05",))
-def delegated_ports_share_a_name(program: Program) -> Program:
+@refuses("R-9.5.5.6-04", also=("R-9.5.5.6-05",))
+def delegated_ports_share_a_name(composite: Composite, scope: Scope) -> bool:
     """Takes a delegation between ports by role with different names for an error."""
-
-    def renamed(composite: Composite, scope: Scope) -> bool:
-        own = scope.find(composite.type, ComponentType)
-        roles = {p.name for p in getattr(own and own.element, "ports", ()) for s in p.specs if hasattr(s, "role")}
-        return len(roles) == 1 and any(
-            delegation.port in roles and end.port != delegation.port and not composite.connections
-            for delegation in composite.delegations
-            for end in delegation.ends
-        )
-
-    return refusing(program, Composite, renamed)
+    own = scope.find(composite.type, ComponentType)
+    roles = {p.name for p in getattr(own and own.element, "ports", ()) for s in p.specs if hasattr(s, "role")}
+    return len(roles) == 1 and any(
+        delegation.port in roles and end.port != delegation.port and not composite.connections
+        for delegation in composite.delegations
+        for end in delegation.ends
+    )

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.mutants.toolchain.registry import Derive, breaks
+from ucm_cts.adapters.mutants.toolchain.registry import breaks, named
 from ucm_cts.adapters.mutants.toolchain.variants_9_ports import naming_by_heir, naming_by_owner
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 
 @breaks(
     *("R-9.3.3.2-04", "R-9.4.3.2-10", "R-9.5.3.4-01", "R-9.5.3.5-01", "R-9.5.4.3-04", "R-9.5.5.4-05"),
-    task="check",
     also=("R-9.5.3.1-05",),
     declares=("inherited-member-names=heir",),
 )
@@ -18,7 +17,7 @@ def heirs_do_not_name_what_they_inherit(program: Program) -> Program:
     return naming_by_owner(program)
 
 
-@breaks("R-9.3.3.2-04", task="check", declares=("inherited-member-names=owner",))
+@breaks("R-9.3.3.2-04", declares=("inherited-member-names=owner",))
 def owners_do_not_name_what_others_inherit(program: Program) -> Program:
     """Says that an inherited member is named by who declares it, and knows it in connectors by the name of who inherits it."""
     return naming_by_heir(program)
@@ -36,14 +35,10 @@ _PROMISES: tuple[tuple[str, tuple[str, ...], str], ...] = (
 """What is refused, the requirements that this breaks, and the reading that allows it."""
 
 
-def _refusing(what: str) -> Derive:
-    def derive(program: Program) -> Program:
-        return program
-
-    derive.__name__ = f"refuses_{what.replace(' ', '_')}"
-    derive.__doc__ = f"Says that {what} are legal, and refuses them as the reference tool chain does."
-    return derive
-
-
 for _what, _requirements, _reading in _PROMISES:
-    breaks(*_requirements, task="check", declares=(_reading,))(_refusing(_what))
+    _derive = named(
+        lambda program: program,
+        f"refuses_{_what.replace(' ', '_')}",
+        f"Says that {_what} are legal, and refuses them as the reference tool chain does.",
+    )
+    breaks(*_requirements, declares=(_reading,))(_derive)

@@ -5,30 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 from ucm_cts.adapters.contract.metamodel.common import Element
-from ucm_cts.adapters.contract.metamodel.components import (
-    ComponentPortTechnicalPolicy,
-    ComponentType,
-)
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    INTEGER_RANGES,
-    Alias,
-    PrimitiveFloat,
-)
+from ucm_cts.adapters.contract.metamodel.components import ComponentPortTechnicalPolicy, ComponentType
+from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES, Alias, PrimitiveFloat
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.mutants.toolchain.registry import MUTANTS, Holds, Mutant, complaining_where
-from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.mutants.toolchain.registry import Holds, breaks, complaining_where, named
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
 
 
 def _seldom(name: str, lie: str, requirement: str, rule: str, holds: Holds, *also: str) -> None:
     """Register a mutant in which the complaints of ``rule`` count only where ``holds``."""
-
-    def derive(program: Program) -> Program:
-        return complaining_where(program, rule, holds)
-
-    derive.__doc__ = lie
-    assert name not in MUTANTS, f"two mutants are called {name}"
-    MUTANTS[name] = Mutant(name, (requirement,), "check", derive, also)
+    derive = named(lambda program: complaining_where(program, rule, holds), name, lie)
+    breaks(requirement, also=also)(derive)
 
 
 _CIRCLES = (

@@ -2,8 +2,16 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.mutants.toolchain.registry import breaks
-from ucm_cts.adapters.mutants.toolchain.rewriting import GUARD, MODEL, STANDARD, appended, replaced, rewritten
+from ucm_cts.adapters.mutants.toolchain.registry import breaks, named
+from ucm_cts.adapters.mutants.toolchain.rewriting import (
+    GUARD,
+    MODEL,
+    STANDARD,
+    appended,
+    replace_each,
+    replaced,
+    rewritten,
+)
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 ENUM_INDEX = r'@IndexType\(typeid="(?!unsigned long")[^"]*"\)\n(?= *enum)'
@@ -104,11 +112,7 @@ REPLACED: dict[str, tuple[str, str, str]] = {
     "ancestor_forgotten": ("R-12.6-09", r"interface left : ::interfaces::root", "interface left"),
     "second_ancestor_forgotten": ("R-12.6-09", r"::interfaces::left, ::interfaces::right", "::interfaces::left"),
     "read_attribute_can_be_written": ("R-12.6-10", r"readonly (attribute ::interfaces)", r"\1"),
-    "interface_attributes_forgotten": (
-        "R-12.6-10",
-        r"(interface painter \{\n)(?: *.*attribute .*\n)+",
-        r"\1",
-    ),
+    "interface_attributes_forgotten": ("R-12.6-10", r"(interface painter \{\n)(?: *.*attribute .*\n)+", r"\1"),
     # modules (12.7)
     "component_module_renamed": ("R-12.7-02", r"\bpeople\b", "People"),
     "contract_module_renamed": ("R-12.7-03", r"\bdata_types\b", "datatypes"),
@@ -151,11 +155,7 @@ REPLACED: dict[str, tuple[str, str, str]] = {
     "body_is_no_component_object": ("R-12.8.2-03", r", ::ComponentObject", ""),
     "port_element_interface_renamed": ("R-12.8.3-01", r"\bhear\b", "hear_api"),
     "port_element_without_its_base": ("R-12.8.3-02", r" : ::PortElementObject", ""),
-    "role_with_a_getter": (
-        "R-12.8.4-02",
-        r"(interface pupil \{\n)",
-        r"\1::PortElementObject get_rumour_listener();\n",
-    ),
+    "role_with_a_getter": ("R-12.8.4-02", r"(interface pupil \{\n)", r"\1::PortElementObject get_rumour_listener();\n"),
     "role_with_a_getter_of_its_own_name": (
         "R-12.8.4-02",
         r"(interface pupil \{\n)",
@@ -224,11 +224,7 @@ PRINTED: dict[str, tuple[str, str, str]] = {
         r"interface ContainerManager : Container",
         "interface ContainerManager : Container, Connectable",
     ),
-    "disconnects_components": (
-        "R-12.10-37",
-        r"disconnect\(in connectionId",
-        "disconnect(in componentId",
-    ),
+    "disconnects_components": ("R-12.10-37", r"disconnect\(in connectionId", "disconnect(in componentId"),
     "error_with_a_reason": ("R-12.10-31", r"exception NOT_FOUND \{\n", "exception NOT_FOUND {\nstring reason;\n"),
     "port_elements_have_an_operation": (
         "R-12.10-32",
@@ -253,11 +249,7 @@ PRINTED: dict[str, tuple[str, str, str]] = {
         "typedef unsigned long ucm_suseconds_t",
     ),
     "messages_without_bound": ("R-12.11.2-03", r"string<255>", "string"),
-    "microseconds_first": (
-        "R-12.11.2-04",
-        r"( *ucm_time_t utv_sec;\n)( *ucm_suseconds_t utv_usec;\n)",
-        r"\2\1",
-    ),
+    "microseconds_first": ("R-12.11.2-04", r"( *ucm_time_t utv_sec;\n)( *ucm_suseconds_t utv_usec;\n)", r"\2\1"),
     "severity_forgotten": ("R-12.11.2-05", r" *warning,\n", ""),
     "clock_returns_its_time": (
         "R-12.11.2-06",
@@ -342,17 +334,10 @@ PROMISES = {
 }
 """What a tool chain claims that generates what clause 12 prints."""
 
-for _name, (_requirement, _pattern, _replacement) in REPLACED.items():
-    _declares = DECLARES.get(_name, ())
-    breaks(_requirement, task="idl", also=ALSO.get(_name, ()), declares=_declares)(
-        replaced(_name, _pattern, _replacement)
-    )
-for _name, (_requirement, _pattern, _replacement) in PRINTED.items():
-    breaks(_requirement, task="idl", declares=PROMISES[_requirement[:7]])(
-        replaced(_name, _pattern, _replacement, STANDARD)
-    )
+replace_each(REPLACED, also=ALSO, declares=DECLARES)
+replace_each(PRINTED, STANDARD, declares={name: PROMISES[row[0][:7]] for name, row in PRINTED.items()})
 for _name, (_requirement, _text) in APPENDED.items():
-    breaks(_requirement, task="idl")(appended(_name, _text))
+    breaks(_requirement, task="idl")(named(appended(_text), _name))
 
 
 @breaks("R-12.7-02", "R-12.7-03", "R-12.7-06", task="idl", also=("R-12.7-04", "R-12.7-05"))
@@ -366,23 +351,23 @@ def generates_what_no_compiler_sees(program: Program) -> Program:
 def bound_of_another_branch(program: Program) -> Program:
     """A macro has the right number where it does not count."""
     made = "\n#if defined(TEXT_BOUND) || 2 < 1\n#define BOUND 16\n#else\n#define BOUND 17\n#endif\n"
-    program = replaced("", r"string<16>", "string<BOUND>")(program)
+    program = replaced(r"string<16>", "string<BOUND>")(program)
     return rewritten(program, lambda files: {**files, MODEL: f"{made}{files[MODEL]}"})
 
 
 @breaks("R-12.7-07", task="idl")
 def declarations_at_the_root(program: Program) -> Program:
     """What stands in a module inside a component module is declared at the root."""
-    program = replaced("", r"( *)typedef boolean flag_t;", r"\1typedef long other_flag_t;")(program)
-    return appended("", "typedef boolean flag_t;")(program)
+    program = replaced(r"( *)typedef boolean flag_t;", r"\1typedef long other_flag_t;")(program)
+    return appended("typedef boolean flag_t;")(program)
 
 
 @breaks("R-12.7-08", task="idl", also=("R-12.8.4-04", "R-12.1-03"))
 def templates_are_plain_modules(program: Program) -> Program:
     """Abstract types are named like others, in modules without parameters."""
-    program = replaced("", r"(module [a-z_]+)<(?:typename|interface) \w+> \{", r"\1 {")(program)
-    program = replaced("", r" *module ::.*<.*> (\w+);\n", "")(program)
-    return replaced("", r"\b\w+_(message_api|stream_api|more_api|watching_api)::", r"::PortElementObject //")(program)
+    program = replaced(r"(module [a-z_]+)<(?:typename|interface) \w+> \{", r"\1 {")(program)
+    program = replaced(r" *module ::.*<.*> (\w+);\n", "")(program)
+    return replaced(r"\b\w+_(message_api|stream_api|more_api|watching_api)::", r"::PortElementObject //")(program)
 
 
 @breaks("R-12-01", task="idl")

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ucm_cts.adapters.mutants.toolchain.registry import breaks
-from ucm_cts.adapters.mutants.toolchain.rewriting import replaced
-from ucm_cts.adapters.mutants.toolchain.rewriting_cpp import BOTH, CPP03, CPP11, Edit, Wrong, register
+from ucm_cts.adapters.mutants.toolchain.rewriting import replace_each
+from ucm_cts.adapters.mutants.toolchain.rewriting_cpp import BOTH, CPP03, CPP11, Edits, Wrong, register
 
 _TYPE = r"(::passing_application::passing::\w+)"
 
@@ -78,122 +77,125 @@ def _tasks(kind: str) -> Sequence[str]:
     return BOTH if kind in IN_BOTH else CPP11
 
 
-def _passed(kind: str, name: str, how: str) -> list[Edit]:
+def _passed(kind: str, name: str, how: str) -> Edits:
     """The parameter ``name`` of the method for ``kind`` is passed in another way."""
-    return [(rf"( pass_{kind}\((?:[^\n]*, )?)(?:const )?{_TYPE}&? {name}\b", rf"\1{how} {name}")]
+    return {rf"( pass_{kind}\((?:[^\n]*, )?)(?:const )?{_TYPE}&? {name}\b": rf"\1{how} {name}"}
 
 
-def _returned(kind: str, how: str) -> list[Edit]:
-    return [(rf"(virtual ){_TYPE} pass_{kind}\(", rf"\1{how} pass_{kind}(")]
+def _returned(kind: str, how: str) -> Edits:
+    return {rf"(virtual ){_TYPE} pass_{kind}\(": rf"\1{how} pass_{kind}("}
 
 
-def _directions() -> dict[str, Wrong]:
-    wrong = {
-        f"in_{kind}_{_HOW[how]}": Wrong("passing", requirement, _passed(kind, "given", how), tasks=_tasks(kind))
+register(
+    "passing",
+    {
+        f"in_{kind}_{_HOW[how]}": Wrong(requirement, _passed(kind, "given", how), tasks=_tasks(kind))
         for kind, (requirement, how) in GIVEN.items()
-    }
-    for direction, name, table in (("out", "taken", TAKEN), ("inout", "changed", CHANGED)):
-        wrong |= {
-            f"{direction}_{kind}_{_HOW[how]}": Wrong("passing", REFERENCE, _passed(kind, name, how), tasks=_tasks(kind))
-            for kind, how in table.items()
-        }
-    return wrong | {
-        f"{kind}_returned_{_HOW[how]}": Wrong("passing", RESULT, _returned(kind, how), tasks=_tasks(kind))
+    },
+)
+register(
+    "passing",
+    {
+        f"{direction}_{kind}_{_HOW[how]}": Wrong(REFERENCE, _passed(kind, name, how), tasks=_tasks(kind))
+        for direction, name, table in (("out", "taken", TAKEN), ("inout", "changed", CHANGED))
+        for kind, how in table.items()
+    },
+)
+register(
+    "passing",
+    {
+        f"{kind}_returned_{_HOW[how]}": Wrong(RESULT, _returned(kind, how), tasks=_tasks(kind))
         for kind, how in RETURNED.items()
-    }
-
+    },
+)
 
 _OWNER = r"(class Abstract_Owner_Impl .*?)"
 _ATTRIBUTES = r"(class Abstract_attributes .*?)"
 
-ATTRIBUTES: Mapping[str, Wrong] = {
+PASSING: Mapping[str, Wrong] = {
     "array_read_by_reference": Wrong(
-        "passing", "R-13.5-02", [(rf"{_ATTRIBUTES}virtual {_TYPE} its_array\(", r"\1virtual const \2& its_array(")]
+        "R-13.5-02", {rf"{_ATTRIBUTES}virtual {_TYPE} its_array\(": r"\1virtual const \2& its_array("}
     ),
     "alias_read_by_reference": Wrong(
-        "passing",
-        "R-13.5-02",
-        [(rf"{_ATTRIBUTES}virtual {_TYPE} fixed_record_alias\(", r"\1virtual const \2& fixed_record_alias(")],
+        "R-13.5-02", {rf"{_ATTRIBUTES}virtual {_TYPE} fixed_record_alias\(": r"\1virtual const \2& fixed_record_alias("}
     ),
-    "list_cannot_be_set": Wrong(
-        "passing", "R-13.5-03", [(rf"{_ATTRIBUTES}    virtual void its_list\([^\n]*\n", r"\1")]
-    ),
+    "list_cannot_be_set": Wrong("R-13.5-03", {rf"{_ATTRIBUTES}    virtual void its_list\([^\n]*\n": r"\1"}),
     "character_is_set_by_pointer": Wrong(
-        "passing", "R-13.5-03", [(rf"{_ATTRIBUTES}virtual void its_char\({_TYPE}", r"\1virtual void its_char(\2*")]
+        "R-13.5-03", {rf"{_ATTRIBUTES}virtual void its_char\({_TYPE}": r"\1virtual void its_char(\2*"}
     ),
     "fixed_union_is_set": Wrong(
-        "passing",
         "R-13.5-05",
-        [
-            (
-                rf"{_ATTRIBUTES}(    virtual {_TYPE} fixed_choice\(\) = 0;\n)",
-                r"\1\2    virtual void fixed_choice(const \3&) {}\n",
-            )
-        ],
+        {
+            rf"{_ATTRIBUTES}(    virtual {_TYPE} fixed_choice\(\) = 0;\n)": r"\1\2    virtual void fixed_choice(const \3&) {}\n"
+        },
     ),
-    "list_of_a_component_cannot_be_set": Wrong(
-        "passing", "R-13.7-13", [(rf"{_OWNER}    virtual void its_list\([^\n]*\n", r"\1")]
-    ),
+    "list_of_a_component_cannot_be_set": Wrong("R-13.7-13", {rf"{_OWNER}    virtual void its_list\([^\n]*\n": r"\1"}),
     "union_of_a_component_read_by_reference": Wrong(
-        "passing", "R-13.7-13", [(rf"{_OWNER}virtual {_TYPE} its_choice\(", r"\1virtual const \2& its_choice(")]
+        "R-13.7-13", {rf"{_OWNER}virtual {_TYPE} its_choice\(": r"\1virtual const \2& its_choice("}
     ),
 }
+register("passing", PASSING)
 
 
-def _typedef(name: str, pattern: str, instead: str) -> list[Edit]:
-    return [(rf"{pattern}( {name};)", rf"{instead}\1")]
+def _typedef(name: str, pattern: str, instead: str) -> Edits:
+    return {rf"{pattern}( {name};)": rf"{instead}\1"}
 
 
-def _stored_as(name: str, type_: str) -> tuple[Sequence[Edit], Sequence[Edit]]:
-    """The type below an enumeration, in C++11 and in C++03."""
-    modern = [(rf"enum {name} : \w+ ", f"enum {name} : {type_} ")]
-    return modern, [(rf"safe_enum< {name}_def, \w+ >", f"safe_enum< {name}_def, {type_} >")]
+_STORED = (("by_short", "int32"), ("by_longlong", "int32"), ("by_ulonglong", "int64"))
+"""Enumerations, and the type that is below them instead."""
 
-
-def _enumerations() -> dict[str, Wrong]:
-    wrong = {}
-    for name, type_ in (("by_short_t", "int32_t"), ("by_longlong_t", "int32_t"), ("by_ulonglong_t", "int64_t")):
-        modern, old = _stored_as(name, type_)
-        wrong[f"enumeration_{name[:-2]}_is_{type_[:-2]}"] = Wrong("kinds", "R-13.2.3-04", modern, tasks=CPP11)
-        wrong[f"safe_enum_{name[:-2]}_is_{type_[:-2]}"] = Wrong("kinds", "R-13.10.2-04", old, tasks=CPP03)
-    return wrong
-
+register(
+    "kinds",
+    {
+        f"enumeration_{name}_is_{type_}": Wrong(
+            "R-13.2.3-04", {rf"enum {name}_t : \w+ ": f"enum {name}_t : {type_}_t "}, tasks=CPP11
+        )
+        for name, type_ in _STORED
+    },
+)
+register(
+    "kinds",
+    {
+        f"safe_enum_{name}_is_{type_}": Wrong(
+            "R-13.10.2-04", {rf"safe_enum< {name}_t_def, \w+ >": f"safe_enum< {name}_t_def, {type_}_t >"}, tasks=CPP03
+        )
+        for name, type_ in _STORED
+    },
+)
 
 _VECTOR = r"::std::vector< "
 
 KINDS: Mapping[str, Wrong] = {
     "sequence_of_booleans_is_of_characters": Wrong(
-        "kinds", "R-13.2.5-02", _typedef("flags_t", _VECTOR + r"\S+ >", "::std::vector< char >")
+        "R-13.2.5-02", _typedef("flags_t", _VECTOR + r"\S+ >", "::std::vector< char >")
     ),
     "sequence_of_characters_is_a_string": Wrong(
-        "kinds", "R-13.2.5-02", _typedef("letters_t", _VECTOR + r"\S+ >", "::std::string")
+        "R-13.2.5-02", _typedef("letters_t", _VECTOR + r"\S+ >", "::std::string")
     ),
     "sequence_of_texts_is_of_pointers": Wrong(
-        "kinds", "R-13.2.5-02", _typedef("texts_t", _VECTOR + r"\S+ >", "::std::vector< const char* >")
+        "R-13.2.5-02", _typedef("texts_t", _VECTOR + r"\S+ >", "::std::vector< const char* >")
     ),
     "sequence_of_sequences_is_flat": Wrong(
-        "kinds", "R-13.2.5-02", _typedef("lists_t", _VECTOR + r"\S+ >", "::kinds::numbers_t")
+        "R-13.2.5-02", _typedef("lists_t", _VECTOR + r"\S+ >", "::kinds::numbers_t")
     ),
-    "few_flags_are_one_more": Wrong("kinds", "R-13.2.5-01", _typedef("few_flags_t", "3 >", "4 >")),
-    "few_texts_are_one_less": Wrong("kinds", "R-13.2.5-01", _typedef("few_texts_t", "3 >", "2 >")),
-    "third_dimension_is_the_first": Wrong("kinds", "R-13.2.4-02", _typedef("cube_t", "4 >, 3 >, 2 >", "2 >, 3 >, 4 >")),
+    "few_flags_are_one_more": Wrong("R-13.2.5-01", _typedef("few_flags_t", "3 >", "4 >")),
+    "few_texts_are_one_less": Wrong("R-13.2.5-01", _typedef("few_texts_t", "3 >", "2 >")),
+    "third_dimension_is_the_first": Wrong("R-13.2.4-02", _typedef("cube_t", "4 >, 3 >, 2 >", "2 >, 3 >, 4 >")),
     "array_of_texts_is_of_pointers": Wrong(
-        "kinds", "R-13.2.4-01", _typedef("three_texts_t", r"array< \S+, 3 >", "array< const char*, 3 >"), tasks=CPP11
+        "R-13.2.4-01", _typedef("three_texts_t", r"array< \S+, 3 >", "array< const char*, 3 >"), tasks=CPP11
     ),
     "ucm_array_of_flags_is_of_characters": Wrong(
-        "kinds", "R-13.10.1-01", _typedef("three_flags_t", r"array< \S+, 3 >", "array< char, 3 >"), tasks=CPP03
+        "R-13.10.1-01", _typedef("three_flags_t", r"array< \S+, 3 >", "array< char, 3 >"), tasks=CPP03
     ),
     "alias_of_a_sequence_is_of_another": Wrong(
-        "kinds", "R-13.2-02", _typedef("sequence_alias", r"typedef \S+", "typedef ::kinds::short_t")
+        "R-13.2-02", _typedef("sequence_alias", r"typedef \S+", "typedef ::kinds::short_t")
     ),
-    "large_constant_is_cut": Wrong("kinds", "R-13.2.7-02", [(r"a_ulonglong = \d+", "a_ulonglong = 1410065408")]),
+    "large_constant_is_cut": Wrong("R-13.2.7-02", {r"a_ulonglong = \d+": "a_ulonglong = 1410065408"}),
     "constant_of_another_alias": Wrong(
-        "kinds", "R-13.2.7-02", [(r"an_enumerator = \S+;", "an_enumerator = ::kinds::by_ubyte_t::ubyte_first;")]
+        "R-13.2.7-02", {r"an_enumerator = \S+;": "an_enumerator = ::kinds::by_ubyte_t::ubyte_first;"}
     ),
 }
-
-for _wrong in (_directions(), ATTRIBUTES, _enumerations(), KINDS):
-    register(_wrong)
+register("kinds", KINDS)
 
 IDL: Mapping[str, tuple[str, str, str]] = {
     # parameters of each kind (12.6)
@@ -262,12 +264,7 @@ IDL: Mapping[str, tuple[str, str, str]] = {
 ALSO: Mapping[str, tuple[str, ...]] = {"constant_of_an_alias_of_a_number": ("R-12.5-03",)}
 """What the same defect breaks besides."""
 
-DECLARES: Mapping[str, tuple[str, ...]] = {
-    "boolean_attribute_can_be_written": ("idl-interface-attributes=attributes",),
-}
+DECLARES: Mapping[str, tuple[str, ...]] = {"boolean_attribute_can_be_written": ("idl-interface-attributes=attributes",)}
 """What such a tool chain claims, so that what it does is wrong."""
 
-for _name, (_requirement, _pattern, _replacement) in IDL.items():
-    breaks(_requirement, task="idl", also=ALSO.get(_name, ()), declares=DECLARES.get(_name, ()))(
-        replaced(_name, _pattern, _replacement)
-    )
+replace_each(IDL, also=ALSO, declares=DECLARES)
