@@ -67,7 +67,10 @@ def pages(folder: Path) -> dict[Path, str]:
     lines += overview(found)
     if records:
         lines += ["", "## Self-tests", "", *_self_tests(records)]
-    products = {folder / name / PAGE: product_page(group) for name, group in by_product(found).items()}
+    products = {
+        folder / name / PAGE: product_page(group, sorted({p.name for p in (folder / name).glob("*.md")} - {PAGE}))
+        for name, group in by_product(found).items()
+    }
     return {folder / PAGE: "\n".join(lines) + "\n", **products}
 
 

@@ -29,8 +29,8 @@ def overview(results: Sequence[PublishedResult]) -> list[str]:
     return lines
 
 
-def product_page(results: Sequence[PublishedResult]) -> str:
-    """The page of one product and version, with all its profiles."""
+def product_page(results: Sequence[PublishedResult], others: Sequence[str] = ()) -> str:
+    """The page of one product and version, with all its profiles; ``others`` are further pages in its folder."""
     lines = [
         f"# {_cell(_name(results[0]))}",
         "",
@@ -50,6 +50,8 @@ def product_page(results: Sequence[PublishedResult]) -> str:
         ):
             if found:
                 lines += ["", f"## {title}, profile {result.profile}", "", *table(_HEADS[title], found)]
+    if others:
+        lines += ["", "## Further pages", "", *(f"* [{name}]({name})" for name in others)]
     return "\n".join(lines) + "\n"
 
 
