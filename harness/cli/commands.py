@@ -51,7 +51,7 @@ from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import prepare_folder, save_report
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.results.known_failures import known_today, stale, succeeded
-from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import check_subject, stated_by
 from ucm_cts.harness.statement.writing import write_statement, write_toolchain_statement
@@ -138,7 +138,7 @@ def run(
             raise WrongUse(f"no test purpose matches -k '{expression}'; try a requirement, a clause or an operation")
     limits = Limits(timeout, memory, incident_seconds=incident_time)
     endpoint = locate(adapter, in_process)
-    reports: list[Report] = []
+    reports: list[FrameworkReport] = []
     interrupted = False
     cut_short = ""
     with ends_like_interrupts():
@@ -200,7 +200,7 @@ def _refuse(context: click.Context, parameters: Sequence[str]) -> None:
             )
 
 
-def _is_of(identity: Welcome, report: Report) -> bool:
+def _is_of(identity: Welcome, report: FrameworkReport) -> bool:
     return (identity.product, identity.version) == (report.product, report.version)
 
 

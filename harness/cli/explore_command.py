@@ -36,7 +36,7 @@ from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.report.write import prepare_folder, write_failures
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.incidents import finding_of_incident
-from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.files import check_subject, stated_by
 
 FOR_INCIDENTS = 0.5
@@ -179,7 +179,7 @@ def _show(progress: Progress, task: TaskID, far: HowFar, spent: float) -> None:
     progress.update(task, description=text, completed=spent)
 
 
-def _remember(report: Report, memory: Memory) -> None:
+def _remember(report: FrameworkReport, memory: Memory) -> None:
     for result in report.requirements:
         for failed in result.findings:
             if failed.execution is not None and not failed.unstable:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ucm_cts.harness.execution.campaign import Campaign
     from ucm_cts.harness.purposes.scripts import TestPurpose
     from ucm_cts.harness.results.statement import Statement
-    from ucm_cts.harness.results.values import Execution, Report
+    from ucm_cts.harness.results.values import Execution, FrameworkReport
     from ucm_cts.reference_models.findings import Finding
 
 
@@ -54,7 +54,7 @@ def _seconds(text: str) -> float:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Report wrong use before anything runs."""
+    """FrameworkReport wrong use before anything runs."""
     profile = config.getoption("--iut-profile")
     if profile != _PROFILE:
         from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
@@ -161,7 +161,7 @@ _UNDECIDED = pytest.StashKey[list[str]]()
 _STATEMENT: pytest.StashKey[Statement] = pytest.StashKey()
 
 
-def _undecided(campaign: Campaign, report: Report) -> list[str]:
+def _undecided(campaign: Campaign, report: FrameworkReport) -> list[str]:
     """One line for each requirement that no node shows and that did not pass. After a selection, only selected ones count."""
     from ucm_cts.harness.results.known_failures import stale
     from ucm_cts.harness.statement.applicability import purposes_for

@@ -20,7 +20,7 @@ from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
 from ucm_cts.harness.toolchains.commands.description import ToolChain, read_toolchain
 from ucm_cts.harness.toolchains.commands.processing import CommandLine
 from ucm_cts.harness.toolchains.examinations import examination_for
-from ucm_cts.harness.toolchains.renaming import Dress
+from ucm_cts.harness.toolchains.renaming import Renaming
 
 
 def certify_toolchain(
@@ -40,7 +40,7 @@ def certify_toolchain(
     statement = read_statement(ics) if ics is not None else default_statement()
     check_subject(statement, toolchain, profile)
     processor = CommandLine(toolchain)
-    examination = examination_for(profile, statement, Dress(seed, toolchain.dialect), expression, command)
+    examination = examination_for(profile, statement, Renaming(seed, toolchain.dialect), expression, command)
     if not examination.models:
         raise WrongUse(f"no model matches -k '{expression}'; try a requirement or a part of its id")
     console = Output()
@@ -86,7 +86,7 @@ def _conduct(campaign: ToolChainCampaign, models: int, console: Output) -> bool:
     with ends_like_interrupts(), progress_of(console) as progress:
         task = progress.add_task("asking", total=models)
         try:
-            for name in campaign.ask():
+            for name in campaign.process():
                 progress.update(task, advance=1, description=f"asking {one_line(name, 40)}")
         except KeyboardInterrupt:
             campaign.judge()
@@ -94,7 +94,7 @@ def _conduct(campaign: ToolChainCampaign, models: int, console: Output) -> bool:
         campaign.judge()
         progress.update(task, description="taking second looks")
         try:
-            for _ in campaign.look_again():
+            for _ in campaign.confirm():
                 pass
         except KeyboardInterrupt:
             return True

@@ -20,7 +20,7 @@ from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure
 from ucm_cts.harness.results.statement import Statement, default_statement
 from ucm_cts.harness.results.tally import Cause, Tally, overall
-from ucm_cts.harness.results.values import Effort, Execution, Report
+from ucm_cts.harness.results.values import Effort, Execution, FrameworkReport, TraceEvidence
 from ucm_cts.harness.statement.checks import check_statement
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
@@ -134,7 +134,7 @@ class Campaign:
         confirmed, unconfirmed = self._confirmation.separate(answer, findings)
         for finding in map(self._driver.reveal, confirmed):
             self._tally.exercised[finding.requirement] += 1
-            self._tally.add_failure(finding, execution)
+            self._tally.add_failure(finding, TraceEvidence(execution))
             yield finding, execution
         self._mark_unstable(execution, unconfirmed)
 
@@ -169,25 +169,25 @@ class Campaign:
             answer, findings, not_confirmed = self._confirmation.of_pass(name, scenario)
             execution = self._driver.revealed(answer)
             for finding in findings:
-                self._tally.add_failure(self._driver.reveal(finding), execution)
+                self._tally.add_failure(self._driver.reveal(finding), TraceEvidence(execution))
             self._mark_unstable(execution, not_confirmed)
         self._spent["second looks"] = self._spent.get("second looks", 0.0) + time.monotonic() - began
 
     def _mark_unstable(self, execution: Execution, unconfirmed: Iterable[Unconfirmed]) -> None:
         for one in unconfirmed:
             steady = self._driver.revealed(one.steady) if one.steady is not None else None
-            self._tally.mark_unstable(self._driver.reveal(one.finding), execution, one.reason, steady)
+            self._tally.mark_unstable(self._driver.reveal(one.finding), TraceEvidence(execution, steady), one.reason)
 
     def shorten(self) -> Iterator[Cause]:
         """Look for the shortest scenario of each failure; yields each cause when it is done."""
         yield from Shortening(self._driver, self._monitor, self._confirmation, self._tally).of_all()
 
-    def report(self) -> Report:
+    def report(self) -> FrameworkReport:
         """All verdicts of the run so far."""
         results = self._tally.results(self._requirements, self.known)
         incidents = self._tally.incidents
         identity = self._driver.identity
-        return Report(
+        return FrameworkReport(
             product=identity.product,
             version=identity.version,
             profile=self._profile,

@@ -13,10 +13,12 @@ from ucm_cts.harness.hosting.locate import Endpoint
 from ucm_cts.harness.results.tally import cause_of, overall
 from ucm_cts.harness.results.values import (
     Effort,
+    Evidence,
     Execution,
-    FailedExecution,
-    Report,
+    FrameworkReport,
+    ReportedFinding,
     RequirementResult,
+    TraceEvidence,
     TransitionResult,
 )
 from ucm_cts.reference_models.model.ics import Ics
@@ -25,7 +27,7 @@ from ucm_cts.reference_models.monitor import Monitor
 SEEDS = 3
 """The scenario of a failure is run again for up to this many runs that did not show it, until one does not show it."""
 
-Steady = Callable[[FailedExecution, int], Execution | None]
+Steady = Callable[[ReportedFinding, int], Execution | None]
 """Runs the scenario of a failure with the seed of another run; the execution, unless that one shows the failure, too."""
 
 
@@ -33,7 +35,7 @@ def looking(endpoint: Endpoint, limits: Limits, ics: Ics) -> Steady:
     """Looks for a steady execution on hosts behind ``endpoint``."""
     monitor = Monitor(load_life_cycle(), ics)
 
-    def steady(failed: FailedExecution, seed: int) -> Execution | None:
+    def steady(failed: ReportedFinding, seed: int) -> Execution | None:
         if failed.execution is None:
             return None
         with Driver(endpoint, seed, limits) as driver:
@@ -45,7 +47,7 @@ def looking(endpoint: Endpoint, limits: Limits, ics: Ics) -> Steady:
     return steady
 
 
-def repeated(reports: Sequence[Report], steady: Steady) -> Report:
+def repeated(reports: Sequence[FrameworkReport], steady: Steady) -> FrameworkReport:
     """One report of all runs, which differ in their seeds only; the first one's is the report's."""
     first = reports[0]
     if len(reports) == 1:
@@ -69,7 +71,9 @@ def repeated(reports: Sequence[Report], steady: Steady) -> Report:
     )
 
 
-def _result(results: Sequence[RequirementResult], reports: Sequence[Report], steady: Steady) -> RequirementResult:
+def _result(
+    results: Sequence[RequirementResult], reports: Sequence[FrameworkReport], steady: Steady
+) -> RequirementResult:
     """The verdict that all runs agree on, or that it is unstable."""
     verdicts = Counter(result.verdict for result in results)
     exercised = sum(result.exercised for result in results)
@@ -84,18 +88,21 @@ def _result(results: Sequence[RequirementResult], reports: Sequence[Report], ste
     reason = f"unstable: of {len(results)} runs with other seeds {counts}"
     kept = [r.seed for r, result in zip(reports, results, strict=True) if result.verdict == "pass"][:SEEDS]
 
-    def other(failed: FailedExecution) -> Execution | None:
-        return failed.steady or next(filter(None, (steady(failed, seed) for seed in kept)), None)
+    def with_steady(failed: ReportedFinding) -> Evidence | None:
+        if failed.execution is None:
+            return failed.evidence
+        other = failed.steady or next(filter(None, (steady(failed, seed) for seed in kept)), None)
+        return TraceEvidence(failed.execution, other)
 
     findings = tuple(
-        msgspec.structs.replace(failed, unstable=reason, steady=other(failed)) for failed in _joined(results)
+        msgspec.structs.replace(failed, unstable=reason, evidence=with_steady(failed)) for failed in _joined(results)
     )
     return msgspec.structs.replace(worst, verdict="inconclusive", exercised=exercised, findings=findings, reason=reason)
 
 
-def _joined(results: Sequence[RequirementResult]) -> tuple[FailedExecution, ...]:
+def _joined(results: Sequence[RequirementResult]) -> tuple[ReportedFinding, ...]:
     """Each cause once, with all its occurrences."""
-    known: dict[tuple[str, str, str], FailedExecution] = {}
+    known: dict[tuple[str, str, str], ReportedFinding] = {}
     for failed in (failed for result in results for failed in result.findings):
         cause = cause_of(failed.finding)
         before = known.get(cause, msgspec.structs.replace(failed, occurrences=0))
@@ -112,7 +119,7 @@ def _transition(rows: Sequence[TransitionResult]) -> TransitionResult:
     )
 
 
-def _readings(reports: Sequence[Report]) -> dict[str, tuple[str, ...]]:
+def _readings(reports: Sequence[FrameworkReport]) -> dict[str, tuple[str, ...]]:
     options = sorted({option for report in reports for option in report.readings})
     return {
         option: tuple(sorted({value for report in reports for value in report.readings.get(option, ())}))
@@ -120,7 +127,7 @@ def _readings(reports: Sequence[Report]) -> dict[str, tuple[str, ...]]:
     }
 
 
-def _effort(reports: Sequence[Report]) -> Effort:
+def _effort(reports: Sequence[FrameworkReport]) -> Effort:
     measures: Counter[str] = Counter()
     seconds: Counter[str] = Counter()
     for report in reports:

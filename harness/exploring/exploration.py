@@ -28,7 +28,7 @@ from ucm_cts.harness.results.incident_causes import IncidentCause, cause_of_inci
 from ucm_cts.harness.results.incidents import is_waiting
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import Cause, cause_of
-from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import fitting
 from ucm_cts.reference_models.verdicts import Verdicts
 
@@ -135,7 +135,7 @@ class Exploration:
         for _ in self._campaign.shorten():
             pass
 
-    def report(self) -> Report:
+    def report(self) -> FrameworkReport:
         """All that was found."""
         return self._campaign.report()
 

@@ -19,7 +19,13 @@ from ucm_cts.harness.results.failures import file_name, incident_file, replay_co
 from ucm_cts.harness.results.foreign import clean_report, one_line
 from ucm_cts.harness.results.incident_causes import cause_of_incident, during
 from ucm_cts.harness.results.incidents import is_waiting
-from ucm_cts.harness.results.values import Execution, FailedExecution, IncidentReport, Report, RequirementResult
+from ucm_cts.harness.results.values import (
+    Execution,
+    FrameworkReport,
+    IncidentReport,
+    ReportedFinding,
+    RequirementResult,
+)
 
 FILE = "exploration.json"
 
@@ -103,12 +109,12 @@ class Found(Value, frozen=True):
     known: tuple[Known, ...]
 
 
-def is_found(report: Report) -> bool:
+def is_found(report: FrameworkReport) -> bool:
     """Whether anything failed, or hung where waiting for ever is not permitted."""
     return bool(mishaps(report)) or any(result.verdict == "fail" for result in report.requirements)
 
 
-def mishaps(report: Report) -> list[tuple[int, IncidentReport]]:
+def mishaps(report: FrameworkReport) -> list[tuple[int, IncidentReport]]:
     """The numbered incidents, without scenarios left out and without calls that may wait for a start that never comes.
 
     Once such calls have been seen waiting, a hang of which nothing more is known is taken for another one.
@@ -123,13 +129,13 @@ def mishaps(report: Report) -> list[tuple[int, IncidentReport]]:
     ]
 
 
-def write_exploration(report: Report, far: Progress, known: Sequence[Replayed], out: Path) -> None:
+def write_exploration(report: FrameworkReport, far: Progress, known: Sequence[Replayed], out: Path) -> None:
     """Write ``exploration.json`` into ``out``."""
     content = msgspec.json.encode(_found(clean_report(report), far, known))
     write_whole(out / FILE, msgspec.json.format(content, indent=2) + b"\n")
 
 
-def _found(report: Report, far: Progress, known: Sequence[Replayed]) -> Found:
+def _found(report: FrameworkReport, far: Progress, known: Sequence[Replayed]) -> Found:
     return Found(
         report.product,
         report.version,
@@ -148,7 +154,7 @@ def _found(report: Report, far: Progress, known: Sequence[Replayed]) -> Found:
     )
 
 
-def _mishap(report: Report, number: int, item: IncidentReport) -> Mishap:
+def _mishap(report: FrameworkReport, number: int, item: IncidentReport) -> Mishap:
     cause, file = cause_of_incident(item.execution), incident_file(number)
     fields = item.incident.kind, item.incident.detail, cause.operation, item.occurrences, _steps(item.execution)
     return Mishap(*fields, file, replay_command(file, report))
@@ -160,7 +166,7 @@ def _known(replayed: Replayed) -> Known:
     return Known(one.requirement, "" if one.requirement else one.rule, one.cause, is_there)
 
 
-def _failures(report: Report) -> tuple[Failure, ...]:
+def _failures(report: FrameworkReport) -> tuple[Failure, ...]:
     return tuple(
         _failure(report, result, number, failed)
         for result in report.requirements
@@ -168,7 +174,7 @@ def _failures(report: Report) -> tuple[Failure, ...]:
     )
 
 
-def _failure(report: Report, result: RequirementResult, number: int, failed: FailedExecution) -> Failure:
+def _failure(report: FrameworkReport, result: RequirementResult, number: int, failed: ReportedFinding) -> Failure:
     finding, file = failed.finding, file_name(result.id, number)
     fields = result.id, result.clause, result.title, finding.rule, finding.cause, finding.expected, finding.observed
     steps = _steps(failed.execution) if failed.execution is not None else ()
@@ -199,7 +205,7 @@ def _observed(replayed: Replayed) -> str:
     return replayed.remembered.observed + (during(incident) if incident is not None else "")
 
 
-def found_text(report: Report, far: Progress, out: Path) -> RenderableType:
+def found_text(report: FrameworkReport, far: Progress, out: Path) -> RenderableType:
     """The end of an exploration: how much was run, then each cause of failure in a few lines."""
     failures = _failures(report)
     standing = [failure for failure in failures if not failure.unstable]
@@ -244,7 +250,7 @@ def found_text(report: Report, far: Progress, out: Path) -> RenderableType:
     return Group(*lines)
 
 
-def _told(failure: Failure, report: Report, out: Path) -> list[Text]:
+def _told(failure: Failure, report: FrameworkReport, out: Path) -> list[Text]:
     steps = ", ".join(failure.steps[:_STEPS]) + (", ..." if len(failure.steps) > _STEPS else "")
     statement = f" --ics {shlex.quote(str(out / 'failures' / 'ics.toml'))}" if report.statement.source else ""
     replay = f"ucm-cts replay {shlex.quote(str(out / failure.file))} {shlex.quote(one_line(report.adapter))}{statement}"

@@ -13,12 +13,15 @@ from ucm_cts.harness.catalogue.requirements import Level, Requirement
 from ucm_cts.harness.results.failures import file_name, incident_file, shortest_first
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.values import (
-    Execution,
-    FailedExecution,
+    FactEvidence,
+    FrameworkReport,
     Incident,
     Overall,
     Report,
+    ReportedFinding,
     RequirementResult,
+    ToolChainReport,
+    TraceEvidence,
     TransitionResult,
     Verdict,
 )
@@ -143,30 +146,44 @@ class ReportEntry(Entry, frozen=True):
 def to_json(report: Report, catalogue: Sequence[Requirement]) -> bytes:
     """``report.json``, indented, ending with a newline. The report must be clean (``foreign.clean_report``)."""
     known = {requirement.id: requirement for requirement in catalogue}
+    shared = {name: getattr(report, name) for name in _SHARED}
     entry = ReportEntry(
-        product=report.product,
-        version=report.version,
-        profile=report.profile,
-        verdict=report.verdict,
+        **shared,
+        **_body(report),
         requirements=tuple(_requirement(result, known) for result in report.requirements),
-        incidents=tuple(
-            _incident(item.incident, item.execution.name, number) for number, item in enumerate(report.incidents)
-        ),
-        transitions=tuple(_transition(result) for result in report.transitions),
-        adapter=report.adapter,
-        suite_version=report.suite_version,
-        seed=report.seed,
-        started=report.started,
-        seconds=report.seconds,
-        scenarios=report.scenarios,
-        events=report.events,
         statement=_statement(report.statement),
-        readings=report.readings,
         measures=report.effort.measures,
         seconds_by_clause=report.effort.seconds,
-        runs=report.runs,
     )
     return msgspec.json.format(msgspec.json.encode(entry), indent=2) + b"\n"
+
+
+_SHARED = ("product", "version", "profile", "verdict", "adapter", "suite_version", "seed", "started", "seconds")
+
+
+def _body(report: Report) -> dict[str, Any]:
+    """What differs between products. For a tool chain ``scenarios`` are models and ``events`` are facts."""
+    if isinstance(report, FrameworkReport):
+        incidents = (
+            _incident(item.incident, item.execution.name, number) for number, item in enumerate(report.incidents)
+        )
+        return {
+            "incidents": tuple(incidents),
+            "transitions": tuple(map(_transition, report.transitions)),
+            "scenarios": report.scenarios,
+            "events": report.events,
+            "readings": report.readings,
+            "runs": report.runs,
+        }
+    assert isinstance(report, ToolChainReport)
+    return {
+        "incidents": (),
+        "transitions": (),
+        "scenarios": report.models,
+        "events": report.facts,
+        "readings": {},
+        "runs": 1,
+    }
 
 
 def schema() -> dict[str, Any]:
@@ -194,32 +211,40 @@ def _requirement(result: RequirementResult, known: Mapping[str, Requirement]) ->
     )
 
 
-def _finding(failed: FailedExecution, replay: str) -> FindingEntry:
-    suspects, execution, processed = set(failed.finding.events), failed.execution, failed.processed
-    events = tuple(event for event in execution.trace if event.n in suspects) if execution is not None else ()
-    return FindingEntry(
+def _finding(failed: ReportedFinding, replay: str) -> FindingEntry:
+    shown = FindingEntry(
         rule=failed.finding.rule,
         expected=failed.finding.expected,
         observed=failed.finding.observed,
         occurrences=failed.occurrences,
         waived=failed.waived,
         unstable=failed.unstable,
-        scenario=execution.name if execution is not None else processed.name if processed is not None else "",
-        events=events[:EVENTS],
-        replay=replay if execution is not None else "",
-        model=replay.removesuffix("json") + "xml" if processed is not None else "",
-        command=processed.command if processed is not None else (),
-        status=processed.status if processed is not None else None,
-        output=processed.output[:OUTPUT] if processed is not None else "",
-        place=processed.place if processed is not None else "",
-        trace=_trace(execution) if failed.unstable else (),
-        steady=_trace(failed.steady),
+        scenario="",
+        events=(),
+        replay="",
     )
-
-
-def _trace(execution: Execution | None) -> tuple[Event, ...]:
-    """The end of it, if it is long."""
-    return execution.trace[-TRACE:] if execution is not None else ()
+    match failed.evidence:
+        case TraceEvidence(execution=execution, steady=steady):
+            suspects = set(failed.finding.events)
+            return msgspec.structs.replace(
+                shown,
+                scenario=execution.name,
+                events=tuple(event for event in execution.trace if event.n in suspects)[:EVENTS],
+                replay=replay,
+                trace=execution.trace[-TRACE:] if failed.unstable else (),
+                steady=steady.trace[-TRACE:] if steady is not None else (),
+            )
+        case FactEvidence(processed=processed):
+            return msgspec.structs.replace(
+                shown,
+                scenario=processed.name,
+                model=replay.removesuffix("json") + "xml",
+                command=processed.command,
+                status=processed.status,
+                output=processed.output[:OUTPUT],
+                place=failed.evidence.place,
+            )
+    return shown
 
 
 def _incident(incident: Incident, scenario: str, number: int) -> IncidentEntry:

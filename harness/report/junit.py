@@ -8,12 +8,19 @@ from lxml import etree
 
 from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.report.excerpt import excerpt
-from ucm_cts.harness.report.models import command_text, processed_text
 from ucm_cts.harness.report.sequence import last_call
 from ucm_cts.harness.report.sequence_text import failure_text, to_text
+from ucm_cts.harness.report.toolchain_body import command_text, fact_text
 from ucm_cts.harness.results.failures import file_name, incident_file, replay_command, shortest_first
 from ucm_cts.harness.results.foreign import clean, one_line
-from ucm_cts.harness.results.values import IncidentReport, Report, RequirementResult
+from ucm_cts.harness.results.values import (
+    FactEvidence,
+    IncidentReport,
+    Report,
+    RequirementResult,
+    TraceEvidence,
+    incidents_of,
+)
 
 FINDINGS = 3
 """The number of causes of one requirement that are written in full."""
@@ -35,7 +42,7 @@ def to_junit(report: Report, catalogue: Sequence[Requirement]) -> bytes:
         if requirement.untestable and requirement.id not in reported:
             case = _case(root, suites, f"clause {requirement.clause}", f"{requirement.id} {requirement.title}")
             _child(case, "skipped", f"not testable: {requirement.untestable}")
-    for number, incident in enumerate(report.incidents):
+    for number, incident in enumerate(incidents_of(report)):
         title = one_line(f"{incident.incident.kind} in {incident.execution.name}")
         case = _case(root, suites, "incidents", title)
         _incident(case, incident, number, report)
@@ -85,16 +92,15 @@ def _story(result: RequirementResult, report: Report) -> str:
             + (f"; scenario {failed.execution.name}\n" if failed.execution is not None else "\n")
             + (f"waived: {failed.waived}\n" if failed.waived else "")
         )
-        if failed.execution is not None:
-            parts[-1] += f"replay:   {replay_command(file_name(result.id, number), report)}\n\n"
-            parts[-1] += failure_text(finding, failed.execution)
-        if failed.processed is not None:
-            file = file_name(result.id, number, "xml")
-            parts[-1] += (
-                f"again, in the folder of this report:    {command_text(failed.processed, file)}\n\n{processed_text(failed.processed)}"
-            )
-        if failed.steady is not None:
-            parts.append(f"not shown when it was run again:\n\n{to_text(excerpt(failed.steady))}")
+        match failed.evidence:
+            case TraceEvidence(execution=execution, steady=steady):
+                parts[-1] += f"replay:   {replay_command(file_name(result.id, number), report)}\n\n"
+                parts[-1] += failure_text(finding, execution)
+                if steady is not None:
+                    parts.append(f"not shown when it was run again:\n\n{to_text(excerpt(steady))}")
+            case FactEvidence(processed=processed):
+                command = command_text(processed, file_name(result.id, number, "xml"))
+                parts[-1] += f"again, in the folder of this report:    {command}\n\n{fact_text(failed.evidence)}"
     if len(shortest) > FINDINGS:
         parts.append(f"{len(shortest) - FINDINGS} more causes: see report.html")
     return "\n\n".join(parts)

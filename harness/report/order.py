@@ -1,4 +1,4 @@
-"""What comes first: the order of clauses, of verdicts, and of what to fix."""
+"""Which requirements a report shows first, and how it counts."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import Protocol
 
-from ucm_cts.harness.results.values import RequirementResult, Verdict
+from ucm_cts.harness.results.values import FrameworkReport, Report, RequirementResult, ToolChainReport, Verdict
 
 VERDICTS: tuple[Verdict, ...] = ("fail", "error", "inconclusive", "pass", "not applicable")
 """All verdicts, the worst first."""
@@ -15,6 +15,16 @@ SYMBOLS: dict[Verdict, str] = {"fail": "✗", "error": "!", "inconclusive": "?",
 """A symbol a verdict, so that colour is never needed."""
 
 _NUMBER = re.compile(r"\d+")
+
+
+def counted(report: Report) -> tuple[tuple[int, str], tuple[int, str]]:
+    """How much a run did, with the two units of its product."""
+    match report:
+        case FrameworkReport():
+            return (report.scenarios, "scenarios"), (report.events, "events")
+        case ToolChainReport():
+            return (report.models, "models"), (report.facts, "facts")
+    raise TypeError(type(report))
 
 
 def clause_key(clause: str) -> tuple[int, ...]:

@@ -7,13 +7,12 @@ from pathlib import Path
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
-from ucm_cts.harness.report.order import SYMBOLS, count, to_fix
+from ucm_cts.harness.report.order import SYMBOLS, count, counted, to_fix
 from ucm_cts.harness.report.sequence import last_call
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import all_known
-from ucm_cts.harness.results.values import Overall, Report, RequirementResult, Verdict
+from ucm_cts.harness.results.values import Overall, Report, RequirementResult, Verdict, incidents_of
 
 SHOWN = 12
 """The number of failed requirements, and of incidents, that are listed."""
@@ -48,14 +47,15 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
         lines += [Text(), *_failure(result)]
     if len(failed) > SHOWN:
         lines += [Text(), Text(f"and {len(failed) - SHOWN} more failed requirements", "dim")]
-    if report.incidents:
+    incidents = incidents_of(report)
+    if incidents:
         lines.append(Text())
-    for item in report.incidents[:SHOWN]:
+    for item in incidents[:SHOWN]:
         during = last_call(item.execution)
         detail = one_line(f"{item.incident.detail}{f', during {during}' if during else ''}", 160)
         lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), f"  {detail}")))
-    if len(report.incidents) > SHOWN:
-        lines.append(Text(f"and {len(report.incidents) - SHOWN} more incidents", "dim"))
+    if len(incidents) > SHOWN:
+        lines.append(Text(f"and {len(incidents) - SHOWN} more incidents", "dim"))
     if out is not None:
         lines += [Text(), Text.assemble("report  ", (str(out / "report.html"), "bold"), overflow="fold")]
     return Group(*lines)
@@ -63,11 +63,11 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
 
 def _counts(report: Report) -> Text:
     line = Text("  ")
-    what = ("models", "facts") if report.profile in TOOLCHAIN_PROFILES else ("scenarios", "events")
     for verdict, number in count(report.requirements).items():
         if number:
             line.append(f"{SYMBOLS[verdict]} {number} {verdict}", _COLOURS[verdict]).append("   ")
-    line.append(f"{report.scenarios:,} {what[0]}, {report.events:,} {what[1]}, {report.seconds:.1f} s", "dim")
+    amounts = "".join(f"{number:,} {unit}, " for number, unit in counted(report))
+    line.append(f"{amounts}{report.seconds:.1f} s", "dim")
     return line
 
 

@@ -10,9 +10,16 @@ from typing import Any
 import msgspec
 import yaml
 
-from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.results.foreign import one_line
-from ucm_cts.harness.results.values import Execution, FailedExecution, Report
+from ucm_cts.harness.results.values import (
+    Execution,
+    FactEvidence,
+    FrameworkReport,
+    Report,
+    ReportedFinding,
+    TraceEvidence,
+    incidents_of,
+)
 
 FOLDER = "failures"
 
@@ -31,14 +38,16 @@ def file_name(requirement: str, number: int, kind: str = "json") -> str:
     return f"{FOLDER}/{stem}{f'-{number + 1}' if number else ''}.{kind}"
 
 
-def shortest_first(findings: tuple[FailedExecution, ...]) -> list[FailedExecution]:
+def shortest_first(findings: tuple[ReportedFinding, ...]) -> list[ReportedFinding]:
     """Findings by the length of their scenarios; those without come first."""
     return sorted(findings, key=reading_length)
 
 
-def reading_length(failed: FailedExecution) -> tuple[int, int]:
+def reading_length(failed: ReportedFinding) -> tuple[int, int]:
     """How long a reader has to read: a scenario's steps, then events; or a model's lines."""
-    return (failed.processed.model.count("\n"), 0) if failed.processed is not None else length(failed.execution)
+    if isinstance(failed.evidence, FactEvidence):
+        return failed.evidence.processed.model.count("\n"), 0
+    return length(failed.execution)
 
 
 def length(execution: Execution | None) -> tuple[int, int]:
@@ -62,9 +71,9 @@ def repeat_command(report: Report) -> str:
     adapter, profile = shlex.quote(one_line(report.adapter)), shlex.quote(one_line(report.profile))
     source = report.statement.source
     statement = f" --ics {shlex.quote(one_line(source))}" if source else ""
-    runs = f" --repeat {report.runs}" if report.runs > 1 else ""
-    if report.profile in TOOLCHAIN_PROFILES:
+    if not isinstance(report, FrameworkReport):
         return f"ucm-cts run --toolchain {adapter} --profile {profile} --seed {report.seed}{statement}"
+    runs = f" --repeat {report.runs}" if report.runs > 1 else ""
     return f"ucm-cts run {adapter} --profile {profile} --seed {report.seed}{runs}{statement}"
 
 
@@ -77,11 +86,12 @@ def all_files(report: Report) -> Iterator[tuple[str, bytes]]:
     """Every file to write, by its name relative to the report."""
     for result in report.requirements:
         for number, failed in enumerate(shortest_first(result.findings)):
-            if failed.execution is not None:
-                yield file_name(result.id, number), _json(saved(failed.execution, (result.id,)))
-            if failed.processed is not None:
-                yield file_name(result.id, number, "xml"), failed.processed.model.encode(errors="replace")
-    for number, incident in enumerate(report.incidents):
+            match failed.evidence:
+                case TraceEvidence(execution=execution):
+                    yield file_name(result.id, number), _json(saved(execution, (result.id,)))
+                case FactEvidence(processed=processed):
+                    yield file_name(result.id, number, "xml"), processed.model.encode(errors="replace")
+    for number, incident in enumerate(incidents_of(report)):
         yield incident_file(number), _json(saved(incident.execution, ()))
 
 

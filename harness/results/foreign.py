@@ -7,11 +7,13 @@ lone surrogates, megabytes. Markup is left to the escaping of each format; every
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 
 from ucm_cts.harness.results.values import Report
+
+AnyReport = TypeVar("AnyReport", bound=Report)
 
 LONGEST = 2_000
 """Characters that a single text of a report may have."""
@@ -41,9 +43,9 @@ def one_line(text: str, limit: int = 200) -> str:
     return text if len(text) <= limit else text[: limit - 1] + "…"
 
 
-def clean_report(report: Report) -> Report:
+def clean_report(report: AnyReport) -> AnyReport:
     """The same report with every text cleaned; ``write_report`` lets no other one through."""
-    return msgspec.convert(_walk(msgspec.to_builtins(report)), Report)
+    return msgspec.convert(_walk(msgspec.to_builtins(report)), type(report))
 
 
 def _walk(value: Any, limit: int = LONGEST) -> Any:

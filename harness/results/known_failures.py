@@ -13,7 +13,7 @@ from pathlib import Path
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import DocumentError, read, read_lines
 from ucm_cts.harness.catalogue.requirements import load_requirements
-from ucm_cts.harness.results.values import Report, RequirementResult
+from ucm_cts.harness.results.values import Report, RequirementResult, incidents_of
 from ucm_cts.reference_models.findings import Finding
 
 
@@ -87,7 +87,7 @@ def all_known(report: Report) -> bool:
     """Is nothing but known failures in the way of ``report`` being conformant?"""
     return (
         report.verdict == "not conformant"
-        and not report.incidents
+        and not incidents_of(report)
         and all(
             r.verdict in ("pass", "not applicable") or (r.verdict == "fail" and all(f.waived for f in r.findings))
             for r in report.requirements

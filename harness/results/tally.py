@@ -15,13 +15,14 @@ from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure, waiver_for
 from ucm_cts.harness.results.values import (
     FRAMEWORK_INCIDENTS,
+    Evidence,
     Execution,
-    FailedExecution,
     Incident,
     IncidentReport,
     Overall,
-    Processed,
+    ReportedFinding,
     RequirementResult,
+    TraceEvidence,
     TransitionResult,
     Verdict,
 )
@@ -44,7 +45,7 @@ class Tally:
     def __init__(self, distinct_incidents: bool = False) -> None:
         """Of ``distinct_incidents`` only one of each cause is kept, however many there are."""
         self.exercised: Counter[str] = Counter()
-        self.failures: dict[Cause, FailedExecution] = {}
+        self.failures: dict[Cause, ReportedFinding] = {}
         self.rows: dict[str, RowTally] = {}
         self.lost: dict[str, str] = {}
         self._incidents: list[IncidentReport] = []
@@ -71,7 +72,7 @@ class Tally:
             total.violated += tally.violated
             total.readings |= tally.readings
         for finding in findings:
-            self.add_failure(finding, execution)
+            self.add_failure(finding, TraceEvidence(execution))
 
     def _observe(self, readings: Mapping[str, Iterable[str]]) -> None:
         for option, values in readings.items():
@@ -105,29 +106,20 @@ class Tally:
         self.exercised[finding.requirement] += 1
         self.add_failure(finding, None)
 
-    def mark_unstable(
-        self, finding: Finding, execution: Execution | None, reason: str, steady: Execution | None
-    ) -> None:
-        """``finding`` is unstable: ``steady`` is another run of the same scenario, which does not show it.
+    def mark_unstable(self, finding: Finding, evidence: Evidence | None, reason: str) -> None:
+        """``finding`` is unstable: another run of what ``evidence`` holds did not show it.
 
-        Other executions that show the same count less than this one, until one of them is confirmed.
+        Other evidence of the same cause counts less than this, until it is confirmed.
         """
         known = self.failures.get(cause_of(finding))
-        if known is None or known.execution == execution:
+        if known is None or _repeatable(known.evidence) == _repeatable(evidence):
             occurrences = known.occurrences if known is not None else 1
-            unstable = FailedExecution(finding, execution, occurrences, "", reason, steady)
-            self.failures[cause_of(finding)] = unstable
+            self.failures[cause_of(finding)] = ReportedFinding(finding, evidence, occurrences, unstable=reason)
 
-    def mark_unstable_processed(self, finding: Finding, processed: Processed | None, reason: str) -> None:
-        """``finding`` of a tool chain is unstable: another run of what ``processed`` shows did not show it."""
-        known = self.failures[cause_of(finding)]
-        if known.processed == processed:
-            self.failures[cause_of(finding)] = msgspec.structs.replace(known, unstable=reason)
-
-    def add_failure(self, finding: Finding, execution: Execution | None, processed: Processed | None = None) -> None:
-        """One more execution that shows ``finding``, or something else that does."""
+    def add_failure(self, finding: Finding, evidence: Evidence | None) -> None:
+        """Count ``finding`` once more, and keep the shorter evidence."""
         known = self.failures.get(cause_of(finding))
-        new = FailedExecution(finding, execution, processed=processed)
+        new = ReportedFinding(finding, evidence)
         if known is None or known.unstable:
             occurrences = known.occurrences + 1 if known is not None else 1
             self.failures[cause_of(finding)] = msgspec.structs.replace(new, occurrences=occurrences)
@@ -138,7 +130,7 @@ class Tally:
     def replace(self, cause: Cause, finding: Finding, execution: Execution) -> None:
         """A shorter execution of the same cause has been found; it does not count as another occurrence."""
         known = self.failures[cause]
-        self.failures[cause] = msgspec.structs.replace(known, finding=finding, execution=execution)
+        self.failures[cause] = msgspec.structs.replace(known, finding=finding, evidence=TraceEvidence(execution))
 
     def add_incident(self, execution: Execution, requirements: Iterable[str]) -> None:
         """An execution that ended in an incident; ``requirements`` are those it meant to exercise."""
@@ -164,7 +156,7 @@ class Tally:
         finding = finding_of_incident(execution)
         if finding is not None:
             self.exercised[finding.requirement] += 1
-            self.add_failure(finding, execution)
+            self.add_failure(finding, TraceEvidence(execution))
 
     @property
     def incidents(self) -> tuple[IncidentReport, ...]:
@@ -179,7 +171,7 @@ class Tally:
         self, requirements: Sequence[Requirement], known_failures: Sequence[KnownFailure]
     ) -> tuple[RequirementResult, ...]:
         """The verdict of each requirement of the profile, testable ones only."""
-        by_requirement: dict[str, list[FailedExecution]] = {}
+        by_requirement: dict[str, list[ReportedFinding]] = {}
         for failure in self.failures.values():
             by_requirement.setdefault(failure.finding.requirement, []).append(failure)
         return tuple(
@@ -187,7 +179,7 @@ class Tally:
         )
 
     def _result(
-        self, requirement: Requirement, failures: list[FailedExecution], known_failures: Sequence[KnownFailure]
+        self, requirement: Requirement, failures: list[ReportedFinding], known_failures: Sequence[KnownFailure]
     ) -> RequirementResult:
         exercised = self.exercised[requirement.id]
         by_length = shortest_first(tuple(failures))
@@ -232,6 +224,11 @@ class Tally:
         empty = RowTally()
         rows = [(row.id, self.rows.get(row.id, empty)) for row in table.rows]
         return tuple(TransitionResult(i, t.exercised, t.violated, tuple(sorted(t.readings))) for i, t in rows)
+
+
+def _repeatable(evidence: Evidence | None) -> object:
+    """What another run of ``evidence`` repeats."""
+    return evidence.execution if isinstance(evidence, TraceEvidence) else evidence
 
 
 def overall(results: Sequence[RequirementResult], incidents: Sequence[IncidentReport]) -> Overall:

@@ -65,38 +65,67 @@ MODEL_FILE, OUT_FOLDER = "model.xml", "out"
 
 
 class Processed(Value, frozen=True):
-    """One model through one command of a tool chain. ``name`` is the question's, ``task`` what was asked, ``status`` the exit
-    status, None if it did not end by itself; ``output`` what it printed. ``twin`` is the legal model that ``model`` was
-    made of, empty if it was not; ``place`` is where in a generated file it is wrong, ``excerpt`` what stands there.
-    """
+    """One model through one command of a tool chain."""
 
     name: str
+    """The model's name in the suite."""
     task: str
+    """What the tool chain had to do: ``check``, ``idl``, ``cpp11`` or ``cpp03``."""
     model: str
+    """The text of the model."""
     command: tuple[str, ...]
     status: int | None
+    """The exit status, None if the command did not end by itself."""
     output: str
+    """What the command printed."""
     incident: Incident | None = None
+
+
+class TraceEvidence(Value, frozen=True, tag="trace"):
+    """What shows a finding of a framework."""
+
+    execution: Execution
+    steady: Execution | None = None
+    """Another run of the same scenario, which does not show the finding."""
+
+
+class FactEvidence(Value, frozen=True, tag="fact"):
+    """What shows a finding of a tool chain."""
+
+    processed: Processed
     twin: str = ""
+    """The legal model that the processed one was made of, empty if there is none."""
     place: str = ""
+    """The wrong place in a generated file, empty if no generated file is wrong."""
     excerpt: str = ""
+    """The lines around that place."""
 
 
-class FailedExecution(Value, frozen=True):
-    """A finding with the shortest execution that shows it, and how many executions of the run showed the same cause.
+Evidence = TraceEvidence | FactEvidence
 
-    There is no ``execution`` where models or the vendor's statement show it and nothing was run, and ``processed`` instead where a
-    tool chain was asked. ``unstable`` says why it is
-    not held against the framework: a second look did not show it. ``steady`` is what that look saw instead.
-    """
+
+class ReportedFinding(Value, frozen=True):
+    """One cause of failure, with the shortest evidence of the run."""
 
     finding: Finding
-    execution: Execution | None
+    evidence: Evidence | None = None
+    """None where the vendor's models or statement show the finding, and nothing was run."""
     occurrences: int = 1
+    """How often the run showed this cause."""
     waived: str = ""
+    """Why the failure is known, empty if it is not."""
     unstable: str = ""
-    steady: Execution | None = None
-    processed: Processed | None = None
+    """Why it is not held against the product: another run did not show it. Empty if it is held against it."""
+
+    @property
+    def execution(self) -> Execution | None:
+        """The execution that shows it, None if no execution does."""
+        return self.evidence.execution if isinstance(self.evidence, TraceEvidence) else None
+
+    @property
+    def steady(self) -> Execution | None:
+        """Another run of that execution's scenario, which does not show it."""
+        return self.evidence.steady if isinstance(self.evidence, TraceEvidence) else None
 
 
 class RequirementResult(Value, frozen=True):
@@ -107,7 +136,7 @@ class RequirementResult(Value, frozen=True):
     title: str
     verdict: Verdict
     exercised: int
-    findings: tuple[FailedExecution, ...] = ()
+    findings: tuple[ReportedFinding, ...] = ()
     reason: str = ""
 
 
@@ -138,23 +167,43 @@ class Effort(Value, frozen=True):
 
 
 class Report(Value, frozen=True):
-    """Everything one run says, ready to be written as HTML, JSON and JUnit."""
+    """What a run says of any product."""
 
     product: str
     version: str
     profile: str
     verdict: Overall
     requirements: tuple[RequirementResult, ...]
-    transitions: tuple[TransitionResult, ...]
-    incidents: tuple[IncidentReport, ...]
     adapter: str
+    """What was named on the command line: an adapter, or the file that describes a tool chain."""
     suite_version: str
     seed: int
     started: str
     seconds: float
+    statement: Statement
+    effort: Effort = Effort()
+
+
+class FrameworkReport(Report, frozen=True, kw_only=True):
+    """What a run says of a framework."""
+
+    transitions: tuple[TransitionResult, ...]
+    incidents: tuple[IncidentReport, ...]
     scenarios: int
     events: int
-    statement: Statement
     readings: dict[str, tuple[str, ...]]
-    effort: Effort = Effort()
+    """The readings that were observed, by option."""
     runs: int = 1
+
+
+class ToolChainReport(Report, frozen=True, kw_only=True):
+    """What a run says of a tool chain."""
+
+    models: int
+    facts: int
+    """How many statements about requirements the answers of the tool chain make."""
+
+
+def incidents_of(report: Report) -> tuple[IncidentReport, ...]:
+    """The incidents of a framework. Those of a tool chain belong to the evidence of its findings."""
+    return report.incidents if isinstance(report, FrameworkReport) else ()

@@ -12,7 +12,7 @@ from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.selection import load_purposes
-from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.selftest.matrix import CheatResult
 
 ENDS_THE_HOST = {"leaves_when_it_fails"}
@@ -39,7 +39,7 @@ def all_cheats() -> dict[str, Cheat]:
     return {**CHEATS, **UNSEEN}
 
 
-def report_on(cheat: Cheat) -> Report:
+def report_on(cheat: Cheat) -> FrameworkReport:
     """What a run says of ``cheat``, after its rehearsals."""
     in_process = cheat.name not in ENDS_THE_HOST | CHANGES_THE_SDK
     _rehearse(cheat, True)
@@ -68,7 +68,7 @@ def purposes(cheat: Cheat) -> list[TestPurpose]:
     return concerned if len(concerned) > 1 else [*quick[:FEW], *concerned]
 
 
-def what_came_out(report: Report) -> set[str]:
+def what_came_out(report: FrameworkReport) -> set[str]:
     """The requirements that failed, and the kinds of incidents."""
     failed = {result.id for result in report.requirements if result.verdict == "fail"}
     return failed | {item.incident.kind for item in report.incidents}

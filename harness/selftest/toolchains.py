@@ -21,7 +21,7 @@ from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
 from ucm_cts.harness.toolchains.commands.processing import InProcess
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.generation import mapping_models
-from ucm_cts.harness.toolchains.renaming import Dress
+from ucm_cts.harness.toolchains.renaming import Renaming
 
 _REFERENCE = replace(reference(), read=functools.lru_cache(8192)(read_model))
 """Mutants differ in what they make of models, seldom in how they read them."""
@@ -66,13 +66,13 @@ def examine_toolchain(subject: ToolChainSubject) -> MutantResult | VariantResult
     asked = 0
     trouble = ""
     for names in _batches(derived, program):
-        examination = examination_for(profile, statement, Dress(), models=names)
+        examination = examination_for(profile, statement, Renaming(), models=names)
         campaign = ToolChainCampaign(InProcess(program), examination, (subject.name, ""), profile, statement, jobs=1)
-        for _ in campaign.ask():
+        for _ in campaign.process():
             pass
         campaign.judge()
         report = campaign.report()
-        asked += report.scenarios
+        asked += report.models
         kills |= {r.id: _kill(r) for r in report.requirements if r.verdict == "fail" and r.id not in kills}
         unsettled = [r.id for r in report.requirements if r.verdict in ("error", "inconclusive")]
         trouble = f"undecided: {', '.join(unsettled)}" if unsettled and names is None else ""

@@ -21,9 +21,9 @@ from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.harness.toolchains.generation import Generation, mapping_models
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS
 from ucm_cts.harness.toolchains.idl.comparing import compare as compare_idl
-from ucm_cts.harness.toolchains.idl.declared_support import not_asked
+from ucm_cts.harness.toolchains.idl.declared_support import not_applicable
 from ucm_cts.harness.toolchains.idl.omniidl import opinion
-from ucm_cts.harness.toolchains.renaming import Dress
+from ucm_cts.harness.toolchains.renaming import Renaming
 from ucm_cts.reference_models.mapping.cpp.expected import Standard
 from ucm_cts.reference_models.mapping.idl.expectations import STANDS_FOR
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
@@ -42,12 +42,12 @@ def stand_for() -> Mapping[str, frozenset[str]]:
 def examination_for(
     profile: str,
     statement: Statement,
-    dress: Dress,
+    renaming: Renaming,
     expression: str = "",
     command: Command | None = None,
     models: Collection[str] | None = None,
 ) -> Examination:
-    """What ``profile`` asks, with models in ``dress``, as far as it concerns ``expression`` and what the vendor states.
+    """What ``profile`` asks, with models in ``renaming``, as far as it concerns ``expression`` and what the vendor states.
 
     ``command`` says of generated C++ which compiler takes it, and where its headers are. Code is generated from ``models`` only, if
     they are named. Raises ``WrongUse``.
@@ -58,10 +58,12 @@ def examination_for(
     task = TASKS[profile]
     models = _asked(task, statement, models)
     if task == "check":
-        return Acceptance(statement, dress, expression)
+        return Acceptance(statement, renaming, expression)
     if task == "idl":
         compare = functools.partial(_compare_idl, statement.readings)
-        return Generation(compare, ("R-12-01", "idl_generated"), dress, expression, models, not_asked(statement))
+        return Generation(
+            compare, ("R-12-01", "idl_generated"), renaming, expression, models, not_applicable(statement)
+        )
     standard: Standard = "cpp03" if task == "cpp03" else "cpp11"
     how = command or Command(command=())
     if not can_be_run(_compiler(how).command[0]):
@@ -70,7 +72,7 @@ def examination_for(
             f"no compiler '{compiler}' can be run; install it, or name another: compiler = [...] in [{task}]"
         )
     compare = functools.partial(_compare_cpp, standard, statement.readings, how)
-    return Generation(compare, GENERATED, dress, expression, models, applicability.not_asked(statement))
+    return Generation(compare, GENERATED, renaming, expression, models, applicability.not_applicable(statement))
 
 
 WITH_NATIVES = frozenset({"idl_natives"})

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 
-import msgspec
 from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.harness.catalogue.documents import read_text
 from ucm_cts.harness.catalogue.requirements import SUITE
-from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Processed
+from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, FactEvidence
 from ucm_cts.harness.toolchains.campaign import Fact
-from ucm_cts.harness.toolchains.commands.processing import Made
+from ucm_cts.harness.toolchains.commands.processing import Response
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
-from ucm_cts.harness.toolchains.renaming import Dress
+from ucm_cts.harness.toolchains.renaming import Renaming
 from ucm_cts.harness.toolchains.unspecified_spellings import refused_for_spelling
 from ucm_cts.reference_models.findings import Finding
 
@@ -36,20 +35,20 @@ class Generation:
         self,
         compare: Compare,
         generates: tuple[str, str],
-        dress: Dress,
+        renaming: Renaming,
         expression: str = "",
         only: Collection[str] | None = None,
-        not_asked: Mapping[str, str] = {},
+        not_applicable: Mapping[str, str] = {},
     ) -> None:
         """``generates`` are the requirement, and its rule, that files can be had of a legal model at all. Of the models
         only those of ``only``, if there is such a list, whose name holds a word of ``expression``, or all if none does: then
-        only what is said of requirements that hold one of the words. ``not_asked`` are requirements that do not apply, and why.
+        only what is said of requirements that hold one of the words. ``not_applicable`` are requirements that do not apply, and why.
         """
-        self.not_asked = not_asked
+        self.not_applicable = not_applicable
         self._compare = compare
         self._generates = generates
         chosen = {name: text for name, text in mapping_models().items() if only is None or name in only}
-        models = {name: dress.of(text) for name, text in chosen.items()}
+        models = {name: renaming.apply(text) for name, text in chosen.items()}
         words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
         named = {name: text for name, text in models.items() if any(word in name.lower() for word in words)}
         self._texts = named or models
@@ -60,41 +59,44 @@ class Generation:
         """Name and text of each model."""
         return tuple(self._texts.items())
 
-    def look(self, name: str, made: Made) -> tuple[Fact, ...]:
-        """What the files of one model say."""
-        return tuple(fact for fact in self._facts(name, made) if self._is_wanted(fact.requirement))
+    def examine(self, name: str, response: Response) -> tuple[Fact, ...]:
+        """The facts that the files of one model show."""
+        return tuple(fact for fact in self._facts(name, response) if self._is_wanted(fact.requirement))
 
-    def judge(self, made: Mapping[str, Made], looked: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
-        """All that was seen."""
-        misspelt = refused_for_spelling(self._texts, {name: one.accepted for name, one in made.items()})
-        for name in made:
+    def judge(self, responses: Mapping[str, Response], shown: Mapping[str, tuple[Fact, ...]]) -> Iterator[Fact]:
+        """All facts."""
+        misspelt = refused_for_spelling(self._texts, {name: one.accepted for name, one in responses.items()})
+        for name in responses:
             if name in misspelt:
-                yield Fact(self._generates[0], (name,), unclear=misspelt[name])
+                yield Fact(self._generates[0], (name,), undecided=misspelt[name])
             else:
-                yield from looked[name]
+                yield from shown[name]
 
     def _is_wanted(self, requirement: str) -> bool:
         return not self._words or any(word in requirement.lower() for word in self._words)
 
-    def _facts(self, name: str, made: Made) -> Iterator[Fact]:
+    def _facts(self, name: str, response: Response) -> Iterator[Fact]:
         requirement, rule = self._generates
-        incident = made.processed.incident
+        incident = response.processed.incident
         if incident is not None and incident.kind not in FRAMEWORK_INCIDENTS - {"exit"}:
-            yield Fact(requirement, (name,), unclear=f"no answer: {incident.kind}: {incident.detail}")
+            yield Fact(requirement, (name,), undecided=f"no answer: {incident.kind}: {incident.detail}")
             return
-        if not made.accepted or not made.files:
-            first = next((line for line in made.processed.output.splitlines() if line.strip()), "without a word")
-            observed = f"{incident.kind}: {incident.detail}" if incident else f"refused: {first.strip()[:300]}"
-            observed = "no file was written" if made.accepted else observed
+        if not response.accepted or not response.files:
+            observed = (
+                f"{incident.kind}: {incident.detail}"
+                if incident
+                else f"refused: {response.first_line or 'no diagnostic'}"
+            )
+            observed = "no file was written" if response.accepted else observed
             finding = Finding(requirement, rule, name, "files are made of this legal model", observed)
-            yield Fact(requirement, (name,), finding, processed=made.processed)
+            yield Fact(requirement, (name,), finding, evidence=FactEvidence(response.processed))
             return
         yield Fact(requirement, (name,), measure="models generated from")
-        yield from self._compared(name, made)
+        yield from self._compared(name, response)
 
-    def _compared(self, name: str, made: Made) -> Iterator[Fact]:
+    def _compared(self, name: str, response: Response) -> Iterator[Fact]:
         model = read_model(self._texts[name].encode(), name).model
-        comparison = self._compare(model, made.files)
+        comparison = self._compare(model, response.files)
         broken: dict[str, list[Difference]] = {}
         for difference in comparison.differences:
             broken.setdefault(difference.requirement, []).append(difference)
@@ -103,10 +105,10 @@ class Generation:
                 yield Fact(requirement, (name,), measure="declarations as they should be")
         yield from (Fact("", (name,), measure=remark) for remark in comparison.remarks)
         for requirement, why in comparison.unjudged.items():
-            yield Fact(requirement, (name,), unclear=why)
+            yield Fact(requirement, (name,), undecided=why)
         for requirement, differences in broken.items():
             for difference in differences:
-                yield Fact(requirement, (name,), self._finding(difference), processed=_evidence(made, difference))
+                yield Fact(requirement, (name,), self._finding(difference), evidence=_evidence(response, difference))
 
     def _finding(self, difference: Difference) -> Finding:
         of = f" for {difference.element}" if difference.element else ""
@@ -124,13 +126,13 @@ def mapping_models() -> dict[str, str]:
     return dict(sorted(plain.items(), key=lambda item: len(item[1])))
 
 
-def _evidence(made: Made, difference: Difference) -> Processed:
-    """The processing with the place in the vendor's file."""
+def _evidence(response: Response, difference: Difference) -> FactEvidence:
+    """The response with the wrong place in the vendor's file."""
     if not difference.file:
-        return made.processed
-    lines = made.files.get(difference.file, "").splitlines()
+        return FactEvidence(response.processed)
+    lines = response.files.get(difference.file, "").splitlines()
     first = max(0, difference.line - 1 - AROUND)
     shown = enumerate(lines[first : difference.line + AROUND], first + 1)
     excerpt = "\n".join(f"{'>' if number == difference.line else ' '} {number:>4}  {line}" for number, line in shown)
     place = f"{difference.file}:{difference.line}" if difference.line else difference.file
-    return msgspec.structs.replace(made.processed, place=place, excerpt=excerpt)
+    return FactEvidence(response.processed, place=place, excerpt=excerpt)

@@ -1,7 +1,7 @@
-"""Which of the legal models that a tool chain refuses stand for a defect of their own?
+"""Which refused legal models show a defect of their own?
 
-One defect makes a tool refuse every model that has a certain construct in it. The simplest of them is to blame; the others have
-the same odd construct, which no accepted model has.
+One defect makes a tool chain refuse every model with a certain construct. Only the simplest of those models counts; the others share
+with it a construct that no accepted model has.
 """
 
 from __future__ import annotations
@@ -17,27 +17,27 @@ _LITERALS = frozenset(
 )
 
 
-class Blame:
-    """Of the legal models ``texts``, by name, those in ``refused`` were refused."""
+class MinimalRefusals:
+    """The simplest models among those in ``refused``; ``texts`` are all legal models by name."""
 
     def __init__(self, texts: Mapping[str, str], refused: Collection[str]) -> None:
         used = {name: constructs(text) for name, text in texts.items()}
-        usual = frozenset().union(*(used[name] for name in texts if name not in refused))
+        accepted = frozenset().union(*(used[name] for name in texts if name not in refused))
         self._used = {name: used[name] for name in texts if name in refused}
-        self._odd = {name: found - usual for name, found in self._used.items()}
+        self._unaccepted = {name: found - accepted for name, found in self._used.items()}
         self._simplest_first = sorted(self._used, key=lambda name: len(self._used[name]))
 
-    def instead_of(self, name: str) -> str:
-        """A simpler refused model that shares what is odd about ``name``, or is part of it; nothing if it is to blame itself."""
+    def simpler_than(self, name: str) -> str:
+        """A simpler refused model that shares an unaccepted construct with ``name``, or is part of it; empty if there is none."""
         for other in itertools.takewhile(lambda other: other != name, self._simplest_first):
-            if self._odd[other] & self._odd[name] or self._used[other] < self._used[name]:
+            if self._unaccepted[other] & self._unaccepted[name] or self._used[other] < self._used[name]:
                 return other
         return ""
 
 
 @functools.lru_cache(8192)
 def constructs(text: str) -> frozenset[str]:
-    """What a model uses: elements inside others, several of a kind, neighbours, attributes together and how they are written."""
+    """The constructs of a model: nested, repeated and neighbouring elements, sets of attributes, shapes of values."""
     return frozenset(_found(etree.fromstring(text.encode())))
 
 
@@ -57,7 +57,7 @@ def _found(root: etree._Element) -> Iterator[str]:
 
 
 def _shape(attribute: str, value: str) -> str:
-    """How the value is written, as far as it may matter."""
+    """The kind of spelling of an attribute's value."""
     if attribute in _LITERALS and not (":" in value or "." in value):
         return value
     if value.lstrip("+-").isdecimal():

@@ -1,4 +1,4 @@
-"""Which lines of a model have to do with a change? A diagnostic may point to any of them, and to others only by mistake."""
+"""The lines of a model that are related to a change: a correct diagnostic of the change names one of them."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ class _Element:
 
 
 @functools.lru_cache(8192)
-def vicinity(text: str, changed: frozenset[int]) -> frozenset[int]:
-    """The lines of what was ``changed``, of what that is part of or consists of, and of all that shares a name with it or with
-    the declaration that it is part of. All lines of what is no XML.
+def related_lines(text: str, changed: frozenset[int]) -> frozenset[int]:
+    """The ``changed`` lines, those of the elements around and inside, and those of elements that share a name with them or with
+    the declaration around them. All lines if ``text`` is no XML.
     """
     try:
         elements = _elements(text)

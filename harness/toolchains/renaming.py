@@ -1,4 +1,4 @@
-"""Models as a tool chain gets them: in its vendor's spelling, and with names that are drawn anew for each run.
+"""Models as a tool chain gets them: in the spelling of its vendor, with names that are drawn anew for each run.
 
 Names get an ending that depends on the name and the run's seed, wherever they stand: a tool chain that knows the suite's models by heart
 knows none of them, and a name without declaration looks like any other. What is looked up by its printed name keeps it.
@@ -66,15 +66,15 @@ _WORDS = frozenset(("TRUE", "FALSE", "true", "false", "core", *CHAR_KINDS, *FLOA
 
 
 @dataclass(frozen=True)
-class Dress:
-    """How models are dressed in one run: ``seed`` draws the names, None leaves them as they are."""
+class Renaming:
+    """How models are rewritten in one run: ``seed`` draws the names (None keeps them), ``dialect`` spells elements."""
 
     seed: int | None = None
     dialect: Dialect = CANONICAL
 
-    def of(self, text: str) -> str:
-        """``text`` dressed, its elements in the lines where they were; as it is if it is not XML."""
-        if self == Dress():
+    def apply(self, text: str) -> str:
+        """``text`` rewritten, each element in the line where it was; ``text`` itself if it is not XML."""
+        if self == Renaming():
             return text
         try:
             root = etree.fromstring(text.encode())

@@ -1,7 +1,8 @@
-"""What clause 9 has and the text prints no XML of: who accepts no model with such a thing is not failed for our spelling of it.
+"""Constructs of clause 9 whose XML spelling the specification does not print. A tool chain that accepts no model with such a
+construct is not failed for the spelling of the suite, which uses the name of the class or field.
 
-Our models then call it by the name of its class or field. A vendor who says in his dialect how it is spelled is held to that;
-so is one who declares that he reads native types or simple comments, of which models are sent to nobody else.
+A vendor whose dialect says how the construct is spelled is held to that; so is a vendor who declares support for native types or
+simple comments, because models with those go to no other vendor.
 """
 
 from __future__ import annotations
@@ -51,12 +52,13 @@ CONSTRUCTS: Mapping[str, re.Pattern[str]] = {
         r"<ComponentType\b[^>]*(?<!/)>(?:(?!</ComponentType>).)*<Attribute\b", re.DOTALL
     ),
 }
-"""Each of them, and how it is found in the text of a model that a tool chain gets."""
+"""Each construct, and the pattern that finds it in the text of a model."""
 
 
 def refused_for_spelling(texts: Mapping[str, str], accepted: Mapping[str, bool | None]) -> Mapping[str, str]:
-    """The names in ``accepted`` of models that may have been refused for how something unprinted is spelled alone, and what
-    that is; ``texts`` are the models by name.
+    """The models that may have been refused only for an unspecified spelling, and why.
+
+    ``texts`` are models by name, and ``accepted`` says of each whether it was; None stands for no answer.
     """
     refused = [name for name, answer in accepted.items() if answer is False]
     known = [name for name, answer in accepted.items() if answer]
@@ -64,6 +66,6 @@ def refused_for_spelling(texts: Mapping[str, str], accepted: Mapping[str, bool |
     for construct, pattern in CONSTRUCTS.items():
         having = [name for name in refused if pattern.search(texts[name])]
         if having and not any(pattern.search(texts[name]) for name in known):
-            told = f"the text prints no {construct}, and no model with one was accepted"
-            found |= {name: told for name in having if name not in found}
+            why = f"the specification prints no {construct}, and no model with one was accepted"
+            found |= {name: why for name in having if name not in found}
     return found

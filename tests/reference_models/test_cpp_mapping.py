@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.catalogue.requirements import SUITE, load_interpretations, load_requirements
 from ucm_cts.harness.results.statement import default_statement
-from ucm_cts.harness.toolchains.cpp.applicability import not_asked, stand_for
+from ucm_cts.harness.toolchains.cpp.applicability import not_applicable, stand_for
 from ucm_cts.harness.toolchains.cpp.probes.running import CHECKS
 from ucm_cts.reference_models.mapping.cpp import expected as claims
 from ucm_cts.reference_models.mapping.cpp.classes import Named
@@ -142,11 +142,11 @@ def test_forward_references_are_generated_in_order(task: str) -> None:
     assert header.index("class point_t {") < header.index("path_t;") < header.index("class segment_t {")
 
 
-def test_who_defines_constants_in_headers_is_not_asked_for_sources() -> None:
+def test_who_defines_constants_in_headers_is_not_applicable_for_sources() -> None:
     default = default_statement()
     other = msgspec.structs.replace(default, readings=default.readings | {"cpp03-float-constants": "header"})
-    assert not_asked(default) == {}
-    assert list(not_asked(other)) == ["R-13.10-05"]
+    assert not_applicable(default) == {}
+    assert list(not_applicable(other)) == ["R-13.10-05"]
 
 
 def test_what_is_too_large_for_a_program_is_not_made() -> None:

@@ -36,11 +36,12 @@ from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.results.values import (
     Execution,
-    FailedExecution,
+    FrameworkReport,
     Incident,
     IncidentReport,
-    Report,
+    ReportedFinding,
     RequirementResult,
+    TraceEvidence,
     TransitionResult,
 )
 from ucm_cts.reference_models.findings import Arrow, Finding
@@ -107,7 +108,7 @@ def begin(tape: Tape) -> None:
     tape.put(Return, step=4)
 
 
-def refused_stop() -> FailedExecution:
+def refused_stop() -> ReportedFinding:
     """The framework forgets on_shutdown of the provider at stop."""
     tape = Tape()
     begin(tape)
@@ -130,10 +131,12 @@ def refused_stop() -> FailedExecution:
     tape.hook("client", "on_remove")
     tape.hook("provider", "on_remove")
     tape.put(Return, step=6)
-    return FailedExecution(finding, Execution("stop-after-start", Scenario(COMPONENTS, steps), tape.trace()), 31)
+    return ReportedFinding(
+        finding, TraceEvidence(Execution("stop-after-start", Scenario(COMPONENTS, steps), tape.trace())), 31
+    )
 
 
-def wrong_error() -> FailedExecution:
+def wrong_error() -> ReportedFinding:
     """An undeclared exception instead of NOT_FOUND."""
     tape = Tape()
     steps: tuple[Step, ...] = (AddComponent(component="provider"), RemoveComponent(id="unknown"))
@@ -153,10 +156,12 @@ def wrong_error() -> FailedExecution:
         step=1,
         expected_events=(Arrow("manager", "test", "raises NOT_FOUND"),),
     )
-    return FailedExecution(finding, Execution("remove-unknown", Scenario(COMPONENTS, steps), tape.trace()), 4)
+    return ReportedFinding(
+        finding, TraceEvidence(Execution("remove-unknown", Scenario(COMPONENTS, steps), tape.trace())), 4
+    )
 
 
-def lost_call(rounds: int = 1) -> FailedExecution:
+def lost_call(rounds: int = 1) -> ReportedFinding:
     """A call between bodies comes back with another value than was returned; many rounds make a long trace."""
     tape = Tape()
     begin(tape)
@@ -183,10 +188,12 @@ def lost_call(rounds: int = 1) -> FailedExecution:
         step=len(steps) - 1,
         expected_events=(Arrow("provider", "client", f"returns {~(rounds - 1)}"),),
     )
-    return FailedExecution(finding, Execution("peer-call", Scenario(COMPONENTS, tuple(steps)), tape.trace()), 2)
+    return ReportedFinding(
+        finding, TraceEvidence(Execution("peer-call", Scenario(COMPONENTS, tuple(steps)), tape.trace())), 2
+    )
 
 
-def missing() -> FailedExecution:
+def missing() -> ReportedFinding:
     """A finding that can point at no event, with a waiver."""
     failed = refused_stop()
     finding = msgspec.structs.replace(
@@ -275,7 +282,7 @@ def results() -> tuple[RequirementResult, ...]:
     titles = {entry.id: (entry.clause, entry.title) for entry in CATALOGUE}
 
     def result(
-        name: str, verdict: Any, exercised: int, *findings: FailedExecution, reason: str = ""
+        name: str, verdict: Any, exercised: int, *findings: ReportedFinding, reason: str = ""
     ) -> RequirementResult:
         return RequirementResult(name, *titles[name], verdict, exercised, findings, reason)
 
@@ -291,9 +298,9 @@ def results() -> tuple[RequirementResult, ...]:
     )
 
 
-def sample(**changes: Any) -> Report:
+def sample(**changes: Any) -> FrameworkReport:
     """The whole report."""
-    report = Report(
+    report = FrameworkReport(
         product="Fancy " + HOSTILE,
         version="2.4 & <b>",
         profile="container",

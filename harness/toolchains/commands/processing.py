@@ -1,4 +1,4 @@
-"""Does one task of a tool chain with models, and says what became of them."""
+"""Has a tool chain do a task with models, and collects its responses."""
 
 from __future__ import annotations
 
@@ -29,28 +29,34 @@ _DEEPEST = 50
 
 
 @dataclass(frozen=True)
-class Made:
-    """What became of a model: the evidence, whether the tool accepted it (None: it came to no answer), the lines that its
-    diagnostics name, and the text files it wrote, by path.
-    """
+class Response:
+    """What a tool chain did with one model."""
 
     processed: Processed
     accepted: bool | None
+    """None if the tool chain came to no answer."""
     lines: frozenset[int] = frozenset()
+    """The lines of the model that diagnostics name."""
     files: Mapping[str, str] = field(default_factory=dict)
+    """The text files that the tool chain wrote, by path."""
+
+    @property
+    def first_line(self) -> str:
+        """The first line that the tool chain printed, at most 300 characters."""
+        return next((line for line in map(str.strip, self.processed.output.splitlines()) if line), "")[:300]
 
 
 class Processor(Protocol):
-    """Whoever can be asked to do a task with a model."""
+    """A tool chain that can be called."""
 
-    def process(self, task: Task, name: str, text: str) -> Made:
-        """Do ``task`` with the model ``text``; ``name`` is the question's. Never raises for what the tool does."""
+    def process(self, task: Task, name: str, text: str) -> Response:
+        """Do ``task`` with the model ``text``, which the suite calls ``name``. Never raises for what the tool does."""
 
-    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made]:
+    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response]:
         """The same for several models, each with its name."""
 
     def at_once(self, task: Task) -> int:
-        """How many models ``process_all`` is best given."""
+        """How many models one call of ``process_all`` should get."""
 
 
 class CommandLine:
@@ -68,12 +74,12 @@ class CommandLine:
     def at_once(self, task: Task) -> int:
         return SEVERAL if self._toolchain.takes_several(task) else 1
 
-    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made]:
+    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response]:
         """Where one call takes several models it must be clear which it refuses; if it is not, each gets a call of its own."""
         made = self._together(task, models) if len(models) > 1 else None
         return made or [self.process(task, name, text) for name, text in models]
 
-    def _together(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made] | None:
+    def _together(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response] | None:
         command, words = self._programs[task]
         with own_folder() as folder:
             files = [folder / f"model-{number}.xml" for number in range(len(models))]
@@ -95,14 +101,14 @@ class CommandLine:
         if (ended.status == 0) == any(told.values()):
             return None
         shown = tuple(word.replace(MODELS, MODEL_FILE) for word in _by_hand(command, words))
-        made = []
+        responses = []
         for (name, text), lines in zip(models, told.values(), strict=True):
             output = "".join(f"{line}\n" for line in lines)
             processed = Processed(name, task, text, shown, ended.status if lines else 0, output)
-            made.append(Made(processed, not lines, named_lines(output, command.diagnostic, text)))
-        return made
+            responses.append(Response(processed, not lines, named_lines(output, command.diagnostic, text)))
+        return responses
 
-    def process(self, task: Task, name: str, text: str) -> Made:
+    def process(self, task: Task, name: str, text: str) -> Response:
         command, words = self._programs[task]
         with own_folder() as folder:
             model, out = folder / MODEL_FILE, folder / OUT_FOLDER
@@ -115,10 +121,10 @@ class CommandLine:
             incident = ended.incident or _odd_status(ended.status, command) or _died(ended)
             processed = Processed(name, task, text, shown, ended.status, output, incident)
             if incident is not None:
-                return Made(processed, None)
+                return Response(processed, None)
             accepted = ended.status == 0
             lines = named_lines(output, command.diagnostic, text)
-            return Made(processed, accepted, lines, _files(out) if accepted else {})
+            return Response(processed, accepted, lines, _files(out) if accepted else {})
 
 
 def _by_hand(command: Command, words: Sequence[str]) -> tuple[str, ...]:
@@ -141,10 +147,10 @@ class InProcess:
     def at_once(self, task: Task) -> int:
         return SEVERAL
 
-    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Made]:
+    def process_all(self, task: Task, models: Sequence[tuple[str, str]]) -> list[Response]:
         return [self.process(task, name, text) for name, text in models]
 
-    def process(self, task: Task, name: str, text: str) -> Made:
+    def process(self, task: Task, name: str, text: str) -> Response:
         files: Mapping[str, str] = {}
         try:
             if task == "check":
@@ -153,11 +159,11 @@ class InProcess:
                 files, told = self._program.generate(task, text.encode(), MODEL_FILE)
         except Exception as problem:  # noqa: BLE001 - a mutant may do anything
             incident = Incident("crash", f"{type(problem).__name__}: {problem}")
-            return Made(Processed(name, task, text, ("ucm-cts-toolchain", task), None, "", incident), None)
+            return Response(Processed(name, task, text, ("ucm-cts-toolchain", task), None, "", incident), None)
         output = "".join(f"{diagnostic}\n" for diagnostic in told)
         status = 1 if told else 0
         processed = Processed(name, task, text, ("ucm-cts-toolchain", task, MODEL_FILE), status, output)
-        return Made(processed, not told, frozenset(diagnostic.line for diagnostic in told), files)
+        return Response(processed, not told, frozenset(diagnostic.line for diagnostic in told), files)
 
 
 def named_lines(output: str, diagnostic: str, model: str) -> frozenset[int]:

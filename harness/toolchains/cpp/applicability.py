@@ -29,7 +29,7 @@ def stand_for() -> Mapping[str, frozenset[str]]:
     return {rule: frozenset(requirements) for rule, requirements in found.items()}
 
 
-def not_asked(statement: Statement) -> Mapping[str, str]:
+def not_applicable(statement: Statement) -> Mapping[str, str]:
     """The requirements of clause 13 that do not apply to this vendor, and why."""
     told = {r.id: why_not(r, statement) for r in load_requirements() if r.rules and r.id.startswith("R-13")}
     return {requirement: why[1] for requirement, why in told.items() if why is not None}

@@ -26,7 +26,7 @@ breaks nothing by it, so without such a declaration there would be no verdict.
 """
 
 
-def not_asked(statement: Statement) -> Mapping[str, str]:
+def not_applicable(statement: Statement) -> Mapping[str, str]:
     """The requirements that do not apply to this vendor, and why."""
     reasons = {
         pattern: f"only asked of who declares {' or '.join(readings)}"

@@ -18,7 +18,7 @@ from ucm_cts.harness.purposes.probes import load_probe_types
 from ucm_cts.harness.purposes.scripts import Script, problems, to_scenario
 from ucm_cts.harness.purposes.selection import load_purposes, select
 from ucm_cts.harness.results.tally import cause_of
-from ucm_cts.harness.results.values import FailedExecution
+from ucm_cts.harness.results.values import ReportedFinding
 
 SCENARIOS = [scenario for purpose in load_purposes("container") for _, scenario in purpose.scenarios]
 LONGEST = max(
@@ -31,7 +31,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     within(tmp_path, monkeypatch)
 
 
-def failures(adapter: str, expression: str) -> tuple[list[FailedExecution], list[FailedExecution]]:
+def failures(adapter: str, expression: str) -> tuple[list[ReportedFinding], list[ReportedFinding]]:
     """What is found with the purposes that ``expression`` selects: as found, and shortened."""
     with Driver(locate(adapter), seed=4) as driver:
         campaign = Campaign(driver, "container")

@@ -18,7 +18,7 @@ from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.data.scenarios import data_purposes
 from ucm_cts.harness.purposes.scripts import Script, problems, read_scripts
 from ucm_cts.harness.purposes.selection import load_purposes, select
-from ucm_cts.harness.results.values import FailedExecution
+from ucm_cts.harness.results.values import ReportedFinding
 
 PURPOSES = data_purposes()
 
@@ -53,7 +53,7 @@ def values_of(scenario: s.Scenario) -> list[object]:
     return [*given, *attributes]
 
 
-def failures(name: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[FailedExecution]:
+def failures(name: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[ReportedFinding]:
     """What is found in the framework ``subjects:name``, shortened."""
     within(tmp_path, monkeypatch)
     purposes = select(load_purposes("core"), words)

@@ -18,7 +18,7 @@ from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import LAYOUT, Compiler, Layout, compile_text
 from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.harness.toolchains.examinations import examination_for
-from ucm_cts.harness.toolchains.renaming import Dress
+from ucm_cts.harness.toolchains.renaming import Renaming
 
 DEMONSTRATION = '#include "constants.hpp"\nint main() { return 0; }\n'
 UNFINISHED = "void to_be_written();\nvoid body() { to_be_written(); }\n"
@@ -100,7 +100,7 @@ def test_a_compiler_beside_the_description_is_found(tmp_path: Path) -> None:
 def test_without_any_compiler_the_profile_is_not_begun(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(WrongUse, match=re.escape("no compiler 'g++' can be run; install it, or name another")):
-        examination_for("cpp03", default_statement(), Dress(0))
+        examination_for("cpp03", default_statement(), Renaming(0))
 
 
 @pytest.mark.parametrize("include", [("include",), ("include", "."), (".", "include"), ("include", "include/inner")])

@@ -11,7 +11,7 @@ import pytest
 
 from ucm_cts.harness.toolchains.commands import bounded
 from ucm_cts.harness.toolchains.commands.description import Command, ToolChain
-from ucm_cts.harness.toolchains.commands.processing import CommandLine, Made
+from ucm_cts.harness.toolchains.commands.processing import CommandLine, Response
 
 NESTS = """
 for _ in range(1100):
@@ -42,7 +42,7 @@ def temporary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-def made_by(script: str, then: str = "") -> Made:
+def made_by(script: str, then: str = "") -> Response:
     """What becomes of a model by a generator that runs ``script`` in its folder and ``then`` with ``out``, its folder for files."""
     program = f"import os, signal, sys, time\nout = sys.argv[2]\n{then}\n{script}"
     command = Command((sys.executable, "-c", program, "{model}", "{out}"))

@@ -76,7 +76,7 @@ def test_refusing_for_another_reason_is_no_pass() -> None:
     broken = "\n".join([*lines, "</Structure>", "</ContractModule>"])
     twin = Question("twin", "R-9.2.4.3-02", "accept", legal)
     asked = Question("asked", "R-9.2.4.3-02", "refuse", broken, "", "twin", differing_lines(legal, broken))
-    for line, outcome in ((2, "unclear"), (3, "kept"), (4, "kept")):
+    for line, outcome in ((2, "undecided"), (3, "kept"), (4, "kept")):
         answers = {"twin": Answer(True), "asked": Answer(False, frozenset((line,)), f"model.xml:{line}: no")}
         _, judgement = judge([twin, asked], answers)
         assert judgement.outcome == outcome, line

@@ -1,4 +1,4 @@
-"""A tool chain's evidence for people: the model, with what tells it from its legal twin, the command, and what came of it."""
+"""What reports show of a finding of a tool chain: the model, its differences from the legal twin, the command and its answer."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ucm_cts.harness.results.values import MODEL_FILE, OUT_FOLDER, Processed
+from ucm_cts.harness.results.values import MODEL_FILE, OUT_FOLDER, FactEvidence, Processed
 
 AROUND = 4
 """Lines shown before and after each one that was changed."""
@@ -27,14 +27,14 @@ class ModelLine:
     text: str
 
 
-def model_lines(processed: Processed) -> list[ModelLine]:
-    """The model of ``processed``, reduced to what matters."""
-    lines = processed.model.splitlines()
-    if not processed.twin:
+def model_lines(evidence: FactEvidence) -> list[ModelLine]:
+    """The lines of the model that a reader needs."""
+    lines = evidence.processed.model.splitlines()
+    if not evidence.twin:
         shown = [ModelLine(" ", number, line) for number, line in enumerate(lines[:LONGEST], 1)]
         left = len(lines) - len(shown)
         return [*shown, ModelLine("…", None, f"{left} more lines")] if left else shown
-    before = processed.twin.splitlines()
+    before = evidence.twin.splitlines()
     found: list[ModelLine] = []
     for group in difflib.SequenceMatcher(None, before, lines, autojunk=False).get_grouped_opcodes(AROUND):
         if found or group[0][3] > 0:
@@ -66,11 +66,33 @@ def ending(processed: Processed) -> str:
     return f"exit status {processed.status}"
 
 
-def processed_text(processed: Processed) -> str:
-    """All of it as plain text, for a CI's log."""
-    parts = [f"model {processed.name}", model_text(model_lines(processed)), f"{ending(processed)}"]
+@dataclass(frozen=True)
+class FactShown:
+    """Evidence of a tool chain as a page shows it; without lines of the model once the page is full."""
+
+    evidence: FactEvidence
+    command: str
+    lines: tuple[ModelLine, ...]
+    ending: str
+
+    @property
+    def size(self) -> int:
+        """Bytes that it adds to the page."""
+        return sum(len(line.text.encode()) for line in self.lines)
+
+
+def fact_shown(evidence: FactEvidence, file: str, whole: bool) -> FactShown:
+    """``evidence`` for a page, the lines of the model only if it is shown ``whole``; ``file`` is the saved model."""
+    lines = tuple(model_lines(evidence)) if whole else ()
+    return FactShown(evidence, command_text(evidence.processed, file), lines, ending(evidence.processed))
+
+
+def fact_text(evidence: FactEvidence) -> str:
+    """All of it as plain text, for the log of a CI system."""
+    processed = evidence.processed
+    parts = [f"model {processed.name}", model_text(model_lines(evidence)), f"{ending(processed)}"]
     if processed.output:
         parts.append(f"output:\n{processed.output.rstrip()}")
-    if processed.place:
-        parts.append(f"{processed.place}:\n{processed.excerpt}")
+    if evidence.place:
+        parts.append(f"{evidence.place}:\n{evidence.excerpt}")
     return "\n\n".join(parts)

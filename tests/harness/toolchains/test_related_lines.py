@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ucm_cts.harness.toolchains.corpus.selection import differing_lines
-from ucm_cts.harness.toolchains.related_lines import vicinity
+from ucm_cts.harness.toolchains.related_lines import related_lines
 
 MODEL = """\
 <Model>
@@ -35,7 +35,7 @@ def lines_after(*swaps: tuple[str, str]) -> frozenset[int]:
     for old, new in swaps:
         assert text.count(old) == 1
         text = text.replace(old, new)
-    return vicinity(text, differing_lines(MODEL, text))
+    return related_lines(text, differing_lines(MODEL, text))
 
 
 @pytest.mark.parametrize(
@@ -64,4 +64,4 @@ def test_an_element_that_was_emptied_counts_although_only_its_end_moved() -> Non
 
 
 def test_all_lines_of_what_is_no_xml() -> None:
-    assert vicinity("<a>\n<b>\n", frozenset({1})) == {1, 2, 3}
+    assert related_lines("<a>\n<b>\n", frozenset({1})) == {1, 2, 3}

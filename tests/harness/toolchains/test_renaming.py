@@ -11,9 +11,9 @@ from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.contract.metamodel.writing import Dialect
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.results.statement import default_statement
-from ucm_cts.harness.toolchains.acceptance import dressed
+from ucm_cts.harness.toolchains.acceptance import renamed
 from ucm_cts.harness.toolchains.corpus.selection import questions
-from ucm_cts.harness.toolchains.renaming import Dress, drawn_name, printed_names
+from ucm_cts.harness.toolchains.renaming import Renaming, drawn_name, printed_names
 
 ASKED = [q for q in questions() if all(map(default_statement().meets, q.under))]
 PROGRAM = reference()
@@ -34,16 +34,16 @@ PRINTED = Dialect(
 )
 
 
-@pytest.mark.parametrize("dress", [Dress(7), Dress(7, PRINTED)], ids=["names", "names and spelling"])
-def test_a_dressed_model_gets_the_answer_of_the_plain_one(dress: Dress) -> None:
-    for plain, other in zip(ASKED, dressed(ASKED, dress), strict=True):
+@pytest.mark.parametrize("renaming", [Renaming(7), Renaming(7, PRINTED)], ids=["names", "names and spelling"])
+def test_a_renamed_model_gets_the_answer_of_the_plain_one(renaming: Renaming) -> None:
+    for plain, other in zip(ASKED, renamed(ASKED, renaming), strict=True):
         answers = [{d.requirement for d in PROGRAM.check(q.text.encode(), "m")[1]} for q in (plain, other)]
         assert answers[0] == answers[1], f"{plain.name}\n{other.text}"
 
 
 def test_no_name_is_left_but_those_that_are_printed() -> None:
     kept = printed_names() | {"core"}
-    for q in dressed(ASKED, Dress(3)):
+    for q in renamed(ASKED, Renaming(3)):
         try:
             root = etree.fromstring(q.text.encode())
         except etree.XMLSyntaxError:
@@ -64,7 +64,7 @@ def test_references_follow_their_names() -> None:
         '<ContractModule name="m"><Enumeration name="e" indexType="BYTE"><Enumerator name="x" value="1"/></Enumeration>'
         '<Constant name="c" type="::m::e" value="x"/><Constant name="d" type="::m::e" value="c"/></ContractModule>'
     )
-    model = read_model(Dress(5).of(text).encode(), "m").model
+    model = read_model(Renaming(5).apply(text).encode(), "m").model
     (module,) = model.modules
     enumeration, (first, second) = module.data_types[0], module.constants  # type: ignore[union-attr]
     assert first.type == f"::{module.name}::{enumeration.name}"
@@ -78,7 +78,7 @@ def test_strings_and_delegations_are_written_in_either_printed_way() -> None:
         '<PortDelegation port="p"><ConnectionEnd name="e" part="a" port="q"/></PortDelegation>'
         '<PortDelegation port="p"><ConnectionEnd part="a"/><ConnectionEnd part="b"/></PortDelegation></Model>'
     )
-    other = Dress(None, Dialect(short_strings=True, delegation_attributes=True)).of(text)
+    other = Renaming(None, Dialect(short_strings=True, delegation_attributes=True)).of(text)
     assert other == (
         '<Model><String32 name="s" maxSize="4"/><StringType name="t" charBase="C"/>'
         '<PortDelegation port="p" internalPart="a" internalPort="q"/>'
@@ -87,4 +87,4 @@ def test_strings_and_delegations_are_written_in_either_printed_way() -> None:
 
 
 def test_what_is_no_xml_is_left_alone() -> None:
-    assert Dress(5).of("<a><b></a>") == "<a><b></a>"
+    assert Renaming(5).apply("<a><b></a>") == "<a><b></a>"
