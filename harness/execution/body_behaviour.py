@@ -1,4 +1,4 @@
-"""Bodies and threads of a trace: who is where, and does everybody do what it was told to?"""
+"""Bodies and threads of a trace: in which body each thread is, and whether each body acts as its plan says."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ucm_cts.adapters.contract.trace import (
 from ucm_cts.harness.execution.planned_actions import Act, Plan, is_as_planned, plan_of
 
 _NONE_HELD: dict[str, int] = {}
-"""Held by a body that was given no references. Nobody adds to it."""
+"""The references of a body that was given none. It stays empty."""
 
 
 class Body:
@@ -82,8 +82,8 @@ class Thread:
         return None
 
 
-class Acting:
-    """Follows bodies event by event. Each check tells what is wrong with its event, None if nothing is."""
+class BodyChecks:
+    """Follows bodies event by event. Each check returns what is wrong with its event, None if nothing is."""
 
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
@@ -98,7 +98,7 @@ class Acting:
         made = self.made.get(event.component)
         return made[event.instance - 1] if made and 1 <= event.instance <= len(made) else None
 
-    def astray(self, event: BodyEvent) -> str:
+    def why_outside(self, event: BodyEvent) -> str:
         """Why the body that acts cannot do so: it was never made, or is not entered."""
         if event.component not in self.made:
             return f"there is no component {event.component}"
@@ -109,7 +109,7 @@ class Acting:
     def check_create(self, event: Create, thread: Thread) -> str | None:
         bodies = self.made.get(event.component)
         if bodies is None:
-            return self.astray(event)
+            return self.why_outside(event)
         bodies.append(Body(self.scenario.components[event.component]))
         due = len(bodies)
         return None if event.instance == due else f"instance {event.instance} is made after {due - 1}"
@@ -117,7 +117,7 @@ class Acting:
     def check_enter(self, event: Enter, thread: Thread) -> str | None:
         body = self.body(event)
         if body is None:
-            return self.astray(event)
+            return self.why_outside(event)
         problem = _entry_problem(body.declaration, event)
         if event.dependencies is not None:
             body.be_given(event.dependencies)
@@ -127,7 +127,7 @@ class Acting:
     def check_request(self, event: Request, thread: Thread) -> str | None:
         body = self.body(event)
         if body is None:
-            return self.astray(event)
+            return self.why_outside(event)
         within = next((frame for frame in reversed(thread.frames) if frame.body is not None), None)
         if within is not None:
             within.acts.append(event)
@@ -141,18 +141,18 @@ class Acting:
         same = isinstance(asked, Request) and asked.port == event.port and asked.instance == event.instance
         if not same or asked.component != event.component:  # type: ignore[union-attr]
             exists = self.exists(event.component, event.instance)
-            return "a reply without its request" if exists else self.astray(event)
+            return "a reply without its request" if exists else self.why_outside(event)
         thread.frames.pop()
         return None
 
     def check_act(self, event: Pushed | Siblings | Held, thread: Thread) -> str | None:
         frame = thread.entered(event)
         if frame is None or frame.body is None:
-            return self.astray(event)
+            return self.why_outside(event)
         frame.acts.append(event)
         if isinstance(event, Pushed):
-            told = sum(event.answers.values())
-            return None if told == event.count else f"{told} answers to {event.count} messages"
+            answers = sum(event.answers.values())
+            return None if answers == event.count else f"{answers} answers to {event.count} messages"
         if isinstance(event, Held):
             actions = frame.body.plan(frame.event.hook).actions  # type: ignore[union-attr]
             if event.gate not in {a.gate for a in actions if isinstance(a, s.HoldAtGate)}:
@@ -162,7 +162,7 @@ class Acting:
     def check_exit(self, event: Exit, thread: Thread) -> str | None:
         frame = thread.entered(event)
         if frame is None or frame.body is None:
-            return self.astray(event)
+            return self.why_outside(event)
         thread.frames.pop()
         enter, body, acts = frame.event, frame.body, frame.acts
         assert isinstance(enter, Enter)

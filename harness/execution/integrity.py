@@ -1,4 +1,4 @@
-"""Can this trace be true? What no host that tells the truth can answer is the adapter's fault, never a verdict."""
+"""Checks that a trace can be true. A trace that no correct host can record is the adapter's fault and never gives a verdict."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ from ucm_cts.adapters.contract.trace import (
     kind_of,
 )
 from ucm_cts.adapters.contract.traits import bound_by, used_by
-from ucm_cts.harness.execution.body_behaviour import Acting, Frame, Thread
-from ucm_cts.harness.execution.step_order import Turns
+from ucm_cts.harness.execution.body_behaviour import BodyChecks, Frame, Thread
+from ucm_cts.harness.execution.step_order import StepOrder
 
 _PUNCTUALITY, _GRAIN = 0.9, 5_000_000
 """A wait for patience that ends after this part of it, less so many nanoseconds, is believed: clocks differ."""
@@ -66,7 +66,7 @@ def believable(scenario: Scenario, events: Sequence[Event]) -> tuple[Event, ...]
     return tuple(events)
 
 
-class _Check(Acting):
+class _Check(BodyChecks):
     """Follows the steps of a scenario, and bodies on the way."""
 
     def __init__(self, scenario: Scenario) -> None:
@@ -76,7 +76,7 @@ class _Check(Acting):
         self.threads: dict[int, Thread] = {}
         self.bound = {s.MANAGER, s.UNKNOWN, s.NIL}
         self.null = {s.NIL}
-        self.turns = Turns(scenario)
+        self.order = StepOrder(scenario)
         self.waiting: dict[int, Held] = {}
         self.arrivals: Counter[str] = Counter()
         self.opened: set[str] = set()
@@ -104,7 +104,9 @@ class _Check(Acting):
         for number, step in enumerate(self.scenario.steps):
             if isinstance(step, s.ReachGate):
                 if number not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
-                    return f"step {number} (reach) has met nobody at {step.gate!r} and not run out of patience"
+                    return (
+                        f"step {number} (reach) has neither seen a body at gate {step.gate!r} nor run out of patience"
+                    )
             elif not isinstance(step, s.Join) and not self.done.get(number):
                 return f"step {number} ({s.operation(step)}) is missing or not ended"
         return None
@@ -114,7 +116,7 @@ class _Check(Acting):
         held = self.waiting.pop(event.thread, None)
         if held is None or held.gate in self.opened or event.t - held.t >= self.shortest_wait:
             return None
-        if all(self.done.get(number) for number in self.turns.steps[None] if not self.is_silent(number)):
+        if all(self.done.get(number) for number in self.order.steps[None] if not self.is_silent(number)):
             return None
         return f"{held.component} goes on although gate {held.gate!r} is closed"
 
@@ -122,20 +124,20 @@ class _Check(Acting):
         """No event tells that the step has succeeded."""
         return not self.scenario.steps[number].ends_with
 
-    def check_turn(self, number: int, thread: Thread) -> str | None:
+    def check_order(self, number: int, thread: Thread) -> str | None:
         """A thread takes its steps one by one, in order; what it leaves behind without a trace must be over."""
         if thread.frames:
             return f"step {number} begins while another one is open on thread {thread.number}"
-        problem = self.turns.begin(number, thread.number)
-        if problem or not self.turns.passed:
+        problem = self.order.begin(number, thread.number)
+        if problem or not self.order.passed:
             return problem
-        for passed in self.turns.passed:
+        for passed in self.order.passed:
             step = self.scenario.steps[passed]
             if isinstance(step, s.ReachGate):
                 if passed not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
-                    return f"step {number} comes after step {passed} (reach), which has met nobody at {step.gate!r}"
+                    return f"step {number} comes after step {passed} (reach), which has not seen a body at gate {step.gate!r}"
             elif isinstance(step, s.Join):
-                before = [n for n in self.turns.steps.get(step.worker, ()) if n < passed and not self.is_silent(n)]
+                before = [n for n in self.order.steps.get(step.worker, ()) if n < passed and not self.is_silent(n)]
                 if passed not in self.done and not all(self.done.get(n) for n in before):
                     return f"step {number} comes after step {passed} (join), and '{step.worker}' is not done"
             elif passed not in self.done:
@@ -161,7 +163,7 @@ class _Check(Acting):
             return f"step {event.step} is skipped although {event.variable} is bound"
         if isinstance(event, Call) and missing:
             return f"step {event.step} is carried out although {missing[0]} is not bound"
-        problem = self.check_turn(event.step, thread)
+        problem = self.check_order(event.step, thread)
         self.done[event.step] = isinstance(event, Skip)
         if isinstance(event, Call):
             thread.frames.append(Frame(event))
@@ -181,44 +183,44 @@ class _Check(Acting):
             return f"step {event.step} is not a wait"
         if thread.clock is not None and event.t - thread.clock < self.shortest_wait:
             return f"step {event.step} runs out of patience too early"
-        problem = self.check_turn(event.step, thread)
+        problem = self.check_order(event.step, thread)
         self.done[event.step] = True
         return problem
 
-    def check_told(self, event: Counted | Paused | Stressed, thread: Thread) -> str | None:
+    def check_done(self, event: Counted | Paused | Stressed, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
         if step.ends_with != kind_of(event) or event.step in self.done:
-            return f"step {event.step} is not what was done"
+            return f"step {event.step} is not the step that this event ends"
         if isinstance(step, s.Pause) and thread.clock is not None:
             due = step.milliseconds * _NANOSECONDS * _PUNCTUALITY - _GRAIN
             if event.t - thread.clock < due:
                 return f"step {event.step} ends too early"
         if isinstance(event, Counted) and not 0 <= event.distinct <= event.received:
             return f"step {event.step} has counted {event.distinct} of {event.received}"
-        problem = self.check_turn(event.step, thread)
+        problem = self.check_order(event.step, thread)
         self.done[event.step] = True
         return problem
 
     def check_opened(self, event: Opened, thread: Thread) -> str | None:
-        number = self.turns.next_open(event.gate, event.thread)
+        number = self.order.next_open(event.gate, event.thread)
         if number is None:
-            return f"gate {event.gate!r} is opened where no step does so"
-        problem = self.check_turn(number, thread)
+            return f"gate {event.gate!r} is opened, and no step opens it here"
+        problem = self.check_order(number, thread)
         self.done[number] = True
         self.opened.add(event.gate)
         return problem
 
     def check_settled(self, event: Settled, thread: Thread) -> str | None:
-        number = self.turns.next_settle(event.worker, event.thread)
+        number = self.order.next_settle(event.worker, event.thread)
         if number is None:
-            return f"'{event.worker}' is looked for where no step does so"
-        problem = self.check_turn(number, thread)
+            return f"no step settles '{event.worker}' here"
+        problem = self.check_order(number, thread)
         self.done[number] = True
-        before = [n for n in self.turns.steps.get(event.worker, ()) if n < number and not self.is_silent(n)]
+        before = [n for n in self.order.steps.get(event.worker, ()) if n < number and not self.is_silent(n)]
         if event.where == "done" and not all(self.done.get(n) for n in before):
-            return f"'{event.worker}' is said to be done and is not"
+            return f"'{event.worker}' is recorded as done and is not"
         return problem
 
     def check_end(self, event: Return | Raise, thread: Thread) -> str | None:
@@ -288,9 +290,9 @@ _CHECKS: dict[type, Callable[[_Check, Any, Thread], str | None]] = {
     Timeout: _Check.check_timeout,
     Opened: _Check.check_opened,
     Settled: _Check.check_settled,
-    Counted: _Check.check_told,
-    Paused: _Check.check_told,
-    Stressed: _Check.check_told,
+    Counted: _Check.check_done,
+    Paused: _Check.check_done,
+    Stressed: _Check.check_done,
     Create: _Check.check_create,
     Enter: _Check.check_enter,
     Exit: _Check.check_exit,
@@ -300,4 +302,4 @@ _CHECKS: dict[type, Callable[[_Check, Any, Thread], str | None]] = {
     Held: _Check.check_held,
     Pushed: _Check.check_act,
 }
-"""What looks at each kind of event."""
+"""The check of each kind of event."""

@@ -1,4 +1,4 @@
-"""What a body was told to do, and whether it did that."""
+"""The plan of a body for a hook, and whether events show that the body followed it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.scenario import Action, Declaration
 from ucm_cts.adapters.contract.trace import Held, Pushed, Request, Siblings
 
 Act = Request | Pushed | Siblings | Held
-"""What shows that a body carries out its plan."""
+"""Events that show an action of a plan."""
 
 
 class Plan(NamedTuple):

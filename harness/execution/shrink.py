@@ -16,7 +16,7 @@ ROUNDS = 40
 
 
 def shortest(scenario: Scenario, first_failing: Callable[[Sequence[Scenario]], int | None]) -> Scenario:
-    """A scenario as short as can be found. ``first_failing`` runs candidates and tells which still shows the failure."""
+    """A scenario as short as can be found. ``first_failing`` runs candidates and returns the index of the first that still shows the failure."""
     for fewer in (_halves, _shorter):
         for _ in range(ROUNDS):
             candidates = list(fewer(scenario))
@@ -102,7 +102,7 @@ def _without_port(scenario: Scenario, component: str, port: str) -> Iterator[Sce
 
 
 def _in_one_container(scenario: Scenario, container: str) -> Scenario:
-    """What is in ``container`` is in the root container instead, and nobody makes it."""
+    """The root container takes the place of ``container``, which is not created."""
     steps = tuple(
         msgspec.structs.replace(step, container=s.MANAGER) if getattr(step, "container", "") == container else step
         for step in scenario.steps
@@ -133,7 +133,7 @@ def without_step(steps: tuple[Step, ...], index: int) -> tuple[Step, ...]:
 
 
 def tidied(scenario: Scenario, steps: tuple[Step, ...]) -> Scenario:
-    """The scenario with these steps, less waits for nothing, gates that hold nobody and components that nobody adds."""
+    """The scenario with these steps, without waits, gates and components that they no longer need."""
     workers = {step.thread for step in steps if step.thread}
     steps = tuple(x for x in steps if workers.issuperset(named(x, "worker")))
     added = {step.component for step in steps if isinstance(step, s.AddComponent)}

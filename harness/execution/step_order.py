@@ -1,4 +1,4 @@
-"""Whose turn it is: which steps of a scenario run on which thread of a trace, and in which order."""
+"""The order of steps: which steps of a scenario run on which thread of a trace, and in which order."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 
 
-class Turns:
+class StepOrder:
     """The steps of each worker, by number, and the threads that turned out to be theirs. ``None`` is the scenario itself."""
 
     def __init__(self, scenario: Scenario) -> None:

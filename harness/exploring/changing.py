@@ -79,7 +79,7 @@ def _elsewhere(scenario: Scenario, choose: Choose) -> Scenario:
 def _others(scenario: Scenario, place: int, step: Step) -> Iterator[tuple[str, tuple[str, ...]]]:
     """What a step could name instead of what it names, by field."""
     bound = [one for before in scenario.steps[:place] for one in bindings(before)]
-    if not isinstance(step, s.RemoveContainer):  # nobody removes the root container
+    if not isinstance(step, s.RemoveContainer):  # the root container cannot be removed
         bound.insert(0, (s.MANAGER, "container"))
     for field, trait in fields(type(step)):
         if isinstance(trait, Uses) and trait.kind in ("container", "component", "connection"):

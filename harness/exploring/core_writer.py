@@ -90,7 +90,7 @@ class CoreWriter:
         return Scenario(self.components, tuple(self.steps), interfaces=used)
 
     def cast(self, kind: str) -> list[str]:
-        """Those who serve or get, then those who call or push."""
+        """Components that serve or receive, then components that call or push."""
         names = []
         serving, calling = PROVIDER[_CONNECTORS[kind]], REQUIRER[_CONNECTORS[kind]]
         for role, most in ((serving, 1 if kind == "service" else 2), (calling, 3)):
@@ -153,7 +153,7 @@ class CoreWriter:
         )
 
     def port_trace(self, port: str, kind: str) -> tuple[Policy, ...]:
-        """Now and then ``port`` is traced; how often it is used, nobody counts here."""
+        """Sometimes ``port`` is traced. The writer does not count its calls."""
         if not self.choose((False,) * 9 + (True,)):
             return ()
         self.records = None
@@ -162,14 +162,14 @@ class CoreWriter:
         return (Policy(s.PORT_TRACE, port, parameters),)
 
     def traces(self) -> bool:
-        """Is there anybody who writes to the trace?"""
+        """Does any component write to the trace?"""
         return bool(self.writes) or self.records is None
 
     def connectable(self) -> bool:
         return bool(self.choose((False, False, True)))
 
     def value(self) -> int:
-        """Each one once, so that every message tells whose it is."""
+        """A new value at each call, so that a message shows where it comes from."""
         self.values += 1
         return self.values
 
@@ -247,7 +247,7 @@ class CoreWriter:
                     self.come[who] = None
 
     def let_in(self, caller: str) -> None:
-        """Nobody is held any more who is called by ``caller``: it would wait for as long as patience lasts."""
+        """Opens the gates of components that ``caller`` calls: it would else wait until patience runs out."""
         for who in [who for who in self.holding if who in self.line_of(caller)]:
             self.holding.remove(who)
             self.steps.append(s.OpenGate(f"inside {who}"))
@@ -294,7 +294,7 @@ class CoreWriter:
         self.steps.append(s.GetComponents(self.choose(tuple(self.started))))
 
     def remove_end(self) -> None:
-        """Of a container that is not started: whoever is detached must not be left without what it requires."""
+        """Only in a container that is not started, because a started component needs what it requires."""
         idle = self.idle(self.ends)
         if idle:
             name = self.choose(idle)

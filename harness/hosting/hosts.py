@@ -7,7 +7,7 @@
                 case Traced(): ...
                 case Refused() | Incident(): ...
 
-One host is active at a time. It is replaced after an incident, and after an answer that tells of stuck threads; the
+One host is active at a time. It is replaced after an incident, and after an answer that names stuck threads; the
 messages that were on their way to it are sent again to its successor.
 """
 
@@ -91,7 +91,7 @@ class Hosts:
 
     @property
     def welcome(self) -> Welcome:
-        """Who is behind the endpoint; starts a host if there has not been one."""
+        """The product behind the endpoint; starts a host if there has not been one."""
         if self._welcome is None:
             self._open()
             assert self._welcome
@@ -140,7 +140,7 @@ class Hosts:
                 sent -= 1
                 yield answer
         finally:
-            if waiting:  # nobody waits for these answers any more
+            if waiting:  # the caller has stopped asking for these answers
                 self.discard()
 
     def run_again(self, run: Run, one_core: bool = False) -> Answer:
@@ -151,7 +151,7 @@ class Hosts:
         self.discard()
         try:
             if one_core:
-                with suppress(HostUnavailable):  # whoever runs on it will be told
+                with suppress(HostUnavailable):  # the run itself reports that no host can be had
                     self._open()
                     assert self._host
                     self._host.keep_to_one_core()

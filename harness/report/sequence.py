@@ -80,7 +80,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Diagram:
-    """A laid-out sequence diagram; ``threads`` tells whether more than one thread takes part."""
+    """A laid-out sequence diagram; ``threads``: whether more than one thread takes part."""
 
     lanes: tuple[Lane, ...]
     lines: tuple[Line, ...]
@@ -354,11 +354,11 @@ class _Walk:
         self._add("note", body, body, f"pushes {event.count} through {event.port}: {answers}", event)
 
     def _counted(self, event: Counted) -> None:
-        told = f"{event.received} messages received, {event.distinct} distinct, {event.disordered} out of order"
-        self._add("note", TEST, TEST, f"{lane(event.component, event.instance)}: {told}", event)
+        counted = f"{event.received} messages received, {event.distinct} distinct, {event.disordered} out of order"
+        self._add("note", TEST, TEST, f"{lane(event.component, event.instance)}: {counted}", event)
 
     def _stressed(self, event: Stressed) -> None:
-        control = f"{event.control_overlaps} in {event.control_calls} where nobody protects"
+        control = f"{event.control_overlaps} in {event.control_calls} without protection"
         self._add("note", TEST, TEST, f"{event.overlaps} overlaps in {event.calls} calls, {control}", event)
 
     def _paused(self, event: Paused) -> None:

@@ -13,13 +13,13 @@ from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.findings import Finding
 
 WIDTH = 110
-"""Columns of a diagram, unless told otherwise."""
+"""Columns of a diagram, by default."""
 
 NARROW = 8
 """Lanes closer together than that get letters for names."""
 
 SHARED = 4
-"""So many lines that both diagrams share are told twice."""
+"""How many lines that both diagrams share are repeated."""
 
 _MARKS = {"normal": " ", "offending": "✗", "expected": "✓"}
 

@@ -32,7 +32,7 @@ def body_key(component: str, instance: int) -> str:
 
 
 class Wording:
-    """Says things about one execution; told of calls, returns and creations as they come, it knows the names."""
+    """Words one execution. It follows calls, returns and creations to know what names stand for."""
 
     def __init__(self, execution: Execution) -> None:
         self.patience = execution.scenario.patience

@@ -1,4 +1,4 @@
-"""What probes count instead of recording: messages of a burst, and who meets whom while they are stressed."""
+"""What probes count instead of recording: messages of a burst, and overlapping executions under stress."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class MessageCounts(metaclass=KeptClass):
                 self._changed.notify_all()
 
     def wait(self, component: str, instance: int, messages: int) -> dict[str, int]:
-        """Wait until the body has counted so many; what it has counted then, as the event tells it."""
+        """Wait until the body has counted so many; returns the counts, as fields of the event."""
         with self._changed:
             count = self._counts.setdefault((component, instance), Count())
             self._wanted = messages
@@ -79,19 +79,19 @@ class MessageCounts(metaclass=KeptClass):
 
 
 class Occupancy(metaclass=KeptClass):
-    """Who is inside one body. Python's own lock hides races: the control beside it tells whether any can be seen."""
+    """Counts threads inside one body. Python's own lock hides races: an unprotected control shows whether any can be seen."""
 
     def __init__(self) -> None:
         self._inside: object = None
         self.overlaps = 0
 
     def visit(self) -> None:
-        """Go in, stay for a moment, look whether somebody else came, and leave."""
+        """Enter, stay for a moment, count it if another thread came, and leave."""
         own = object()
         met = self._inside is not None
         self._inside = own
         if int(time.monotonic() * _SLOTS) % 2:
-            time.sleep(0)  # lets go of the interpreter's lock: whoever can come in, does
+            time.sleep(0)  # releases the interpreter's lock, so that another thread can enter
         else:
             for _ in range(_WORK):
                 pass

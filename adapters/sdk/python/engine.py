@@ -233,7 +233,7 @@ class Performance(metaclass=KeptClass):
             else:
                 record(Return, step=number, value=value if step.returns else None)
 
-    # Each looks up what its step needs, raising Unbound, and returns the call that is then made and recorded.
+    # Each method looks up what its step needs, raises Unbound, and returns the call that is then made and recorded.
 
     def _add_component(self, step: s.AddComponent) -> Callable[[], Any]:
         container = self._variables.container(step.container)
@@ -382,7 +382,7 @@ _OPERATIONS: dict[type[Any], Callable[[Performance, Any], Callable[[], Any]]] = 
 
 
 _BETWEEN_READINGS = 0.001
-"""Seconds. Nobody tells when a record has been written."""
+"""Seconds. No event announces a record."""
 
 
 def _records(given: Any) -> list[LogRecord]:

@@ -80,7 +80,7 @@ def serve(answer: Answer, source: int, target: int) -> NoReturn:
                 if _is_stuck(reply):
                     break
     except (BrokenPipeError, ConnectionResetError):
-        pass  # nobody wants the answers any more
+        pass  # the harness has closed the connection
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(0)

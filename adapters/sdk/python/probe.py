@@ -83,7 +83,7 @@ class Stage(Kept):
 
     @contextmanager
     def stressing(self) -> Iterator[dict[int, Occupancy]]:
-        """Meanwhile probes record and do nothing, and count who meets whom: occupancies by probe."""
+        """Until the block ends probes record and do nothing, and count overlaps: occupancies by probe."""
         occupancies = self.occupancies = {}
         try:
             yield occupancies
@@ -192,7 +192,7 @@ class Probe(ComponentObject, metaclass=KeptClass):
             self._visit("run")
 
     def _is_stressed(self) -> bool:
-        """Under stress: count who is met here, and tell that there is nothing else to do."""
+        """Under stress: count overlaps; True if the probe has nothing else to do."""
         occupancies = self.stage.occupancies
         if occupancies is None:
             return False

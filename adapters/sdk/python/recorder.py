@@ -18,8 +18,8 @@ class Recorder(Kept):
     """Collects the events of one scenario; any thread may record.
 
     The thread that makes the recorder is number 0, others are numbered at their first event. After ``stop`` nothing is
-    recorded any more. ``sink``, if given, receives each event as it happens, in order. What is in slots nobody else sets:
-    the count, which only goes on, tells whether the list still has all events.
+    recorded any more. ``sink``, if given, receives each event as it happens, in order. Only the recorder sets its
+    slots: the count, which only increases, shows whether the list still has all events.
     """
 
     __slots__ = ("_complaint", "_count", "_events", "_lock", "_numbers", "_sink", "_threads", "recording")
@@ -50,7 +50,7 @@ class Recorder(Kept):
                 self._sink(event)
 
     def complain(self, problem: str) -> None:
-        """The adapter broke the contract, so the trace cannot be told; the first problem counts."""
+        """The adapter broke the contract, so there is no trace; the first problem counts."""
         with self._lock:
             if self.recording and not self._complaint:
                 self._complaint = problem

@@ -1,7 +1,7 @@
 """Is the SDK still what it was? An adapter runs in the same process as the SDK and can change it.
 
 ``Kept`` refuses, and ``Seal`` tells of, functions that are replaced, in classes, modules or single objects, and state of the
-SDK that is set by others. Who controls a process can in the end hide everything from them; that is looked for in the
+SDK that is set by others. Code that controls a process can in the end hide everything from them; that is looked for in the
 adapter's source (docs/honesty.md).
 """
 
@@ -14,7 +14,7 @@ from types import CodeType, FrameType, FunctionType, ModuleType
 from typing import Any, NamedTuple, NoReturn
 
 _refused: list[str] = []
-"""What others have tried to change and was kept, until a seal has told of it."""
+"""Refused changes, until a seal has reported them."""
 
 
 _OURS = __name__.removesuffix("seal")
@@ -31,7 +31,7 @@ def _is_ours(caller: FrameType) -> bool:
 
 
 class KeptClass(ABCMeta):
-    """Classes of which only the SDK sets what they have: nobody replaces their functions, not even for a moment."""
+    """Classes whose functions only the SDK sets: an adapter cannot replace them, not even for a moment."""
 
     def __setattr__(cls, name: str, value: object) -> None:
         if hasattr(cls, name) and not name.startswith("_abc_") and not _is_ours(sys._getframe(1)):
@@ -40,7 +40,7 @@ class KeptClass(ABCMeta):
 
 
 class Kept(metaclass=KeptClass):
-    """Objects of which only the SDK sets what they have: nobody replaces their functions and slots, not even for a moment.
+    """Objects whose functions and slots only the SDK sets: an adapter cannot replace them, not even for a moment.
 
     What others set is checked as it is set, which takes longer; so this is for objects of which a scenario has one.
     """

@@ -20,7 +20,7 @@ _LOOKS = 5
 """How often a thread must be found asleep, without having been awake in between, to count as blocked."""
 
 _BETWEEN_LOOKS = 0.0005
-"""Seconds. Nobody holds the interpreter for the looking thread meanwhile: who only waits for that, wakes up."""
+"""Seconds. The sampling thread releases the interpreter's lock meanwhile, so that a thread that only waits for that lock wakes up."""
 
 
 class _Worker:
@@ -87,7 +87,7 @@ class Workers(metaclass=KeptClass):
     def settle(self, name: str, is_held: Callable[[threading.Thread], bool]) -> Where:
         """Wait until worker ``name`` is done, held or blocked by the operating system; ``running`` when patience runs out.
 
-        Where the operating system does not tell, nobody is seen to be blocked.
+        Where the operating system does not report it, no worker is found to be blocked.
         """
         with self._lock:
             worker = self._workers.get(name)
@@ -118,7 +118,7 @@ class Workers(metaclass=KeptClass):
 
 
 def _sleeps(thread: threading.Thread) -> int | None:
-    """How often ``thread`` has gone to sleep, if it sleeps now; None if it does not, or nobody knows."""
+    """How often ``thread`` has gone to sleep, if it sleeps now; None if it does not, or it is unknown."""
     try:
         status = Path(f"/proc/self/task/{thread.native_id}/status").read_text()
     except OSError:
