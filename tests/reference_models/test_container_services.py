@@ -14,8 +14,8 @@ from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
 from ucm_cts.adapters.contract.scenario import PORT_TRACE, Policy, Scenario
 from ucm_cts.adapters.contract.trace import Event, LogRecord, Paused, Reply, Request, Return
-from ucm_cts.adapters.mutants.python import container_services as variants
 from ucm_cts.adapters.mutants.python.registry import Base, bind
+from ucm_cts.adapters.mutants.python.variants import clocks_and_traces as variants
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.python.framework import Member
 from ucm_cts.harness.catalogue.requirements import load_life_cycle

@@ -7,8 +7,7 @@ Every module of this package registers its own. ``ucm_cts.adapters.mutants.pytho
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
+from importlib import import_module
 
 from ucm_cts.adapters.mutants.python.registry import (
     CHEATS,
@@ -41,8 +40,37 @@ __all__ = [
     "variants_of",
 ]
 
-for _module in pkgutil.iter_modules(__path__):
-    importlib.import_module(f"{__name__}.{_module.name}")
+MODULES = {
+    "variants": (
+        "answers",
+        "clocks_and_traces",
+        "execution",
+        "messages",
+        "phases",
+        "readings",
+        "restarts",
+        "services",
+        "starting",
+    ),
+    "life_cycle": ("business_calls", "components", "connections", "containers", "errors", "members", "states"),
+    "execution": ("policies", "running"),
+    "container_services": ("clocks", "logs", "port_traces"),
+    "data": ("composite_types", "simple_types"),
+    "connectors": (
+        "ends",
+        "message_delivery",
+        "message_receivers",
+        "return_codes",
+        "service_calls",
+        "service_values",
+    ),
+    "cheats": ("adapters", "replays_in_time", "replays_new_times", "replays_old_times", "tampering"),
+}
+"""By the folder: the modules that register mutants, variants or cheats."""
+
+for _folder, _modules in MODULES.items():
+    for _module in _modules:
+        import_module(f"{__name__}.{_folder}.{_module}")
 
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:

@@ -6,7 +6,7 @@ import pytest
 from cpp_subjects import model
 
 from ucm_cts.adapters.mutants.toolchain.registry import mutants
-from ucm_cts.adapters.mutants.toolchain.rewriting_cpp import SHOWN_BY
+from ucm_cts.adapters.mutants.toolchain.rewriting import SHOWN_BY
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout

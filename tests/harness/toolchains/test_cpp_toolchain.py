@@ -8,7 +8,7 @@ import pytest
 from cpp_subjects import PROFILES, model
 
 from ucm_cts.adapters.mutants.toolchain.registry import Mutant, Variant, mutants, variants
-from ucm_cts.adapters.mutants.toolchain.rewriting_cpp import SHOWN_BY
+from ucm_cts.adapters.mutants.toolchain.rewriting import SHOWN_BY
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.toolchains.cpp.comparing import compare

@@ -1,0 +1,1 @@
+"""Adapters that hide what a framework does."""

@@ -1,0 +1,397 @@
+"""Adapters that cheat: they hide what a framework does, or that there is none. Each docstring says how.
+
+Most stand before a mutant whose defect they hide from whoever only looks at the Container API.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, ClassVar, TypeVar
+
+from ucm_cts.adapters.contract.adapter import ContainerHandle, NotOffered
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.programming_model import (
+    BadParameter,
+    ComponentObject,
+    Implementation,
+    NotFound,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.mutants.python.execution import policies
+from ucm_cts.adapters.mutants.python.life_cycle import containers, states
+from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, bind, cheats
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
+
+T = TypeVar("T")
+
+
+def before(*mixins: type) -> type[ReferenceAdapter]:
+    """The honest adapter of a framework with these defects, for a cheat to derive from."""
+    return bind("hidden", type("hidden", mixins, {}))
+
+
+# who asks no framework
+
+
+@cheats("R-11.2.3-05", "R-11.2.2.1-14")
+class answers_without_the_framework(ReferenceAdapter):
+    """Answers that all is well, with numbers of its own, and asks no framework."""
+
+    def __init__(self) -> None:
+        self.numbers = itertools.count(1)
+
+    def add_component(self, container: Container, implementation: str, attributes: Mapping[str, str]) -> int:
+        return next(self.numbers)
+
+    def connect(self, container: Container, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        return next(self.numbers)
+
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+        return _Answering()
+
+    def remove_component(self, container: Container, comp_instance: int) -> None: ...
+
+    def disconnect(self, container: Container, connection: int) -> None: ...
+
+    def start(self, container: Container) -> None: ...
+
+    def stop(self, container: Container) -> None: ...
+
+    def get_components(self, container: Container) -> list[int]:
+        return []
+
+
+class _Answering(PortElementObject):
+    """Answers as bodies do that have no plan."""
+
+    def exchange(self, value: int) -> int:
+        return ~value
+
+
+@cheats("R-11.1.3-01")
+class answers_calls_itself(ReferenceAdapter):
+    """Gives out port elements that answer calls as the bodies would, and lead to none."""
+
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+        super().get_port_element(container, comp_instance, port_name)
+        return _Answering()
+
+
+@cheats("R-11.2.2.1-06")
+class gives_the_same_port_element(ReferenceAdapter):
+    """Gives out one port element for all of a container, the first one that it was asked for."""
+
+    def __init__(self) -> None:
+        self.given: dict[int, PortElementObject | None] = {}
+
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+        found = super().get_port_element(container, comp_instance, port_name)
+        return self.given.setdefault(id(container), found)
+
+
+@cheats("R-11.2.3-05")
+class reuses_bodies(ReferenceAdapter):
+    """Has the bodies of an earlier scenario instantiated again, which are known to do as they should."""
+
+    bodies: ClassVar[dict[tuple[bool, bool, int], list[ComponentObject]]] = {}
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+        return super().create_runtime([_with(one, self._factory(one)) for one in implementations])
+
+    def _factory(self, one: Implementation) -> Callable[[], ComponentObject]:
+        def create() -> ComponentObject:
+            kept = self.bodies.setdefault((one.connectable, one.fragment, len(one.provides)), [])
+            if len(kept) > 1:
+                return kept.pop(0)
+            kept.append(one.create())
+            return kept[-1]
+
+        return create
+
+
+def _with(one: Implementation, create: Callable[[], ComponentObject]) -> Implementation:
+    return Implementation(**{**vars(one), "create": create})
+
+
+def with_bodies(one: Implementation, change: Callable[[ComponentObject], Any]) -> Implementation:
+    """``one`` with bodies that are changed, or wrapped, as soon as they are made."""
+    return _with(one, lambda: change(one.create()))
+
+
+@cheats("R-11.2.2.1-07", "R-11.2.2.1-14")
+class invents_ids(ReferenceAdapter):
+    """Gives each container's components the numbers 1, 2, 3, as they come, and lists as many."""
+
+    def __init__(self) -> None:
+        self.own: dict[int, list[int]] = {}
+
+    def add_component(self, container: Container, implementation: str, attributes: Mapping[str, str]) -> int:
+        own = self.own.setdefault(id(container), [])
+        own.append(super().add_component(container, implementation, attributes))
+        return len(own)
+
+    def get_components(self, container: Container) -> list[int]:
+        return list(range(1, len(super().get_components(container)) + 1))
+
+
+# who hides errors
+
+
+class _Forwards(ReferenceAdapter):
+    """All operations go through one place."""
+
+    def forwarded(self, operation: Callable[[], T]) -> T:
+        raise NotImplementedError
+
+    def add_component(self, container: Container, implementation: str, attributes: Mapping[str, str]) -> int:
+        return self.forwarded(lambda: super(_Forwards, self).add_component(container, implementation, attributes))
+
+    def remove_component(self, container: Container, comp_instance: int) -> None:
+        self.forwarded(lambda: super(_Forwards, self).remove_component(container, comp_instance))
+
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+        return self.forwarded(lambda: super(_Forwards, self).get_port_element(container, comp_instance, port_name))
+
+    def connect(self, container: Container, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        return self.forwarded(lambda: super(_Forwards, self).connect(container, instance, port_name, to_port))
+
+    def disconnect(self, container: Container, connection: int) -> None:
+        self.forwarded(lambda: super(_Forwards, self).disconnect(container, connection))
+
+    def start(self, container: Container) -> None:
+        self.forwarded(lambda: super(_Forwards, self).start(container))
+
+    def stop(self, container: Container) -> None:
+        self.forwarded(lambda: super(_Forwards, self).stop(container))
+
+
+@cheats("R-12.10-15", "R-12.10-18")
+class hides_errors(_Forwards):
+    """Maps every error to success; what should have given a number gives one that nobody has."""
+
+    def forwarded(self, operation: Callable[[], T]) -> T:
+        try:
+            return operation()
+        except Exception:  # noqa: BLE001 - that is the point
+            return 0x7A11  # type: ignore[return-value]
+
+
+@cheats("R-12.10-15", "R-12.10-18")
+class makes_all_errors_alike(_Forwards):
+    """Maps every error to UCM_ERROR, which every operation may end with."""
+
+    def forwarded(self, operation: Callable[[], T]) -> T:
+        try:
+            return operation()
+        except Exception as error:  # noqa: BLE001 - that is the point
+            raise UcmError(str(error)) from None
+
+
+@cheats("contradiction")
+class offers_nothing_that_fails(_Forwards):
+    """Says of each operation that fails that it does not offer it, so that it is skipped."""
+
+    def forwarded(self, operation: Callable[[], T]) -> T:
+        try:
+            return operation()
+        except Exception:  # noqa: BLE001 - that is the point
+            raise NotOffered from None
+
+
+@cheats("exit")
+class leaves_when_it_fails(_Forwards):
+    """Ends the process politely before an error can be told."""
+
+    def forwarded(self, operation: Callable[[], T]) -> T:
+        try:
+            return operation()
+        except (NotFound, BadParameter):
+            os._exit(0)
+
+
+@cheats("refused")
+class refuses_what_it_cannot(before(containers.adds_two_member_only)):  # type: ignore[misc]
+    """Stands before a framework that holds two components only; says that it cannot set it up for more."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+        if len(implementations) > 2:
+            raise RuntimeError("no licence for so many")
+        return super().create_runtime(implementations)
+
+
+# who repairs what a framework does wrong
+
+
+class _lists_a_stranger(Base):
+    def get_components(self) -> list[int]:
+        return [*super().get_components(), 987654]
+
+
+@cheats("R-11.2.1.4-03")
+class lists_from_a_table_of_its_own(before(_lists_a_stranger)):  # type: ignore[misc]
+    """Stands before a framework that lists members wrongly; lists them from what it has added and removed itself."""
+
+    def __init__(self) -> None:
+        self.members: dict[int, list[int]] = {}
+
+    def add_component(self, container: Container, implementation: str, attributes: Mapping[str, str]) -> int:
+        added: int = super().add_component(container, implementation, attributes)
+        self.members.setdefault(id(container), []).append(added)
+        return added
+
+    def remove_component(self, container: Container, comp_instance: int) -> None:
+        super().remove_component(container, comp_instance)
+        self.members[id(container)].remove(comp_instance)
+
+    def get_components(self, container: Container) -> list[int]:
+        super().get_components(container)
+        return list(self.members.get(id(container), ()))
+
+
+class _CollectsBodies(ReferenceAdapter):
+    """Keeps the bodies that a framework makes."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+        self.bodies: list[ComponentObject] = []
+        return super().create_runtime([_with(one, self._factory(one)) for one in implementations])
+
+    def _factory(self, one: Implementation) -> Callable[[], ComponentObject]:
+        def create() -> ComponentObject:
+            self.bodies.append(one.create())
+            return self.bodies[-1]
+
+        return create
+
+
+class _forgets_shutdown(Base):
+    def _shut_down_started(self, failures: Any) -> None:
+        self.started.clear()
+        self.is_started = False
+
+
+@cheats("R-11.1.3-04")
+class calls_the_bodies_itself(_CollectsBodies, before(_forgets_shutdown)):  # type: ignore[misc]
+    """Stands before a framework that forgets on_shutdown; calls it itself, on all bodies that it has seen made."""
+
+    def stop(self, container: ContainerHandle) -> None:
+        super().stop(container)
+        for body in reversed(self.bodies):
+            body.on_shutdown()
+
+
+class _Serialised(PortElementObject):
+    def __init__(self, target: PortElementObject, lock: Any) -> None:
+        self.target, self.lock = target, lock
+
+    def exchange(self, value: int) -> int:
+        with self.lock:
+            return self.target.exchange(value)
+
+    def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        with self.lock:
+            return self.target.call(method, arguments)
+
+
+@cheats("R-10.1.3.2-13", clauses=POLICIES)
+class serialises_calls(before(policies.leaves_passive_components_open)):  # type: ignore[misc]
+    """Stands before a framework that protects nothing; calls made by the test go through a lock of the adapter's."""
+
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+        found = super().get_port_element(container, comp_instance, port_name)
+        return _Serialised(found, self.locks.setdefault(comp_instance, threading.RLock()))
+
+    def connect(self, container: Container, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        direct = to_port.target if isinstance(to_port, _Serialised) else to_port
+        return int(super().connect(container, instance, port_name, direct))
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+        self.locks: dict[int, Any] = {}
+        return super().create_runtime(implementations)
+
+
+# who knows the suite by heart
+
+_SHAPES: set[tuple[Any, ...]] = set()
+
+
+@cheats("R-11.2.2.1-13", rehearsals=1)
+class knows_the_scenarios(ReferenceAdapter):
+    """Stands before a framework that stops in the wrong order; where the components of a scenario are as they were in an
+    earlier run, names apart, it uses another framework, which is made for that.
+    """
+
+    rehearsing: ClassVar[bool] = True
+    wrong: ClassVar[type[ReferenceAdapter]] = before(containers.stops_in_startup_order)
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+        shape = tuple(
+            (len(one.provides), len(one.requires), len(one.attributes), one.connectable, one.fragment)
+            for one in implementations
+        )
+        if self.rehearsing:
+            _SHAPES.add(shape)
+        known = self.rehearsing or shape in _SHAPES
+        return super().create_runtime(implementations) if known else self.wrong().create_runtime(implementations)
+
+
+# what no observation shows
+
+
+@cheats()
+class is_another_product(ReferenceAdapter):
+    """Is said to be another product, and runs the reference framework."""
+
+
+@cheats()
+class checks_states_itself(before(states.starts_twice)):  # type: ignore[misc]
+    """Stands before a framework that starts what is started; knows itself what is started, and does not ask it again."""
+
+    def __init__(self) -> None:
+        self.started: set[int] = set()
+
+    def start(self, container: Container) -> None:
+        if id(container) not in self.started:
+            super().start(container)
+            self.started.add(id(container))
+
+    def stop(self, container: Container) -> None:
+        super().stop(container)
+        self.started.discard(id(container))
+
+
+class SwallowsSecondStartups:
+    """Wraps a body and is what it is; passes all calls on, but no on_startup where one has succeeded."""
+
+    def __init__(self, body: Any) -> None:
+        self.body, self.startup, self.shutdown = body, body.on_startup, body.on_shutdown
+        self.is_up = False
+
+    @property  # type: ignore[misc]
+    def __class__(self) -> type:
+        return type(self.body)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.body, name)
+
+    def on_startup(self, dependencies: Sequence[PortConnection]) -> None:
+        if not self.is_up:
+            self.startup(dependencies)
+            self.is_up = True
+
+    def on_shutdown(self) -> None:
+        self.is_up = False
+        self.shutdown()
+
+
+@cheats()
+class wraps_bodies(before(states.starts_twice)):  # type: ignore[misc]
+    """Stands before a framework that calls on_startup twice; hosts bodies of its own in it, which pass on the first call only."""
+
+    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+        return super().create_runtime([with_bodies(one, SwallowsSecondStartups) for one in implementations])

@@ -1,0 +1,10 @@
+"""Tells traces of an earlier run again, as they were, names apart."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.mutants.python.cheats.replaying import Player, plays
+
+plays("replays_old_times", __doc__ or "", "contradiction")
+
+player = Player("old")
+answer = player.answer

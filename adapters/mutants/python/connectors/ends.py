@@ -1,0 +1,215 @@
+"""Connectors that fail inside of other interactions, keep ends that are gone, or are not there (10.1, 10.1.5, 10.1.6)."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import ClassVar
+
+from ucm_cts.adapters.contract.adapter import NotOffered
+from ucm_cts.adapters.contract.data_types import Datum, Interface
+from ucm_cts.adapters.contract.programming_model import DeclaredException, UcmError
+from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNECTOR
+from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.reference.python.connectors import OK, Link, Taker
+from ucm_cts.adapters.reference.python.framework import Member
+
+_CALLS, _EXCEPTIONS = "R-10.1.5.1-01", "R-10.1.5.1-10"
+_ARRIVES = "R-10.1.2-10"
+
+# interactions inside others
+
+
+class _KnowsWhatIsGoingOn(Link):
+    """On each thread: how many calls are being served, and how many messages are being received."""
+
+    here: ClassVar[threading.local] = threading.local()
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        self.here.served = getattr(self.here, "served", 0) + 1
+        try:
+            return super()._request(method, arguments)
+        finally:
+            self.here.served -= 1
+
+    def _deliver(self, taker: Taker, method: str) -> None:
+        self.here.receives = True
+        super()._deliver(taker, method)
+
+
+@breaks(_CALLS, clauses=("10.1.5",), also=("R-10.1.5.1-03",))
+class refuses_calls_of_servers(_KnowsWhatIsGoingOn):
+    """Who is being called can call nobody."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if getattr(self.here, "served", 0):
+            raise UcmError("not while you serve")
+        return super()._request(method, arguments)
+
+
+@breaks(_CALLS, clauses=("10.1.5",))
+class refuses_calls_of_receivers(_KnowsWhatIsGoingOn):
+    """Who is given a message can call no server."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if getattr(self.here, "receives", False):
+            raise UcmError("not while you receive")
+        return super()._request(method, arguments)
+
+
+@breaks(_ARRIVES, clauses=("10.1.2",))
+class loses_what_servers_push(_KnowsWhatIsGoingOn):
+    """What is pushed while a call is served is answered ok, and lost."""
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        return OK if getattr(self.here, "served", 0) else super()._emit(method, arguments)
+
+
+@breaks(_ARRIVES, clauses=("10.1.2",))
+class loses_what_receivers_push(_KnowsWhatIsGoingOn):
+    """What is pushed while a message is received is answered ok, and lost."""
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        return OK if getattr(self.here, "receives", False) else super()._emit(method, arguments)
+
+
+# restarts
+
+
+class _Stale(Link):
+    is_stale = False
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self.is_stale:
+            raise UcmError("the server is not the one that you know")
+        return super()._request(method, arguments)
+
+
+@breaks(_CALLS, clauses=("10.1.5",))
+class knows_servers_until_they_are_restarted(Base):
+    """Clients find a server that was stopped only when they have been started again themselves."""
+
+    link_class = _Stale
+
+    def _close_entrances(self, member: Member) -> None:
+        for link, _ in self._takers_of(member):
+            link.__dict__["is_stale"] = True
+        super()._close_entrances(member)
+
+    def _start_up(self, member: Member, failures: object) -> bool:
+        if member.implementation.requires:
+            for link in self.manager.links:
+                link.__dict__["is_stale"] = False
+        return super()._start_up(member, failures)  # type: ignore[arg-type]
+
+
+# exceptions
+
+
+@breaks(_EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
+class loses_exceptions_of_inherited_methods(Link):
+    """An exception that an inherited method declares arrives as one of the framework's own."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        try:
+            return super()._request(method, arguments)
+        except DeclaredException:
+            if method in self.interface.inherited:
+                raise UcmError("something went wrong") from None
+            raise
+
+
+@breaks(_EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
+class loses_the_second_field_of_exceptions(Link):
+    """Of an exception the first field arrives, and the others are empty."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        try:
+            return super()._request(method, arguments)
+        except DeclaredException as error:
+            fields = [*error.fields[:1], *(0 if isinstance(f, int) else f for f in error.fields[1:])]
+            raise DeclaredException(error.name, fields) from None
+
+
+_CALLS, _ORIGIN = "R-10.1.5.1-01", "R-10.1.6.1-06"
+
+
+class _Haunted(Link):
+    """Whom it has lost it does not forget."""
+
+    def __init__(self, *arguments: object) -> None:
+        super().__init__(*arguments)  # type: ignore[arg-type]
+        self.ghosts: list[Taker] = []
+
+    def remove(self, taker: Taker) -> None:
+        super().remove(taker)
+        self.ghosts.append(taker)
+
+    def _haunt(self, method: str, arguments: Sequence[Datum]) -> None:
+        for taker in self.ghosts:
+            element = taker.member.body.get_portElement(taker.port)
+            with suppress(Exception):
+                element.call(method, self._copied(arguments))  # type: ignore[union-attr]
+
+
+@breaks(_ORIGIN, clauses=("10.1.6",))
+class delivers_to_those_who_are_gone(_Haunted):
+    """Receivers go on getting messages when they have been detached, or removed."""
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        code = super()._emit(method, arguments)
+        self._haunt(method, arguments)
+        return code
+
+
+@breaks(_CALLS, clauses=("10.1.5",))
+class is_served_by_those_who_are_gone(_Haunted):
+    """A server goes on serving when it has been detached, unless there is another one."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self.connector == SERVICE_CONNECTOR and not self.takers and self.ghosts:
+            element = self.ghosts[-1].member.body.get_portElement(self.ghosts[-1].port)
+            return self._copied(element.call(method, self._copied(arguments)))  # type: ignore[union-attr]
+        return super()._request(method, arguments)
+
+
+_CORE = "R-10.1-01"
+
+
+@breaks(_CORE, clauses=("10.1.5",))
+class has_no_services(Base):
+    """The service connector is left out."""
+
+    def link(self, connector: str, interface: Interface) -> Link:
+        if connector == SERVICE_CONNECTOR:
+            raise NotOffered
+        return super().link(connector, interface)
+
+
+@breaks(_CORE, clauses=("10.1.6",))
+class has_no_messages(Base):
+    """The message connector is left out."""
+
+    def link(self, connector: str, interface: Interface) -> Link:
+        if connector == MESSAGE_CONNECTOR:
+            raise NotOffered
+        return super().link(connector, interface)
+
+
+@breaks(_CORE, clauses=("10.1.2",), readings={"transport-fault": "hook", "connector-fault": "hook"})
+class never_breaks_a_transport(Link):
+    """It is claimed that the transport can be broken, and it cannot."""
+
+    def break_link(self, where: str) -> None:
+        if where == "transport":
+            raise NotOffered
+        super().break_link(where)
+
+
+@breaks(_CORE, clauses=("10.1.4",), readings={"trace-sink": "hook"})
+class keeps_its_log(Base):
+    """It is claimed that the trace can be read back, and it cannot."""
+
+    def read_log(self) -> list[tuple[str, str]]:
+        raise NotOffered

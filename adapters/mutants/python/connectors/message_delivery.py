@@ -1,0 +1,302 @@
+"""Wrong frameworks, clause 10.1.6: messages that come too often, too late, to the wrong receiver or not at all."""
+
+from __future__ import annotations
+
+import itertools
+import queue
+import threading
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import Any
+
+from ucm_cts.adapters.contract.data_types import Datum, Interface, Structure
+from ucm_cts.adapters.contract.programming_model import UcmError
+from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
+from ucm_cts.adapters.mutants.python.connectors.message_receivers import Synchronous
+from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.reference.python.connectors import OK, Link, Taker
+from ucm_cts.adapters.reference.python.framework import Member
+
+_MESSAGES = ("10.1.6",)
+_ALL = ("10.1.6", "10.1.2")
+
+# who gets messages
+
+
+@breaks("R-10.1.6.1-03", clauses=_MESSAGES)
+class refuses_a_second_emitter(Link):
+    """A connection has one emitter."""
+
+    has_emitter = False
+
+    def _attach_sender(self, member: Member, port: str) -> None:
+        if self.connector == MESSAGE_CONNECTOR and self.has_emitter:
+            raise UcmError("there is an emitter already")
+        super()._attach_sender(member, port)
+        self.has_emitter = True
+
+
+@breaks("R-10.1.6.1-03", "R-10.1.2-10", clauses=_MESSAGES)
+class hears_one_thread_only(Link):
+    """Messages are taken from the thread that pushed first; those of others are lost and answered ok."""
+
+    first: int | None = None
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        thread = threading.get_ident()
+        self.first = self.first or thread
+        return super()._emit(method, arguments) if thread == self.first else OK
+
+
+@breaks("R-10.1.6.1-04", clauses=_MESSAGES)
+class refuses_a_second_receiver(Link):
+    """A connection has one receiver."""
+
+    def _check_room(self) -> None:
+        if self.takers:
+            raise UcmError("there is somebody already")
+
+
+@breaks("R-10.1.6.1-04", clauses=_MESSAGES, also=("R-10.1.6.1-08", "R-10.1.2-10"))
+class takes_receivers_in_turn(Link):
+    """A message comes to one of the receivers, the next one to the next."""
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        if self.broken:
+            return super()._emit(method, arguments)
+        turns = self.__dict__.setdefault("turns", itertools.count())
+        ready = [taker for taker in self.takers if taker.entrance.is_open]
+        if ready:
+            self._post(ready[next(turns) % len(ready)], method, self._copied(arguments))
+        return OK
+
+
+@breaks("R-10.1.6.1-04", clauses=_MESSAGES, also=("R-10.1.6.1-08", "R-10.1.2-10", "R-10.1.6.1-03"))
+class reaches_one_container_only(Link):
+    """Receivers in other containers than the first one get nothing."""
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        if taker.member.container is self.takers[0].member.container:
+            super()._post(taker, method, arguments)
+
+
+# how often, and whose
+
+
+@breaks("R-10.1.6.1-05", clauses=_MESSAGES, also=("R-10.1.6.1-06",))  # nobody had pushed the second one
+class delivers_twice(Link):
+    """Every message comes twice."""
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        super()._post(taker, method, arguments)
+        super()._post(taker, method, self._copied(arguments))
+
+
+@breaks("R-10.1.6.1-05", clauses=_MESSAGES)
+class repeats_the_last_message_after_a_restart(Base):
+    """A receiver that is started again gets the last message again."""
+
+    class link_class(Link):
+        def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+            for taker in self.takers:
+                if taker.__dict__.get("epoch", 0) != taker.__dict__.get("last epoch", 0) and "last" in taker.__dict__:
+                    self._post(taker, method, [taker.__dict__["last"]])
+                taker.__dict__["last epoch"] = taker.__dict__.get("epoch", 0)
+                if taker.entrance.is_open:
+                    taker.__dict__["last"] = self._copied(arguments)[0]
+            return super()._emit(method, arguments)
+
+    def _open_entrances(self, member: Member) -> None:
+        super()._open_entrances(member)
+        for _, taker in self._takers_of(member):
+            taker.__dict__["epoch"] = taker.__dict__.get("epoch", 0) + 1
+
+
+class _Mixing(Link):
+    def is_mixed_with(self, other: Link) -> bool:
+        return other.interface == self.interface
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        for other in self.manager.links:
+            if other is not self and other.connector == self.connector and self.is_mixed_with(other):
+                Link._emit(other, method, arguments)
+        return super()._emit(method, arguments)
+
+
+@breaks("R-10.1.6.1-06", clauses=_MESSAGES)
+class mixes_connections_of_one_type(_Mixing):
+    """Messages come to the receivers of all connections of their type."""
+
+
+@breaks("R-10.1.6.1-06", clauses=_MESSAGES)
+class mixes_connections_of_different_types(_Mixing):
+    """Messages come to the receivers of all connections of other types."""
+
+    def is_mixed_with(self, other: Link) -> bool:
+        return other.interface != self.interface
+
+
+@breaks("R-10.1.6.1-06", clauses=_MESSAGES, also=("R-10.1.1-07",))  # it may be another one that arrived changed
+class invents_messages(Link):
+    """Each third message is followed by one that nobody pushed."""
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        super()._post(taker, method, arguments)
+        taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
+        if taker.__dict__["posted"] % 3 == 0:
+            super()._post(taker, method, [_other(arguments[0])])
+
+
+def _other(value: Datum) -> Datum:
+    return [_other(one) for one in value] if isinstance(value, list) else 777 if isinstance(value, int) else "invented"
+
+
+# in which order
+
+
+@breaks("R-10.1.6.1-07", clauses=_MESSAGES, readings={"message-order": "fifo"})
+class delivers_in_pairs_the_wrong_way_round(Link):
+    """Of two messages that are pushed within a moment the second one is delivered first, and fifo was declared."""
+
+    def _deliver(self, taker: Taker, method: str) -> None:
+        while (message := taker.messages.get()) is not None:
+            waiting = [message]
+            with suppress(queue.Empty):
+                following = taker.messages.get(timeout=0.01)
+                if following is None:
+                    taker.messages.put(None)  # the end is not lost
+                else:
+                    waiting.insert(0, following)
+            for one in dict.fromkeys(map(str, waiting)):
+                with suppress(Exception):
+                    taker.enter(method, [next(m for m in waiting if str(m) == one)])
+
+
+# what the connector is
+
+
+@breaks("R-10.1.6.1-10", clauses=_MESSAGES)
+class has_no_message_connector(Link):
+    """Services are the only interaction."""
+
+    def __init__(self, manager: Any, connector: str, interface: Interface) -> None:
+        if connector == MESSAGE_CONNECTOR:
+            raise UcmError("no such connector")
+        super().__init__(manager, connector, interface)
+
+
+@breaks("R-10.1.6.1-10", clauses=_MESSAGES)
+class joins_within_one_container_only(Link):
+    """Emitters must be in the container of the receivers."""
+
+    def _attach_sender(self, member: Member, port: str) -> None:
+        if any(taker.member.container is not member.container for taker in self.takers):
+            raise UcmError("too far away")
+        super()._attach_sender(member, port)
+
+
+@breaks("R-10.1.6.1-10", clauses=_MESSAGES, also=("R-11.2.3-06", "R-11.2.3-10"))
+class cannot_start_emitters(Base):
+    """Who is an emitter is not connected in the eyes of start."""
+
+    def _check_startable(self) -> None:
+        super()._check_startable()
+        links = [link for link in self.manager.links if link.connector == MESSAGE_CONNECTOR]
+        for member in self.members.values():
+            if any(link._is_behind(c.target) for c in self._connections_from(member) for link in links):
+                raise UcmError(f"component {member.id} is not connected")
+
+
+@breaks("R-10.1.6.1-20", clauses=_MESSAGES, also=("R-10.1.1-18",))
+class knows_one_type_of_messages(Link):
+    """All message connections of a runtime have one type."""
+
+    def __init__(self, manager: Any, connector: str, interface: Interface) -> None:
+        others = [link for link in manager.links if link.connector == connector == MESSAGE_CONNECTOR]
+        if any(other.interface != interface for other in others):
+            raise UcmError("messages have another type here")
+        super().__init__(manager, connector, interface)
+
+
+@breaks("R-10.1.6.1-20", "R-10.1.2-10", clauses=_MESSAGES)
+class loses_structures(Link):
+    """Messages that are structures are answered ok and lost."""
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        is_structure = isinstance(self.interface.methods[method].parameters[0].of, Structure)
+        return OK if is_structure else super()._emit(method, arguments)
+
+
+# values
+
+
+@breaks("R-10.1.6.1-19", clauses=_MESSAGES, also=("R-10.1.1-13",))
+class delivers_the_emitters_buffer(Link):
+    """Receivers get the emitter's own buffer, some time later."""
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        time.sleep(0)
+        super()._post(taker, method, arguments)
+
+    def _copied(self, values: Sequence[Datum]) -> list[Datum]:
+        return values if isinstance(values, list) else list(values)
+
+    def _deliver(self, taker: Taker, method: str) -> None:
+        while (message := taker.messages.get()) is not None:
+            time.sleep(0.005)
+            with suppress(Exception):
+                taker.enter(method, [message])
+
+
+@breaks("R-10.1.6.1-19", clauses=_MESSAGES, also=("R-10.1.1-13",))
+class makes_one_copy_for_all_receivers(Synchronous):
+    """Receivers share one copy of each message."""
+
+    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
+        if self.broken:
+            return super()._emit(method, arguments)
+        copy = self._copied(arguments)
+        for taker in self.takers:
+            if taker.entrance.is_open:
+                self._hand_over(taker, method, copy)
+        return OK
+
+
+# bursts
+
+
+@breaks("R-10.1.6.1-05", clauses=("10.1.2",))
+class repeats_every_thousandth_message(Link):
+    """Every thousandth message of a receiver comes twice."""
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        super()._post(taker, method, arguments)
+        taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
+        if taker.__dict__["posted"] % 1000 == 0:
+            super()._post(taker, method, arguments)
+
+
+@breaks("R-10.1.6.1-06", clauses=("10.1.2",))
+class counts_on_after_bursts(Link):
+    """Every ten-thousandth message of a receiver is followed by one that nobody pushed."""
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        super()._post(taker, method, arguments)
+        taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
+        if taker.__dict__["posted"] % 10_000 == 0:
+            super()._post(taker, method, [2**30 + taker.__dict__["posted"]])
+
+
+@breaks("R-10.1.6.1-07", clauses=("10.1.2",), readings={"message-order": "fifo"})
+class shuffles_bursts(Link):
+    """Every hundredth message of a receiver lets the next one pass, and fifo was declared."""
+
+    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
+        taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
+        if taker.__dict__["posted"] % 100 == 50:
+            taker.__dict__["aside"] = arguments
+            return
+        super()._post(taker, method, arguments)
+        if "aside" in taker.__dict__:
+            super()._post(taker, method, taker.__dict__.pop("aside"))

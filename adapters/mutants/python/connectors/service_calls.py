@@ -1,0 +1,339 @@
+"""Service connectors that lose or mix up calls or those who wait, or take too many clients or servers (10.1.5)."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Sequence
+
+from ucm_cts.adapters.contract.data_types import Datum, Interface, Parameter
+from ucm_cts.adapters.contract.programming_model import NotFound, UcmError
+from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SERVICE_CONNECTOR
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
+from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
+from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
+from ucm_cts.adapters.reference.python.framework import Container, Member
+
+_CLAUSES = ("10.1.5",)
+_CALLS, _CLIENTS, _OWN, _ONE_SERVER = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-05"
+_DIRECTIONS, _INHERITED, _EXCEPTIONS, _IN_FLIGHT = "R-10.1.5.1-08", "R-10.1.5.1-09", "R-10.1.5.1-10", "R-10.1.5.1-12"
+_TEMPLATE = "R-10.1.5.1-13"
+
+
+class Services(Link):
+    """Does something else with the calls of services."""
+
+    @property
+    def server(self) -> Taker:
+        return self.takers[0]
+
+    def parameters(self, method: str) -> Sequence[Parameter]:
+        """Of the method, those that are sent back."""
+        return self.interface.methods[method].results
+
+    def nothing(self, method: str) -> list[Datum]:
+        """Results that no server gave."""
+        return [0 if p.of.__class__.__name__ == "Integer" else "" for p in self.parameters(method)]
+
+
+# calls that go astray
+
+
+@breaks(_CALLS, _CLIENTS, _INHERITED, _TEMPLATE, clauses=_CLAUSES, also=(_ONE_SERVER,))
+class answers_from_memory(Services):
+    """A call that was made before is answered without asking the server again."""
+
+    def __init__(self, *arguments: object) -> None:
+        super().__init__(*arguments)  # type: ignore[arg-type]
+        self.answers: dict[str, Sequence[Datum]] = {}
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        key = f"{method}{arguments}"
+        if key not in self.answers:
+            self.answers[key] = super()._request(method, arguments)
+        return self.answers[key]
+
+
+@breaks(_CALLS, clauses=_CLAUSES)
+class calls_the_server_twice(Services):
+    """Every request is sent again, to be sure."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        super()._request(method, arguments)
+        return super()._request(method, arguments)
+
+
+@breaks(_CALLS, _INHERITED, _TEMPLATE, clauses=_CLAUSES, also=(_DIRECTIONS, _EXCEPTIONS))
+class mistakes_methods_of_one_shape(Services):
+    """Of methods with the same types of parameters the last one is called."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        shapes = {name: [p.of for p in m.parameters] for name, m in self.interface.methods.items()}
+        same = [name for name in shapes if shapes[name] == shapes[method]]
+        return super()._request(same[-1], arguments)
+
+
+@breaks(_INHERITED, clauses=_CLAUSES)
+class knows_no_inherited_methods(Services):
+    """Only the methods that an interface itself declares are known."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if method in self.interface.inherited:
+            raise UcmError(f"no method {method!r}")
+        return super()._request(method, arguments)
+
+
+@breaks(_TEMPLATE, clauses=_CLAUSES, also=(_CALLS,))  # one of another interface may take the values as they are
+class finds_methods_by_name(Services):
+    """A call goes to whatever connection has a method of that name."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        others = [k for k in self.manager.links if k.interface != self.interface and method in k.interface.methods]
+        return super()._request(method, arguments) if not others else Link._request(others[0], method, arguments)
+
+
+@alters("link", _TEMPLATE, clauses=_CLAUSES, also=("R-10.1.1-07",))
+def binds_the_template_once(self: Base, link: Link, connector: str, interface: Interface) -> Link:
+    """All service connectors of a runtime have the interface of the first one."""
+    first = next(k for k in self.manager.links if k.connector == connector)
+    link.interface = first.interface if connector == SERVICE_CONNECTOR else interface
+    return link
+
+
+@refuses_if("link", _TEMPLATE, clauses=_CLAUSES)
+def has_one_interface(self: Base, connector: str, interface: Interface) -> bool:
+    """There are connectors for one interface only."""
+    return any(k.interface != interface for k in self.manager.links if k.connector == connector)
+
+
+# clients
+
+
+@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
+class attaches_one_client(Services):
+    """Clients after the first are attached to nothing."""
+
+    def __init__(self, *arguments: object) -> None:
+        super().__init__(*arguments)  # type: ignore[arg-type]
+        self.first: int | None = None
+
+    def _attach_sender(self, member: Member, port: str) -> None:
+        super()._attach_sender(member, port)
+        self.first = self.first or member.id
+        if self.connector == SERVICE_CONNECTOR and member.id != self.first:
+            connection = member.container._connections_from(member)[-1]
+            assert isinstance(connection.target, LinkElement)
+            connection.target.link = Link(self.manager, self.connector, self.interface)
+
+
+@breaks(_CLIENTS, clauses=_CLAUSES, also=(_CALLS,))
+class takes_one_client(Services):
+    """A second client is refused."""
+
+    def _attach_sender(self, member: Member, port: str) -> None:
+        if self.connector == SERVICE_CONNECTOR and self.manager.connections:
+            raise UcmError("the connection has a client")
+        super()._attach_sender(member, port)
+
+
+@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
+class refuses_while_the_server_is_busy(Services):
+    """Who calls while another client is served is sent away."""
+
+    busy = 0
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if self.busy:
+            raise UcmError("the server is busy")
+        self.busy += 1
+        try:
+            return super()._request(method, arguments)
+        finally:
+            self.busy -= 1
+
+
+@breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.3.2-17",))
+class forgets_the_third_in_the_queue(Services):
+    """If two clients wait for a protected server, the third one waits for ever."""
+
+    def __init__(self, *arguments: object) -> None:
+        super().__init__(*arguments)  # type: ignore[arg-type]
+        self.queue: list[int] = []
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        if len(self.queue) > 1 and self.server.member.execution.definition == PROTECTED_PASSIVE:
+            threading.Event().wait()
+        self.queue.append(threading.get_ident())
+        try:
+            return super()._request(method, arguments)
+        finally:
+            self.queue.remove(threading.get_ident())
+
+
+@breaks(_OWN, clauses=_CLAUSES, also=(_IN_FLIGHT, "R-10.1.5.1-01"))
+class keeps_results_in_one_slot(Services):
+    """Who comes back from the server last overwrites the results of those who are on their way."""
+
+    last: Sequence[Datum] = ()
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        own = super()._request(method, arguments)
+        self.last = own
+        time.sleep(0.01)
+        return self.last if len(self.last) == len(own) else own
+
+
+# servers
+
+
+@breaks(_ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
+class replaces_the_server(Services):
+    """A second server takes the place of the first."""
+
+    def _check_room(self) -> None:
+        if self.connector == SERVICE_CONNECTOR:
+            self.takers.clear()
+
+
+@breaks(_CALLS, clauses=_CLAUSES)
+class takes_servers_of_the_root_container(Services):
+    """A server in a sub-container is refused."""
+
+    def _attach_taker(self, member: Member, port: str) -> None:
+        if self.connector == SERVICE_CONNECTOR and is_below(member.container):
+            raise UcmError("servers are in the root container")
+        super()._attach_taker(member, port)
+
+
+@breaks(_ONE_SERVER, clauses=_CLAUSES)
+class takes_servers_in_reserve(Services):
+    """There may be several servers; the first is called."""
+
+    def _check_room(self) -> None:
+        pass
+
+
+@breaks(_ONE_SERVER, clauses=_CLAUSES)
+class finds_no_place_for_a_server(Services):
+    """A second server is NOT_FOUND."""
+
+    def _check_room(self) -> None:
+        if self.connector == SERVICE_CONNECTOR and self.takers:
+            raise NotFound("no port for another server")
+
+
+@breaks(_ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
+class loses_the_server_to_a_second_one(Services):
+    """A second server is refused, and the first serves no more."""
+
+    def _check_room(self) -> None:
+        if self.connector == SERVICE_CONNECTOR and self.takers:
+            self.takers[0].port = "nothing"
+            raise UcmError("the connection has a server already")
+
+
+@breaks(_ONE_SERVER, clauses=_CLAUSES, readings={"second-server": "at-start"})
+class refuses_the_second_server_at_once(Base):
+    """It was declared to do so when it is started."""
+
+
+_CALLS, _CLIENTS, _OWN, _BLOCKING = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-11"
+_IN_FLIGHT = "R-10.1.5.1-12"
+
+
+@breaks(_BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN, _CALLS, "R-10.1.3.2-17"))
+class does_not_wait_long(Services):
+    """Who waits too long for a server gets zeros."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        outcome: list[Sequence[Datum]] = []
+        raised: list[Exception] = []
+
+        def ask() -> None:
+            try:
+                outcome.append(Link._request(self, method, arguments))
+            except Exception as error:  # noqa: BLE001 - whatever it is, the caller gets it
+                raised.append(error)
+
+        asking = threading.Thread(target=ask, daemon=True)
+        asking.start()
+        asking.join(0.005)
+        if raised:
+            raise raised[0]
+        return outcome[0] if outcome else self.nothing(method)
+
+
+@breaks(_IN_FLIGHT, clauses=_CLAUSES)
+class forgets_clients_of_stopped_servers(Services):
+    """When a server is being stopped, the results it still gives reach nobody."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        server = self.server if self.takers else None
+        results = super()._request(method, arguments)
+        if server is not None and not server.entrance.is_open and self.is_crowded(server):
+            threading.Event().wait()
+        return results
+
+    def is_crowded(self, server: Taker) -> bool:
+        """In some of the scenarios only: waiting in vain takes time."""
+        return len(self.manager.connections) > 1 and not server.member.execution.definition
+
+
+@breaks(_IN_FLIGHT, clauses=_CLAUSES)
+class invents_results_of_stopped_servers(Services):
+    """When a server is being stopped, clients get zeros."""
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        server = self.server if self.takers else None
+        results = super()._request(method, arguments)
+        return results if server is None or server.entrance.is_open else self.nothing(method)
+
+
+@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=("R-12.10-10",))
+class never_stops_what_was_called(Base):
+    """stop does not end if a server was executing several calls when it came."""
+
+    def _close_entrances(self, member: Member) -> None:
+        for _, taker in self._takers_of(member):
+            several = taker.entrance._inside > 1
+            taker.entrance.close()
+            if several and not member.execution.definition:
+                threading.Event().wait()
+
+
+class _Undone(Services):
+    """May be undone while everything is started."""
+
+    undone = False
+
+    def detach(self, container: Container, comp_instance: int, port: str) -> None:
+        if not container.is_started:
+            super().detach(container, comp_instance, port)
+            return
+        self.undone = True
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        results = super()._request(method, arguments)
+        if self.undone:
+            self.answer_undone()
+        return results
+
+    def answer_undone(self) -> None:
+        raise NotImplementedError
+
+
+@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS))
+class forgets_clients_of_undone_connections(_Undone):
+    """A connection may be undone at any time, and who is just calling waits for ever."""
+
+    def answer_undone(self) -> None:
+        if not self.server.member.execution.definition and len(self.manager.connections) > 1:
+            threading.Event().wait()
+
+
+@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS), readings={"call-in-flight": "finishes"})
+class aborts_calls_of_undone_connections(_Undone):
+    """Calls whose connection is undone end with an exception; they were declared to finish."""
+
+    def answer_undone(self) -> None:
+        raise UcmError("the connection has been undone")

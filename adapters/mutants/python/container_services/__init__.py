@@ -1,0 +1,1 @@
+"""Mutants of clause 10.1.4: clocks and traces."""

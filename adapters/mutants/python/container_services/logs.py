@@ -1,0 +1,226 @@
+"""Wrong frameworks, clause 10.1.4.2: traces that are not there, and logs that lose, alter or invent records."""
+
+from __future__ import annotations
+
+import time
+from typing import TypeVar
+
+from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
+from ucm_cts.adapters.contract.scenario import COMPONENT_TRACE, PORT_TRACE, Policy
+from ucm_cts.adapters.mutants.python.container_services.clocks import HERE, Withholds
+from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if
+from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.reference.python.framework import Member
+
+T = TypeVar("T")
+
+# what components get
+
+
+@breaks("R-10.1.4.2-03", clauses=HERE)
+class hands_over_no_trace(Withholds):
+    """Nothing is behind the name of the trace."""
+
+    definition = COMPONENT_TRACE
+
+    def _withholds(self, member: Member) -> bool:
+        return sum(p.definition == COMPONENT_TRACE for p in member.implementation.policies) == 1
+
+
+@breaks("R-10.1.4.2-02", clauses=HERE)
+class hands_over_the_first_trace_only(Base):
+    """Nothing is behind the name of a second trace."""
+
+    def _service_element(self, member: Member, policy: Policy) -> PortConnection:
+        first = next(p for p in member.implementation.policies if p.definition == policy.definition)
+        given = super()._service_element(member, policy)
+        return given if policy is first else PortConnection(given.from_port, ())
+
+
+@refuses_if("_check_service", "R-10.1.4.2-02", clauses=HERE)
+def refuses_a_second_trace(_self: Base, implementation: Implementation, _policy: Policy) -> bool:
+    """One trace policy a component, and no more."""
+    return sum(p.definition in (COMPONENT_TRACE, PORT_TRACE) for p in implementation.policies) > 1
+
+
+@breaks("R-10.1.4.2-02", clauses=HERE)
+class writes_to_every_trace_of_a_component(Base):
+    """A call of log makes a record for each trace policy of the component."""
+
+    def _log(self, member: Member, severity: str, message: str) -> None:
+        for policy in member.implementation.policies:
+            if policy.definition == COMPONENT_TRACE:
+                super()._log(member, severity, message)
+
+
+# messages
+
+
+@refuses_if("_log", "R-10.1.4.2-25", clauses=HERE)
+def log_fails_for_warnings(_self: Base, _member: Member, severity: str, _message: str) -> bool:
+    """log raises when the severity is warning."""
+    return severity == "warning"
+
+
+@refuses_if("_log", "R-10.1.4.2-25", clauses=HERE, readings={"log-severity-set": "model-6"})
+def log_knows_no_critical_severity(_self: Base, _member: Member, severity: str, _message: str) -> bool:
+    """log raises when the severity is critical; the vendor declares the six of the model."""
+    return severity == "critical"
+
+
+@does_only_if("_log", "R-10.1.4.2-26", clauses=HERE)
+def log_drops_debug_messages(_self: Base, _member: Member, severity: str, _message: str) -> bool:
+    """What has severity debug is not recorded, and no threshold is declared."""
+    return severity != "debug"
+
+
+@breaks("R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-32",), readings={"log-threshold": "warning"})
+class log_knows_no_threshold(Base):
+    """Everything is recorded; the vendor declares a threshold."""
+
+
+@does_only_if("_log", "R-10.1.4.2-26", clauses=HERE)
+def log_loses_what_comes_from_sub_containers(self: Base, member: Member, _severity: str, _message: str) -> bool:
+    """What components of sub-containers write is not recorded."""
+    return member.container is self.manager
+
+
+@breaks("R-10.1.4.2-26", clauses=HERE)
+class log_loses_every_hundredth(Base):
+    """One record of a hundred is lost."""
+
+    def _log(self, member: Member, severity: str, message: str) -> None:
+        runtime = self.manager.__dict__
+        runtime["logged"] = runtime.get("logged", 0) + 1
+        if runtime["logged"] % 100:
+            super()._log(member, severity, message)
+
+
+@breaks("R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-02",))
+class log_records_twice(Base):
+    """Each call of log leaves two records."""
+
+    def _log(self, member: Member, severity: str, message: str) -> None:
+        super()._log(member, severity, message)
+        super()._log(member, severity, message)
+
+
+@breaks("R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-02",))
+class log_records_an_echo(Base):
+    """Each call of log leaves a second record that speaks of it."""
+
+    def _log(self, member: Member, severity: str, message: str) -> None:
+        super()._log(member, severity, message)
+        super()._log(member, "debug", f"logged: {message}")
+
+
+@does_only_if("_log", "R-10.1.4.2-26", clauses=HERE)
+def log_leaves_out_repetitions(self: Base, _member: Member, severity: str, message: str) -> bool:
+    """A record like the last one is not written."""
+    return self.manager.log[-1:] != [(severity, message)]
+
+
+class _Alters(Base):
+    def _altered(self, message: str) -> str:
+        raise NotImplementedError
+
+    def _log(self, member: Member, severity: str, message: str) -> None:
+        super()._log(member, severity, self._altered(message))
+
+
+@breaks("R-10.1.4.2-53", clauses=HERE, also=("R-10.1.4.2-47",))
+class log_truncates_soon(_Alters):
+    """Texts end after 100 characters."""
+
+    def _altered(self, message: str) -> str:
+        return message[:100]
+
+
+@breaks("R-10.1.4.2-53", clauses=HERE, also=("R-10.1.4.2-47",))
+class log_adds_a_time_stamp(_Alters):
+    """Texts begin with the time."""
+
+    def _altered(self, message: str) -> str:
+        return f"{time.ctime()} {message}"
+
+
+@breaks("R-10.1.4.2-53", clauses=HERE)
+class log_formats_texts(_Alters):
+    """Texts are taken for format strings."""
+
+    def _altered(self, message: str) -> str:
+        return message.replace("%%", "%").replace("{0}", "").replace("\\n", "\n")
+
+
+@breaks("R-10.1.4.2-53", clauses=HERE)
+class log_folds_spaces(_Alters):
+    """Several spaces become one."""
+
+    def _altered(self, message: str) -> str:
+        return " ".join(message.split())
+
+
+@breaks("R-10.1.4.2-47", clauses=HERE)
+class log_truncates_late(_Alters):
+    """Texts end after 1,024 characters."""
+
+    def _altered(self, message: str) -> str:
+        return message[:1024]
+
+
+@breaks("R-10.1.4.2-47", clauses=HERE)
+class log_is_narrow(_Alters):
+    """What is not ASCII becomes question marks."""
+
+    def _altered(self, message: str) -> str:
+        return message.encode("ascii", "replace").decode()
+
+
+@breaks("R-10.1.4.2-47", clauses=HERE)
+class log_has_sixteen_bits(_Alters):
+    """What is beyond the Basic Multilingual Plane loses its upper bits."""
+
+    def _altered(self, message: str) -> str:
+        return "".join(chr(ord(c) & 0xFFFF) for c in message)
+
+
+@does_only_if("_log", "R-10.1.4.2-47", clauses=HERE)
+def log_drops_empty_texts(_self: Base, _member: Member, _severity: str, message: str) -> bool:
+    """Nothing said, nothing recorded."""
+    return bool(message)
+
+
+@breaks("R-10.1.4.2-47", clauses=HERE)
+class log_says_something_for_nothing(_Alters):
+    """An empty text becomes another one."""
+
+    def _altered(self, message: str) -> str:
+        return message or "(none)"
+
+
+class _Ranks(Base):
+    instead: dict[str, str]
+
+    def _log(self, member: Member, severity: str, message: str) -> None:
+        super()._log(member, self.instead.get(severity, severity), message)
+
+
+@breaks("R-10.1.4.2-51", clauses=HERE)
+class log_makes_warnings_errors(_Ranks):
+    """Warnings are recorded as errors."""
+
+    instead = {"warning": "error"}
+
+
+@breaks("R-10.1.4.2-51", clauses=HERE)
+class log_numbers_severities_otherwise(_Ranks):
+    """Severities are one off, as between the model and IDL."""
+
+    instead = {"debug": "info", "info": "warning", "warning": "error", "error": "critical"}
+
+
+@breaks("R-10.1.4.2-51", clauses=HERE, readings={"log-severity-set": "model-6"})
+class log_makes_critical_an_error(_Ranks):
+    """What is critical is recorded as an error; the vendor declares the six severities of the model."""
+
+    instead = {"critical": "error"}

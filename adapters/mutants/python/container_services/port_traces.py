@@ -1,0 +1,203 @@
+"""Wrong frameworks, clause 10.1.4.2: port traces that lose, invent or mix up records."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+from ucm_cts.adapters.contract.data_types import Datum
+from ucm_cts.adapters.contract.scenario import METHODS_TO_TRACE, PORT_TRACE, Policy
+from ucm_cts.adapters.mutants.python.container_services.clocks import HERE
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if
+from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.reference.python.connectors import Link
+from ucm_cts.adapters.reference.python.container_services import Record
+from ucm_cts.adapters.reference.python.framework import Member
+
+T = TypeVar("T")
+
+
+@breaks("R-10.1.4.2-04", clauses=HERE)
+class traces_no_ports(Base):
+    """port_trace is accepted and forgotten."""
+
+    def _port_traces(self, member: Member, port: str) -> list[Policy]:
+        return []
+
+
+@alters("_port_traces", "R-10.1.4.2-04", clauses=HERE, also=("R-10.1.4.2-32",))  # of both ends, one is traced
+def traces_provided_ports_only(_self: Base, given: list[Policy], member: Member, port: str) -> list[Policy]:
+    """port_trace of a required port is accepted and forgotten."""
+    return given if port in member.implementation.provides else []
+
+
+@breaks("R-10.1.4.2-04", clauses=HERE)
+class traces_one_port_of_a_component(Base):
+    """The last of several port traces of a component counts."""
+
+    def _port_traces(self, member: Member, port: str) -> list[Policy]:
+        last = [p for p in member.implementation.policies if p.port is not None][-1:]
+        return [p for p in super()._port_traces(member, port) if p in last]
+
+
+@breaks("R-10.1.4.2-32", clauses=HERE)
+class traces_until_the_first_stop(Base):
+    """Who is started again is not traced any more."""
+
+    def _end_execution(self, member: Member) -> None:
+        super()._end_execution(member)
+        member.__dict__["was stopped"] = True
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        return work() if "was stopped" in member.__dict__ else super()._trace_call(member, port, method, work)
+
+
+class _BlindLink(Link):
+    within = threading.local()
+
+    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        self.within.connector = True
+        try:
+            return super()._request(method, arguments)
+        finally:
+            self.within.connector = False
+
+
+@breaks("R-10.1.4.2-32", clauses=HERE)
+class traces_no_calls_from_connectors(Base):
+    """What comes in through a service connector is not traced."""
+
+    link_class = _BlindLink
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        if getattr(_BlindLink.within, "connector", False):
+            return work()
+        return super()._trace_call(member, port, method, work)
+
+
+@does_only_if("_write", "R-10.1.4.2-32", clauses=HERE)
+def traces_the_first_call(self: Base, record: Record) -> bool:
+    """A method is recorded when it is called first."""
+    return record not in self.manager.log or not _is_of_a_call(self, record)
+
+
+def _is_of_a_call(container: Base, record: Record) -> bool:
+    return record[1].startswith(tuple(container.manager.implementations))
+
+
+@breaks("R-10.1.4.2-32", clauses=HERE, also=("R-10.1.4.2-33",))  # others might have made them
+class traces_calls_again_and_again(Base):
+    """Each traced call has five records."""
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        for _ in range(4):
+            super()._trace_call(member, port, method, lambda: None)
+        return super()._trace_call(member, port, method, work)
+
+
+@breaks("R-10.1.4.2-04", clauses=HERE)
+class traces_calls_without_their_names(Base):
+    """Records of calls do not tell which method was called."""
+
+    def _call_message(self, member: Member, port: str, method: str) -> str:
+        return f"{member.implementation.name} {port} called"
+
+
+@breaks("R-10.1.4.2-32", clauses=HERE, readings={"port-trace-records": "call-and-return"})
+class traces_calls_and_no_returns(Base):
+    """A call has one record; the vendor declares two."""
+
+
+@breaks("R-10.1.4.2-32", clauses=HERE, readings={"port-trace-records": "call"})
+class traces_calls_and_returns(Base):
+    """A call has two records; the vendor declares one."""
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        result = super()._trace_call(member, port, method, work)
+        super()._trace_call(member, port, method, lambda: None)
+        return result
+
+
+@breaks("R-10.1.4.2-33", clauses=HERE)
+class traces_all_methods(Base):
+    """methods_to_trace does not select."""
+
+    def _is_traced(self, policy: Policy, method: str) -> bool:
+        return True
+
+
+@breaks("R-10.1.4.2-33", clauses=HERE)
+class traces_methods_that_begin_alike(Base):
+    """Methods are traced whose names begin with what methods_to_trace says."""
+
+    def _is_traced(self, policy: Policy, method: str) -> bool:
+        return method.startswith(policy.parameters[METHODS_TO_TRACE])
+
+
+@breaks("R-10.1.4.2-33", clauses=HERE)
+class traces_methods_found_somewhere_in_names(Base):
+    """Methods are traced whose names are anywhere in methods_to_trace."""
+
+    def _is_traced(self, policy: Policy, method: str) -> bool:
+        return method in policy.parameters[METHODS_TO_TRACE]
+
+
+@alters("_port_traces", "R-10.1.4.2-33", clauses=HERE)
+def traces_all_ports(self: Base, own: list[Policy], _member: Member, _port: str) -> list[Policy]:
+    """The policy of one port is applied to all."""
+    policies = (p for i in self.manager.implementations.values() for p in i.policies)
+    return own or [p for p in policies if p.definition == PORT_TRACE][:1]
+
+
+@breaks("R-10.1.4.2-33", clauses=HERE)
+class traces_ports_with_later_names(Base):
+    """The policy of one port is applied to all ports of its component whose names sort after it."""
+
+    def _port_traces(self, member: Member, port: str) -> list[Policy]:
+        return [p for p in member.implementation.policies if p.definition == PORT_TRACE and (p.port or "") <= port]
+
+
+@breaks("R-10.1.4.2-33", clauses=HERE)
+class traces_ports_with_earlier_names(Base):
+    """The same the other way round."""
+
+    def _port_traces(self, member: Member, port: str) -> list[Policy]:
+        return [p for p in member.implementation.policies if p.definition == PORT_TRACE and (p.port or "") >= port]
+
+
+@breaks("R-10.1.4.2-33", clauses=HERE)
+class notes_every_call(Base):
+    """Calls of methods that are not named leave a record that says nothing."""
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        if not any(self._is_traced(policy, method) for policy in self._port_traces(member, port)):
+            self._write(("debug", "a call"))
+        return super()._trace_call(member, port, method, work)
+
+
+@breaks("R-10.1.4.2-35", clauses=HERE)
+class traces_ports_as_info(Base):
+    """What port traces record has always the same severity."""
+
+    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
+        if any(self._is_traced(policy, method) for policy in self._port_traces(member, port)):
+            self._write(("info", self._call_message(member, port, method)))
+        return work()
+
+
+@breaks("R-10.1.4.2-35", clauses=HERE)
+class traces_errors_as_warnings(Base):
+    """What is to be recorded as error is a warning."""
+
+    def _write(self, record: Record) -> None:
+        of_an_error = record[0] == "error" and _is_of_a_call(self, record)
+        super()._write(("warning", record[1]) if of_an_error else record)
+
+
+@alters("_trace_call", "R-11.1.3-01", clauses=HERE, also=("R-10.1.3.2-21",))
+def loses_results_of_traced_calls(
+    _self: Base, result: T, _member: Member, _port: str, method: str, _work: Callable[[], T]
+) -> T:
+    """Who calls exchange through a traced port gets nothing back."""
+    return 0 if method == "exchange" else result  # type: ignore[return-value]

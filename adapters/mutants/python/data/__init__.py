@@ -1,0 +1,1 @@
+"""Mutants of clause 10.1.1: values of each type on their way."""

@@ -1,0 +1,1 @@
+"""Mutants of clause 10.1.3: execution policies."""

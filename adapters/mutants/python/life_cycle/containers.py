@@ -1,0 +1,327 @@
+"""Wrong containers: members of both kinds, container interfaces, and what passes between components (11.1, 11.2.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ucm_cts.adapters.contract.programming_model import (
+    BadParameter,
+    ComponentObject,
+    FragmentObject,
+    Implementation,
+    NotFound,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
+from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks, is_below
+from ucm_cts.adapters.mutants.python.variants.phases import starts_all_at_a_time
+from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Failures, Member, State
+
+
+class _Nudge(Proxy):
+    fragments = False
+
+    def exchange(self, value: int) -> int:
+        if self.member.state is State.READY and isinstance(self.member.body, FragmentObject) == self.fragments:
+            self.member.body.on_shutdown()
+        return self.target.exchange(value)
+
+
+@breaks("R-11.1.1-01")
+class nudges_components(_Nudge):
+    """Calls on_shutdown of a component while nobody is operating the container."""
+
+
+@breaks("R-11.1.2-01")
+class nudges_fragments(_Nudge):
+    """The same for fragments only."""
+
+    fragments = True
+
+
+class _Changed(PortElementObject):
+    def __init__(self, target: PortElementObject) -> None:
+        self.target = target
+
+    def exchange(self, value: int) -> int:
+        return self.target.exchange(value) ^ 1
+
+
+@breaks("R-11.1.3-01")
+class spoils_results_between_components(Base):
+    """Flips a bit of what one component's call of another one gives back."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return [
+            PortConnection(c.port, (c.target if _of_fragment(self, c) else _Changed(c.target),))
+            for c in self._connections_from(member)
+        ]
+
+
+@breaks("R-11.1.2-02")
+class spoils_results_of_fragments(Base):
+    """The same where a fragment is called."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return [
+            PortConnection(c.port, (_Changed(c.target) if _of_fragment(self, c) else c.target,))
+            for c in self._connections_from(member)
+        ]
+
+
+def _of_fragment(container: Container, connection: Connection) -> bool:
+    everywhere = [container.manager, *container.manager.sub_containers]
+    owners = [m for c in everywhere for m in c.members.values() if connection in c._connections_to(m)]
+    return any(isinstance(m.body, FragmentObject) for m in owners)
+
+
+@refuses_if("_instantiate", "R-11.1.3-02")
+def one_kind_a_container(self: Base, implementation: Implementation) -> bool:
+    """Refuses to hold components and fragments together."""
+    return any(m.implementation.fragment != implementation.fragment for m in self.members.values())
+
+
+@breaks("R-11.1.3-03")
+class one_sub_container(Base):
+    """Refuses a second container."""
+
+    def create_container(self) -> Container:
+        if self.manager.sub_containers:
+            raise UcmError("one is enough")
+        return ContainerManager.create_container(self.manager)
+
+
+@breaks("R-11.1.3-04")
+class starts_the_neighbours(Base):
+    """Starting one sub-container starts the members of all other sub-containers, too."""
+
+    def start(self) -> None:
+        super().start()
+        for other in self.manager.sub_containers:
+            if is_below(self) and other is not self and not other.is_started:
+                for member in other.members.values():
+                    member.body.on_startup(other._dependencies_of(member))
+
+
+@breaks("R-11.2.2.1-01", also=("R-11.1.3-02",))
+class adds_two_member_only(Base):
+    """Refuses a third member."""
+
+    def _instantiate(self, implementation: Implementation) -> ComponentObject:
+        if len(self.members) >= 2:
+            raise UcmError("full")
+        return super()._instantiate(implementation)
+
+
+@breaks("R-11.2.2.1-02", also=("R-11.2.1.2-05",))
+class makes_two_bodies(Base):
+    """add_component initialises two bodies and keeps one."""
+
+    def _initialise(self, member: Member) -> None:
+        super()._initialise(member)
+        member.implementation.create().on_init()
+
+
+@breaks("R-11.2.2.1-03", also=("R-11.2.2.1-06",))
+class same_id_for_all(Base):
+    """A second instance of an implementation is given the id of the first."""
+
+    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
+        twins = [m.id for m in self.members.values() if m.implementation.name == implementation]
+        identifier = super().add_component(implementation, attributes)
+        return twins[0] if twins else identifier
+
+
+@breaks("R-11.2.2.1-05")
+class cannot_remove(Base):
+    """Refuses to remove what is neither connected nor operational."""
+
+    def _check_removable(self, member: Member) -> None:
+        raise UcmError("never")
+
+
+@alters("get_port_element", "R-11.2.2.1-06")
+def any_port_element_will_do(
+    self: Base, element: PortElementObject, comp_instance: int, _port_name: str
+) -> PortElementObject:
+    """get_port_element gives the first provided port element whatever the name."""
+    member = self.members[comp_instance]
+    return member.body.get_portElement(member.implementation.provides[0]) or element
+
+
+@breaks("R-11.2.2.1-07")
+class no_references_while_ready(Base):
+    """get_port_element is refused while the component is operational."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        if self.is_started and comp_instance in self.members:
+            raise NotFound("busy")
+        return super().get_port_element(comp_instance, port_name)
+
+
+@breaks("R-11.2.2.1-08")
+class refuses_to_connect_across(Base):
+    """connect takes only references of its own container."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        own = [m.body.get_portElement(p) for m in self.members.values() for p in m.implementation.provides]
+        elsewhere = [c for c in (self.manager, *self.manager.sub_containers) if c is not self]
+        foreign = [
+            m.body.get_portElement(p) for c in elsewhere for m in c.members.values() for p in m.implementation.provides
+        ]
+        if instance in self.members and to_port is not None and to_port in foreign and to_port not in own:
+            raise BadParameter("foreign")
+        return super().connect(instance, port_name, to_port)
+
+
+@breaks("R-11.2.2.1-09", also=("R-11.2.1.3-06", "R-11.2.2.1-08", "R-11.2.2.1-10", "R-11.2.3-08"))
+class same_id_for_connections(Base):
+    """Every connection of a client gets the id of its first one."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        known = [c.id for c in self.manager.connections.values() if c.client.id == instance]
+        identifier = super().connect(instance, port_name, to_port)
+        return known[0] if known else identifier
+
+
+@breaks("R-11.2.2.1-10")
+class refuses_to_disconnect(Base):
+    """disconnect of a live connection is refused."""
+
+    def disconnect(self, connection: int) -> None:
+        found = self.manager.connections.get(connection)
+        if found is not None and found.client.container is self and not self.is_started:
+            raise UcmError("never")
+        super().disconnect(connection)
+
+
+@breaks("R-11.2.2.1-10", also=("R-11.1.3-01", "R-11.2.3-10"))
+class hands_over_undone_connections(Base):
+    """A reference that was disconnected is handed over beside the new one."""
+
+    def disconnect(self, connection: int) -> None:
+        kept = self.manager.connections.get(connection)
+        super().disconnect(connection)
+        if kept is not None:
+            self.__dict__.setdefault("undone", []).append(kept)
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        alive = [m.body.get_portElement(p) for m in self.members.values() for p in m.implementation.provides]
+        for old in self.__dict__.get("undone", []):
+            if old.client is member and old.target in alive and old.target not in [t for d in given for t in d.to_port]:
+                given = [PortConnection(d.from_port, (*d.to_port, old.target)) for d in given]
+        return given
+
+
+@breaks("R-11.2.2.1-11", also=("R-11.2.1.4-01",))
+class forgets_the_last(Base):
+    """start leaves the last of several members out."""
+
+    def _start_order(self) -> Sequence[Member]:
+        order = list(super()._start_order())
+        return order[:-1] if len(order) > 1 else order
+
+
+@breaks("R-11.2.2.1-12", also=("R-11.2.3-09",))
+class forgets_to_stop_the_first(Base):
+    """stop leaves out the member that was started first, if there are several."""
+
+    def stop(self) -> None:
+        if len(self.started) > 1:
+            self.started[0].state = State.CONFIGURING
+            del self.started[0]
+        super().stop()
+
+
+@breaks("R-11.2.2.1-13")
+class stops_in_startup_order(Base):
+    """stop shuts members down in the order they were started in."""
+
+    def _shut_down_started(self, failures: Failures) -> None:
+        self.started.reverse()
+        super()._shut_down_started(failures)
+
+
+@breaks("R-11.2.2.1-13", readings={"start-order": "at-once"})
+class claims_to_start_at_once(Base):
+    """Its vendor declares that start calls members at once; it calls them one after the other."""
+
+
+@breaks("R-11.2.2.1-13", readings={"start-order": "one-by-one"})
+class claims_to_start_one_by_one(starts_all_at_a_time):
+    """Its vendor declares that start calls one member after the other; it calls them at once."""
+
+
+@breaks("R-11.2.2.1-14", also=("R-12.10-22",))
+class lists_a_stranger(Base):
+    """get_components lists one id too many."""
+
+    def get_components(self) -> list[int]:
+        listed = super().get_components()
+        return [*listed, 987654] if self._is_outside() else listed
+
+    def _is_outside(self) -> bool:
+        return not self.is_started
+
+
+@alters("_start_order", "R-11.2.2.2-01")
+def manager_forgets_its_own(self: Base, given: Sequence[Member]) -> Sequence[Member]:
+    """start of the manager starts sub-containers instead of its own members."""
+    return [] if not is_below(self) else given
+
+
+@breaks("R-11.2.2.2-02")
+class makes_no_containers(Base):
+    """create_container is always refused."""
+
+    def create_container(self) -> Container:
+        raise UcmError("not supported")
+
+
+@breaks("R-11.2.2.2-03")
+class keeps_full_containers(Base):
+    """remove_container is refused while there are members."""
+
+    def _remove_container(self, container: Container, failures: Failures) -> None:
+        if container.members:
+            raise UcmError("not empty")
+        ContainerManager._remove_container(self.manager, container, failures)
+
+
+@breaks("R-11.2.2.2-04")
+class drops_members_of_removed_containers(Base):
+    """remove_container does not call on_remove on the members."""
+
+    def remove_container(self, sub_container: Container | None) -> None:
+        if sub_container is not None:
+            sub_container.__dict__["dropped"] = True
+        ContainerManager.remove_container(self.manager, sub_container)
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        if self.__dict__.get("dropped"):
+            del self.members[member.id]
+        else:
+            super()._remove(member, failures)
+
+
+@breaks("R-11.2.2.2-05")
+class destroys_without_shutdown(Base):
+    """destroy forgets on_shutdown."""
+
+    def destroy(self) -> None:
+        for container in (self.manager, *self.manager.sub_containers):
+            container.started.clear()
+        ContainerManager.destroy(self.manager)
+
+
+@breaks("R-11.2.2.2-06")
+class refuses_to_end(Base):
+    """destroy is refused while any container is started."""
+
+    def destroy(self) -> None:
+        if any(c.is_started for c in (self.manager, *self.manager.sub_containers)):
+            raise UcmError("still running")
+        ContainerManager.destroy(self.manager)

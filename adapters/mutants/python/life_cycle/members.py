@@ -1,0 +1,328 @@
+"""Frameworks that mistreat some members, or some of the time: when members are listed, started, removed or fail (11.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ucm_cts.adapters.contract.programming_model import FragmentObject, PortConnection, PortElementObject, UcmError
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if
+from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
+from ucm_cts.adapters.mutants.python.variants.readings import adds_later, configures_at_any_time
+from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
+
+# members, listed, started and stopped
+
+
+@breaks("R-11.2.2.1-11", also=("R-11.2.1.4-01",))
+class forgets_the_fourth_below(Base):
+    """start leaves out the fourth member of a sub-container, be it a fragment or not."""
+
+    def _start_order(self) -> Sequence[Member]:
+        order = list(super()._start_order())
+        return [*order[:3], *order[4:]] if is_below(self) else order
+
+
+@breaks("R-11.2.2.1-11", also=("R-11.2.1.4-01",))
+class forgets_the_fifth(Base):
+    """start leaves out the fifth member, be it a fragment or not."""
+
+    def _start_order(self) -> Sequence[Member]:
+        order = list(super()._start_order())
+        return [*order[:4], *order[5:]]
+
+
+@alters("_start_order", "R-11.2.2.1-11", also=("R-11.2.1.4-01",))
+def starts_sixteen(_self: Base, given: Sequence[Member]) -> Sequence[Member]:
+    """start reaches sixteen members and no more."""
+    return list(given)[:16]
+
+
+@breaks("R-11.2.2.1-13")
+class swaps_the_last_two(Base):
+    """Of three or more members the two started last are shut down in the order of their start."""
+
+    def stop(self) -> None:
+        if len(self.started) >= 3:
+            self.started[-1], self.started[-2] = self.started[-2], self.started[-1]
+        super().stop()
+
+
+@breaks("R-11.2.2.1-13")
+class fragments_turn_the_order(Base):
+    """Where a fragment is among the members, stop goes in the order of their start."""
+
+    def stop(self) -> None:
+        if any(isinstance(m.body, FragmentObject) for m in self.started):
+            self.started.reverse()
+        super().stop()
+
+
+@breaks("R-11.2.2.1-13")
+class stops_in_order_once(Base):
+    """Only the first stop of a container goes in reverse."""
+
+    def stop(self) -> None:
+        stops = self.__dict__["stops"] = self.__dict__.get("stops", 0) + 1
+        if stops > 1:
+            self.started.reverse()
+        super().stop()
+
+
+@alters("get_components", "R-11.2.2.1-14")
+def caches_the_list(self: Base, listed: list[int]) -> list[int]:
+    """While a sub-container is started, get_components lists what was there when it was first asked so."""
+    if not (is_below(self) and self.is_started):
+        return listed
+    return self.__dict__.setdefault("listed", listed)  # type: ignore[no-any-return]
+
+
+@breaks("R-12.10-15")
+class confuses_removed_ids(Base):
+    """get_port_element for a removed component's id gives that of the member added last."""
+
+    def remove_component(self, comp_instance: int) -> None:
+        super().remove_component(comp_instance)
+        self.__dict__.setdefault("removed", []).append(comp_instance)
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        if comp_instance in self.__dict__.get("removed", []) and comp_instance not in self.members and self.members:
+            comp_instance = list(self.members)[-1]
+        return super().get_port_element(comp_instance, port_name)
+
+
+@breaks("R-12.10-15", also=("R-11.1.3-04",))
+class finds_members_elsewhere(Base):
+    """Component ids work with every container of the runtime."""
+
+    def _find_member(self, number: int) -> Member:
+        for container in (self.manager, *self.manager.sub_containers):
+            if number in container.members:
+                return container.members[number]
+        return super()._find_member(number)
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        if member.container is self:
+            super()._remove(member, failures)
+        else:
+            member.container._remove(member, failures)
+
+
+@breaks("R-12.10-16", also=("R-11.1.3-04",))
+class undoes_connections_elsewhere(Base):
+    """Connection ids work with every container of the runtime."""
+
+    def disconnect(self, connection: int) -> None:
+        found = self.manager.connections.get(connection)
+        container = found.client.container if found is not None else self
+        Container.disconnect(container, connection)
+
+
+# attributes and fragments
+
+
+@does_only_if("_set_attributes", "R-11.2.1.2-05")
+def fragments_have_no_attributes(_self: Base, member: Member, _attributes: Mapping[str, str]) -> bool:
+    """Attributes of fragments are not set."""
+    return not isinstance(member.body, FragmentObject)
+
+
+@breaks("R-11.2.1.2-05")
+class sets_attributes_once(Base):
+    """Attributes are set for the first instance of an implementation only."""
+
+    def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
+        known: set[str] = self.manager.__dict__.setdefault("known", set())
+        if member.implementation.name not in known:
+            super()._set_attributes(member, attributes)
+        known.add(member.implementation.name)
+
+
+@does_only_if("_set_attributes", "R-11.2.1.2-05")
+def no_attributes_below(self: Base, _member: Member, _attributes: Mapping[str, str]) -> bool:
+    """Attributes are set in the manager only."""
+    return not is_below(self)
+
+
+@breaks("R-11.2.1.4-03")
+class shows_fragments_the_manager(Base):
+    """Fragments of sub-containers are given the manager instead of their own container."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        self._set_attributes(member, attributes)
+        if isinstance(member.body, FragmentObject):
+            member.body.set_container_interface(self.manager)
+        self._initialise(member)
+
+
+class _Remembered:
+    """What a container listed when it was first asked."""
+
+    def __init__(self, container: Container) -> None:
+        self.container = container
+        self.listed: list[int] | None = None
+
+    def get_components(self) -> list[int]:
+        if self.listed is None:
+            self.listed = self.container.get_components()
+        return self.listed
+
+
+@breaks("R-11.2.1.4-03")
+class shows_fragments_the_past(Base):
+    """What a fragment once learnt of its container's members it is told ever after."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        self._set_attributes(member, attributes)
+        if isinstance(member.body, FragmentObject):
+            member.body.set_container_interface(_Remembered(self))
+        self._initialise(member)
+
+
+@breaks("R-11.2.1.4-02")
+class shows_fragments_their_container_again(Base):
+    """set_container_interface comes again with the second start."""
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        starts = member.__dict__["starts"] = member.__dict__.get("starts", 0) + 1
+        if starts == 2 and isinstance(member.body, FragmentObject):
+            member.body.set_container_interface(self)
+        return super()._start_up(member, failures)
+
+
+# removal of containers
+
+
+@breaks("R-11.2.2.2-04", also=("R-11.2.2.2-05",))
+class removes_the_first_only(Base):
+    """remove_container, and destroy below the manager, call on_remove on one member only."""
+
+    def _remove_members(self, failures: Failures) -> None:
+        for member in list(self.members.values())[1:] if is_below(self) else ():
+            del self.members[member.id]
+        super()._remove_members(failures)
+
+
+# failing bodies
+
+
+@breaks("R-11.2.3-09")
+class leaves_the_rest_ready(Base):
+    """After a failing on_shutdown the others are not shut down, and the next start starts them again."""
+
+    def _shut_down_started(self, failures: Failures) -> None:
+        while self.started and not failures.first:
+            self._shut_down(self.started.pop(), failures)
+        self.started.clear()
+        self.is_started = False
+
+
+@breaks("R-11.2.2.2-01", also=("R-11.2.3-07",))
+class never_recovers_from_a_failing_stop(Base):
+    """After a failing on_shutdown the container counts as started for good: stop and start return and do nothing."""
+
+    def stop(self) -> None:
+        try:
+            super().stop()
+        except UcmError:
+            self.__dict__["stuck"] = True
+            raise
+
+    def start(self) -> None:
+        if not self.__dict__.get("stuck"):
+            super().start()
+
+
+@breaks("R-11.2.1.2-10")
+class shuts_down_what_never_started(Base):
+    """After a failing on_startup every member is told on_shutdown, started or not."""
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        if super()._start_up(member, failures):
+            return True
+        self.started = list(self.members.values())
+        return False
+
+
+@breaks("R-12.10-22")
+class starts_what_failed_to_initialise(Base):
+    """A body whose on_init raised is started with the others, though it is no member."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        try:
+            super()._configure(member, attributes)
+        except Exception:
+            self.__dict__.setdefault("ghosts", []).append(member)
+            raise
+
+    def start(self) -> None:
+        again = self.is_started
+        super().start()
+        for ghost in self.__dict__.get("ghosts", []) if not again else ():
+            Failures().attempt(ghost.body.on_startup, [])
+
+
+# changes in the operational phase
+
+
+@breaks("R-11.2.2.1-11")
+class never_starts_late_additions(adds_later):
+    """What was added to a started container and requires something is never started, not even after a stop."""
+
+    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
+        late = self.is_started
+        identifier = super().add_component(implementation, attributes)
+        self.members[identifier].__dict__["late"] = late
+        return identifier
+
+    def _start_order(self) -> Sequence[Member]:
+        return [m for m in super()._start_order() if not (m.__dict__["late"] and m.implementation.requires)]
+
+
+@breaks("R-11.2.1.3-02")
+class connects_late_additions_silently(adds_later):
+    """A component that was added to a started container is not told on_connect there."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        self.__dict__["silent"] = self.is_started
+        return super().connect(instance, port_name, to_port)
+
+    def _connect(self, connection: Connection) -> None:
+        if self.__dict__["silent"]:
+            self.manager.connections[connection.id] = connection
+        else:
+            super()._connect(connection)
+
+
+@breaks("R-11.2.1.2-09")
+class loses_late_connections(adds_later):
+    """What was connected in a started container is not handed over at the next start."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        late = self.is_started
+        identifier = super().connect(instance, port_name, to_port)
+        self.__dict__.setdefault("lost", set()).update({identifier} if late else ())
+        return identifier
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        lost = self.__dict__.get("lost", ())
+        return [PortConnection(c.port, (c.target,)) for c in self._connections_from(member) if c.id not in lost]
+
+
+@breaks("R-11.2.3-10")
+class loses_connections_of_ready_components(configures_at_any_time):
+    """connect of an operational component returns an id and does nothing."""
+
+    def _connect(self, connection: Connection) -> None:
+        if connection.client.state is not State.READY:
+            super()._connect(connection)
+
+
+@breaks("R-11.2.3-01")
+class starts_late_additions_unconnected(adds_later):
+    """A component added to a started container is started at once, connected or not."""
+
+    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
+        identifier = super().add_component(implementation, attributes)
+        if self.is_started:
+            self._start_up(self.members[identifier], Failures())
+        return identifier

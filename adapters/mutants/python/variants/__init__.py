@@ -1,0 +1,1 @@
+"""Conformant variants of the Python reference framework."""

@@ -1,0 +1,183 @@
+"""Conformant variants that see the two phases of 11.2.3 their own way: the application's, in parallel, or not over yet."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+
+from ucm_cts.adapters.contract.programming_model import PortElementObject, UcmError
+from ucm_cts.adapters.mutants.python.registry import (
+    CONTAINER,
+    Base,
+    GivesOutProxies,
+    Proxy,
+    is_below,
+    variant,
+    variant_of,
+)
+from ucm_cts.adapters.mutants.python.variants.readings import manager_reaches_down
+from ucm_cts.adapters.reference.python.framework import Container, Failures, State
+
+
+def _all_containers(container: Container) -> list[Container]:
+    return [container.manager, *container.manager.sub_containers]
+
+
+@variant
+class configures_when_nothing_runs(Base):
+    """Nothing is configured anywhere while any container is started."""
+
+    def _check_configuring(self) -> None:
+        if any(container.is_started for container in _all_containers(self)):
+            raise UcmError("the application has been started")
+
+
+@variant
+class starts_when_all_is_configured(Base):
+    """No container is started while a component anywhere is unconfigured."""
+
+    def _check_startable(self) -> None:
+        for container in _all_containers(self):
+            Container._check_startable(container)
+
+
+@variant
+class makes_no_late_containers(Base):
+    """A started manager makes no containers."""
+
+    def create_container(self) -> Container:
+        self._check_configuring()
+        return super().create_container()  # type: ignore[misc,no-any-return]
+
+
+@variant
+class starts_nothing_empty(Base):
+    """A container without members is not started."""
+
+    def _check_startable(self) -> None:
+        if not self.members:
+            raise UcmError("there is nothing to start")
+        super()._check_startable()
+
+
+@variant
+class connects_nothing_to_itself(Base):
+    """A component's own port element is no partner for it."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        member = self.members.get(instance)
+        own = [member.body.get_portElement(port) for port in member.implementation.provides] if member else []
+        if to_port is not None and any(to_port is element for element in own):
+            raise UcmError("a component is not connected to itself")
+        return super().connect(instance, port_name, to_port)
+
+
+class _Waiting(Proxy):
+    """Calls wait until the component is ready."""
+
+    ready: threading.Condition
+
+    def exchange(self, value: int) -> int:
+        with self.ready:
+            self.ready.wait_for(lambda: self.member.state is State.READY)
+        return self.target.exchange(value)
+
+
+@variant
+class calls_wait_for_the_start(GivesOutProxies):
+    """A call through a reference is served once its component is ready."""
+
+    proxy = _Waiting
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        proxy = super().get_port_element(comp_instance, port_name)
+        assert isinstance(proxy, _Waiting)
+        proxy.ready = _changes_of(self)
+        return proxy
+
+    def start(self) -> None:
+        super().start()
+        changes = _changes_of(self)
+        with changes:
+            changes.notify_all()
+
+
+def _changes_of(container: Container) -> threading.Condition:
+    return container.manager.__dict__.setdefault("changes", threading.Condition())  # type: ignore[no-any-return]
+
+
+@variant_of(*CONTAINER, readings={"start-order": "at-once"})
+class starts_all_at_a_time(Base):
+    """Members are started by a thread each, and stopped in the order they were added in reverse."""
+
+    def start(self) -> None:
+        with self._operation():
+            if self.is_started:
+                return
+            self._check_startable()
+            failures = [Failures() for _ in self.members]
+            meeting = threading.Barrier(max(len(self.members), 1))
+
+            def start_up(member: object, own: Failures) -> None:
+                meeting.wait()
+                self._start_up(member, own)  # type: ignore[arg-type]
+
+            threads = [
+                threading.Thread(target=start_up, args=pair)
+                for pair in zip(self.members.values(), failures, strict=True)
+            ]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            order = list(self.members.values())
+            if not any(own.first for own in failures):
+                self.started.sort(key=order.index)
+                self._begin_operation()
+                return
+            self._shut_down_started(Failures())
+            next(own for own in failures if own.first).report()
+
+
+@variant
+class stays_operational_when_shutdown_fails(Base):
+    """Whose on_shutdown raises stays operational: the next stop tries again, a start starts only the others."""
+
+    def stop(self) -> None:
+        with self._operation():
+            failures = Failures()
+            for member in reversed(tuple(self.started)):
+                if failures.attempt(member.body.on_shutdown):
+                    member.state = State.CONFIGURING
+                    self.started.remove(member)
+            self.is_started = bool(self.started)
+            failures.report()
+
+    def start(self) -> None:
+        with self._operation():
+            self._check_startable()
+            failures = Failures()
+            for member in self._start_order():
+                if member not in self.started and not self._start_up(member, failures):
+                    self._shut_down_started(failures)
+                    failures.report()
+            self._begin_operation()
+
+
+@variant
+class stays_operational_below(manager_reaches_down, stays_operational_when_shutdown_fails):
+    """The same, and a stop of the manager that has failed leaves the sub-containers that are not stopped yet alone."""
+
+    def _also(self, own: Callable[[], None], below: Callable[[Container], None]) -> None:
+        own()
+        if not is_below(self):
+            for container in self.manager.sub_containers:
+                getattr(container, below.__name__)()
+
+
+@variant
+class attributes_by_name(Base):
+    """Attributes are set in the order of their names."""
+
+    def _set_attributes(self, member: object, attributes: Mapping[str, str]) -> None:
+        super()._set_attributes(member, dict(sorted(attributes.items())))  # type: ignore[arg-type]

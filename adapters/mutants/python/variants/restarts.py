@@ -1,0 +1,170 @@
+"""Conformant variants that use freedoms few would think of."""
+
+from __future__ import annotations
+
+from ucm_cts.adapters.contract.programming_model import PortElementObject
+from ucm_cts.adapters.mutants.python.registry import Base, is_below, variant
+from ucm_cts.adapters.mutants.python.variants.readings import (
+    appends_connections,
+    cascades,
+    manager_reaches_down,
+    starts_the_unconfigured,
+)
+from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
+
+
+def _take_down(member: Member, failures: Failures) -> None:
+    member.container.started.remove(member)
+    member.container._shut_down(member, failures)
+
+
+@variant
+class takes_clients_down(cascades):
+    """What loses a connection while it is operational is shut down first and waits for another start."""
+
+    def disconnect(self, connection: int) -> None:
+        started, self.is_started = self.is_started, False
+        try:
+            super().disconnect(connection)
+        finally:
+            self.is_started = started
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        if connection.client in connection.client.container.started:
+            _take_down(connection.client, failures)
+        super()._disconnect(connection, failures)
+
+
+@variant
+class restarts_clients(takes_clients_down, starts_the_unconfigured):
+    """The same; and what gets a connection while it is operational is shut down, told, and started again."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        started, self.is_started = self.is_started, False
+        try:
+            return super().connect(instance, port_name, to_port)
+        finally:
+            self.is_started = started
+
+    def _connect(self, connection: Connection) -> None:
+        client, failures = connection.client, Failures()
+        restarts = client.state is State.READY
+        if restarts:
+            _take_down(client, failures)
+        super()._connect(connection)
+        if restarts:
+            self._start_up(client, failures)
+        failures.report()
+
+
+@variant
+class restarts_clients_of_many(restarts_clients, appends_connections):
+    """The same, with any number of connections a port element."""
+
+
+@variant
+class reaches_down_first(manager_reaches_down):
+    """The manager's start begins with its sub-containers, and its stop ends with them."""
+
+    def start(self) -> None:
+        if not is_below(self):
+            for container in self.manager.sub_containers:
+                Container.start(container)
+        Container.start(self)
+
+
+@variant
+class lists_what_is_being_added(Base):
+    """A member is listed, and can be asked for port elements, as soon as its body is made."""
+
+    def _set_attributes(self, member: Member, attributes: object) -> None:
+        self.members[member.id] = member
+        super()._set_attributes(member, attributes)  # type: ignore[arg-type]
+
+    def _configure(self, member: Member, attributes: object) -> None:
+        try:
+            super()._configure(member, attributes)  # type: ignore[arg-type]
+        except Exception:
+            self.members.pop(member.id, None)
+            raise
+
+
+@variant
+class manager_knows_everyone(Base):
+    """The manager carries out what concerns members and connections of its sub-containers."""
+
+    def _find_member(self, number: int) -> Member:
+        for container in self.manager.sub_containers if not is_below(self) else ():
+            if number in container.members:
+                return container.members[number]
+        return super()._find_member(number)
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        if member.container is self:
+            super()._remove(member, failures)
+        else:
+            member.container._remove(member, failures)
+
+    def disconnect(self, connection: int) -> None:
+        found = self.manager.connections.get(connection)
+        container = found.client.container if found is not None and not is_below(self) else self
+        Container.disconnect(container, connection)
+
+
+@variant
+class leaves_started_what_was_started(Base):
+    """A start that meets what is unconfigured or raises leaves the others started; another start goes on from there."""
+
+    def start(self) -> None:
+        with self._operation():
+            failures = Failures()
+            for member in self._start_order():
+                if member.state is State.READY:
+                    continue
+                if all(self._is_connected(member, port) for port in member.implementation.requires):
+                    self._start_up(member, failures)
+                else:
+                    failures.first = failures.first or "not connected"
+            failures.report()
+            self._begin_operation()
+
+
+@variant
+class stops_half_way(Base):
+    """A stop ends where an on_shutdown raises; another stop goes on from there."""
+
+    def stop(self) -> None:
+        with self._operation():
+            while self.started:
+                failures = Failures()
+                self._shut_down(self.started.pop(), failures)
+                failures.report()
+            self.is_started = False
+
+
+@variant
+class keeps_what_it_could_not_announce(Base):
+    """A connection whose on_connect raises is made, one whose on_disconnect raises is kept; both raise UCM_ERROR."""
+
+    def _connect(self, connection: Connection) -> None:
+        self.manager.connections[connection.id] = connection
+        super()._connect(connection)
+
+    def _disconnect(self, connection: Connection, failures: Failures) -> None:
+        mine = Failures()
+        super()._disconnect(connection, mine)
+        if mine.first:
+            failures.first = failures.first or mine.first
+            self.manager.connections[connection.id] = connection
+
+
+@variant
+class keeps_what_it_could_not_remove(Base):
+    """A member whose on_remove raises stays."""
+
+    def _remove(self, member: Member, failures: Failures) -> None:
+        mine = Failures()
+        super()._remove(member, mine)
+        if mine.first:
+            failures.first = failures.first or mine.first
+            self.members[member.id] = member

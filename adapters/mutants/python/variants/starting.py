@@ -1,0 +1,348 @@
+"""Conformant variants that start, hand over, thread and make bodies in their own way; and many readings at once."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ucm_cts.adapters.contract.programming_model import (
+    ComponentObject,
+    Implementation,
+    PortConnection,
+    PortElementObject,
+    UcmError,
+)
+from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, variant
+from ucm_cts.adapters.mutants.python.variants.readings import (
+    adds_later,
+    appends_connections,
+    cascades,
+    configures_at_any_time,
+    lets_references_dangle,
+    manager_reaches_down,
+    refuses_repetition,
+    removes_members_one_by_one,
+    replaces_connections,
+    reuses_ids,
+    starts_in_reverse,
+    starts_late_additions,
+    starts_the_unconfigured,
+    starts_the_unconfigured_with_null,
+    swallows_exceptions,
+)
+from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
+
+# what on_startup gets
+
+
+@variant
+class one_entry_a_connection(appends_connections):
+    """Two connections of a port element make two entries of the list, the later one first."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return [PortConnection(c.port, (c.target,)) for c in reversed(self._connections_from(member))]
+
+
+@variant
+class lists_unconnected_ports(starts_the_unconfigured):
+    """What is not connected has an entry without references; entries come in an order of their own."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = {d.from_port: d for d in super()._dependencies_of(member)}
+        return [given.get(port, PortConnection(port, ())) for port in reversed(member.implementation.requires)]
+
+
+class _Entrance(PortElementObject):
+    """Closed until all members of a container have been started."""
+
+    def __init__(self, target: PortElementObject | None, container: Container) -> None:
+        self.target, self.container = target, container
+
+    def exchange(self, value: int) -> int:
+        if self.target is None or not self.container.is_started:
+            raise UcmError("nobody may be called yet")
+        return self.target.exchange(value)
+
+
+@variant
+class refuses_calls_while_it_starts(Base):
+    """Who calls another component in on_startup is refused: ports open when all members have been started."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        return [
+            PortConnection(d.from_port, tuple(_Entrance(target, self) for target in d.to_port))
+            for d in super()._dependencies_of(member)
+        ]
+
+
+@variant
+class proxies_between_components(Base):
+    """Components are given proxies at start; what get_port_element and on_connect give is the body's own object."""
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(self._proxy(t, member) for t in d.to_port)) for d in given]
+
+    def _proxy(self, target: PortElementObject | None, member: Member) -> PortElementObject | None:
+        return None if target is None else Proxy(target, member)
+
+
+@variant
+class proxies_of_appended(proxies_between_components, appends_connections):
+    """The same, with any number of connections a port element."""
+
+
+class _ReplacesAtAnyTime(replaces_connections, configures_at_any_time):
+    def _connect(self, connection: Connection) -> None:
+        for old in self._connections_from(connection.client):
+            if old.port == connection.port:
+                self._disconnect(old, Failures())
+        configures_at_any_time._connect(self, connection)
+
+
+@variant
+class proxies_of_replaced(proxies_between_components, _ReplacesAtAnyTime):
+    """The same, with connections that replace each other at any time."""
+
+
+class _Reserved(Proxy):
+    def exchange(self, value: int) -> int:
+        if self.member.state is not State.READY:
+            raise UcmError("not operational")
+        return self.target.exchange(value)
+
+
+@variant
+class refuses_calls_outside_operation(GivesOutProxies):
+    """Nobody reaches a component that is not operational: neither the test nor another component."""
+
+    proxy = _Reserved
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(self._reserved(t) for t in d.to_port)) for d in given]
+
+    def _reserved(self, target: PortElementObject | None) -> PortElementObject | None:
+        for container in (self.manager, *self.manager.sub_containers):
+            for member in container.members.values():
+                if any(target is member.body.get_portElement(port) for port in member.implementation.provides):
+                    return _Reserved(target, member)  # type: ignore[arg-type]
+        return target
+
+
+# threads
+
+
+def _elsewhere(work: Callable[..., Any]) -> Callable[..., Any]:
+    """``work``, done by a thread of its own and waited for."""
+
+    def call(*arguments: object) -> Any:
+        results: list[Any] = []
+        errors: list[Exception] = []
+
+        def run() -> None:
+            try:
+                results.append(work(*arguments))
+            except Exception as error:  # noqa: BLE001 - whatever it is, the caller gets it
+                errors.append(error)
+
+        thread = threading.Thread(target=run)
+        thread.start()
+        thread.join()
+        if errors:
+            raise errors[0]
+        return results[0]
+
+    return call
+
+
+class _Elsewhere(Proxy):
+    def exchange(self, value: int) -> int:
+        return _elsewhere(self.target.exchange)(value)  # type: ignore[no-any-return]
+
+
+@variant
+class executes_calls_elsewhere(_Elsewhere):
+    """Business calls of the test run on an executor's thread."""
+
+
+@variant
+class executes_peer_calls_elsewhere(proxies_between_components):
+    """Business calls between components run on an executor's thread."""
+
+    def _proxy(self, target: PortElementObject | None, member: Member) -> PortElementObject | None:
+        return None if target is None else _Elsewhere(target, member)
+
+
+@variant
+class operates_elsewhere(Base):
+    """Operations are carried out by another thread and waited for."""
+
+    add_component = _elsewhere(Container.add_component)
+    remove_component = _elsewhere(Container.remove_component)
+    connect = _elsewhere(Container.connect)
+    disconnect = _elsewhere(Container.disconnect)
+    start = _elsewhere(Container.start)
+    stop = _elsewhere(Container.stop)
+
+
+@variant
+class calls_back_elsewhere(Base):
+    """Each callback comes on a thread of its own and is waited for."""
+
+    _initialise = _elsewhere(Container._initialise)
+    _connect = _elsewhere(Container._connect)
+    _disconnect = _elsewhere(Container._disconnect)
+    _start_up = _elsewhere(Container._start_up)
+    _shut_down = _elsewhere(Container._shut_down)
+    _remove = _elsewhere(Container._remove)
+
+
+# bodies
+
+
+@variant
+class looks_at_a_prototype(Base):
+    """A body of each implementation is made to look at and thrown away."""
+
+    def _instantiate(self, implementation: Implementation) -> ComponentObject:
+        super()._instantiate(implementation)
+        return super()._instantiate(implementation)
+
+
+@variant
+class pools_bodies(Base):
+    """Bodies are made in threes, and taken from the pool in reverse."""
+
+    def _instantiate(self, implementation: Implementation) -> ComponentObject:
+        pools: dict[str, list[ComponentObject]] = self.manager.__dict__.setdefault("pools", {})
+        pool = pools.setdefault(implementation.name, [])
+        if not pool:
+            pool.extend(super(pools_bodies, self)._instantiate(implementation) for _ in range(3))
+        return pool.pop()
+
+
+@variant
+class removes_what_failed_to_initialise(Base):
+    """A body whose on_init raised is told on_remove."""
+
+    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
+        try:
+            super()._configure(member, attributes)
+        except Exception:
+            member.body.on_remove()
+            raise
+
+
+# starting
+
+
+@variant
+class starts_late_additions_when_connected(starts_late_additions):
+    """A component added to a started container starts as soon as its last port element is connected."""
+
+    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+        identifier = super().connect(instance, port_name, to_port)
+        member = self.members[instance]
+        connected = all(self._is_connected(member, port) for port in member.implementation.requires)
+        if self.is_started and member.state is not State.READY and connected:
+            self._start_up(member, Failures())
+        return identifier
+
+
+@variant
+class starts_late_additions_at_start(adds_later):
+    """start of a started container starts what was added later."""
+
+    def start(self) -> None:
+        with self._operation():
+            self._check_startable()
+            failures = Failures()
+            for member in self._start_order():
+                if member.state is not State.READY:
+                    self._start_up(member, failures)
+            self._begin_operation()
+            failures.report()
+
+
+@variant
+class starts_the_others(Base):
+    """When an on_startup raises, the others are started, stay so, and start raises UCM_ERROR."""
+
+    def start(self) -> None:
+        with self._operation():
+            if self.is_started:
+                return
+            self._check_startable()
+            failures = Failures()
+            for member in self._start_order():
+                self._start_up(member, failures)
+            self._begin_operation()
+            failures.report()
+
+
+@variant
+class shuts_down_what_failed_to_start(Base):
+    """When an on_startup raises, its own body is told on_shutdown like the others."""
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        if super()._start_up(member, failures):
+            return True
+        self.started.append(member)
+        return False
+
+
+@variant
+class finds_the_unconfigured_on_the_way(Base):
+    """What is unconnected is noticed when its turn has come: what was started by then is shut down again."""
+
+    def _check_startable(self) -> None:
+        pass
+
+    def _start_up(self, member: Member, failures: Failures) -> bool:
+        if not all(self._is_connected(member, port) for port in member.implementation.requires):
+            failures.first = "not connected"
+            return False
+        return super()._start_up(member, failures)
+
+
+@variant
+class disconnects_at_any_time(Base):
+    """disconnect works in a started container, connect does not; a Connectable is told in any phase."""
+
+    def disconnect(self, connection: int) -> None:
+        started, self.is_started = self.is_started, False
+        try:
+            super().disconnect(connection)
+        finally:
+            self.is_started = started
+
+
+# many readings at once
+
+
+@variant
+class everything_goes(
+    starts_late_additions, cascades, appends_connections, manager_reaches_down, reuses_ids, starts_in_reverse
+):
+    """Cascading, appending, reaching down, late and reversed starts, ids used again."""
+
+
+@variant
+class everything_else_goes(
+    _ReplacesAtAnyTime, cascades, manager_reaches_down, starts_the_unconfigured_with_null, refuses_repetition
+):
+    """Cascading, replacing at any time, starting without connections, strict about repetition."""
+
+
+@variant
+class anything_goes(
+    lets_references_dangle,
+    configures_at_any_time,
+    appends_connections,
+    swallows_exceptions,
+    starts_the_unconfigured,
+    removes_members_one_by_one,
+):
+    """Dangling references, appending at any time, deaf to failures."""

@@ -1,0 +1,1 @@
+"""Mutants that generate wrong IDL or C++ (clauses 12 to 14)."""

@@ -1,0 +1,1 @@
+"""Mutants that judge models wrongly (clause 9)."""

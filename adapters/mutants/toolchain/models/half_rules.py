@@ -1,0 +1,332 @@
+"""Tool chains that know the rules of clause 9 and look only half as far as they reach: the first of several, short circles, some types."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ucm_cts.adapters.contract.metamodel.common import Element, Named
+from ucm_cts.adapters.contract.metamodel.components import ComponentPortTechnicalPolicy, ComponentType
+from ucm_cts.adapters.contract.metamodel.contracts import (
+    INTEGER_RANGES,
+    Alias,
+    Annotation,
+    Interface,
+    Method,
+    PrimitiveFloat,
+)
+from ucm_cts.adapters.contract.metamodel.interactions import (
+    ConnectorDefinition,
+    InteractionPattern,
+    InteractionRole,
+    ItemBinding,
+    PortType,
+)
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, parent_of
+from ucm_cts.adapters.mutants.toolchain.checking import complains_only_where
+from ucm_cts.adapters.mutants.toolchain.registry import Holds, breaks, complaining_where, named
+from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
+
+
+def _is_declared(scope: Scope, reference: str) -> bool:
+    return scope.find(reference, Named) is not None
+
+
+@complains_only_where("inherits_from_interfaces", "R-9.2.7.1-02")
+def inherits_from_anything(one: Any, _: Any, scope: Scope) -> bool:
+    """Asks only whether what is inherited is declared, not as what."""
+    return not _is_declared(scope, one.interface)
+
+
+@complains_only_where("inherits_from_interfaces", "R-9.2.7.1-02")
+def inherits_from_nowhere(one: Any, _: Any, scope: Scope) -> bool:
+    """Does not mind what is declared nowhere."""
+    return _is_declared(scope, one.interface)
+
+
+@complains_only_where("raises_exceptions", "R-9.2.7.2-03")
+def raises_anything(one: Any, _: Any, scope: Scope) -> bool:
+    """Asks only whether what is raised is declared, not as what."""
+    return not _is_declared(scope, one.exception)
+
+
+@complains_only_where("interfaces_do_not_inherit_from_themselves", "R-9.2.7.1-05")
+def sees_only_interfaces_that_inherit_from_themselves(wrong: Interface, _: Model, _scope: Scope) -> bool:
+    """Sees circles of one interface and no longer ones."""
+    return wrong.name in {one.interface for one in wrong.inherited_interfaces}
+
+
+@complains_only_where("patterns_do_not_extend_themselves", "R-9.3.3.2-06")
+def sees_only_patterns_that_extend_themselves(wrong: Any, _: Any, _scope: Scope) -> bool:
+    """Sees circles of one pattern and no longer ones."""
+    return bool(wrong.extends == wrong.name)
+
+
+@complains_only_where("at_most_one_return_value", "R-9.2.7-11")
+def counts_only_neighbouring_returns(wrong: Any, method: Method, _: Scope) -> bool:
+    """Sees a second return value only right after the first one."""
+    where = next(n for n, one in enumerate(method.parameters) if one is wrong)
+    return method.parameters[where - 1].direction == "RETURN"
+
+
+@complains_only_where("has_a_definition", "R-9.2.9.4-01")
+def annotations_of_anything(wrong: Annotation, _: Annotation, scope: Scope) -> bool:
+    """Asks only whether the definition of an annotation is declared, not as what."""
+    return not _is_declared(scope, wrong.annotation_definition)
+
+
+@complains_only_where("values_name_parameters", "R-9.2.9.2-01")
+def values_of_known_definitions(wrong: Any, _: Annotation, scope: Scope) -> bool:
+    """Asks only whether the definition is there, not whether it has the parameter."""
+    return not _is_declared(scope, wrong.configuration_parameter.rpartition(".")[0])
+
+
+@complains_only_where("roles_are_not_redefined", "R-9.3.3.2-05")
+def sees_only_the_parents_roles(wrong: InteractionRole, pattern: InteractionPattern, scope: Scope) -> bool:
+    """Does not look at the roles of the parent's parent."""
+    parent = parent_of(Declared(pattern, scope))
+    return parent is not None and wrong.name in {role.name for role in getattr(parent.element, "roles", ())}
+
+
+@complains_only_where("bound_types_have_the_nature_of_the_item", "R-9.3.3.3-05")
+def interfaces_may_be_data(wrong: ItemBinding, _: ItemBinding, scope: Scope) -> bool:
+    """Does not mind an interface that stands for data."""
+    found = scope.member(wrong.interaction_item, InteractionPattern, "items")
+    return getattr(found and found.element, "nature", "") == "INTERFACE"
+
+
+@complains_only_where("bound_types_have_the_nature_of_the_item", "R-9.3.3.3-05")
+def data_may_be_interfaces(wrong: ItemBinding, _: ItemBinding, scope: Scope) -> bool:
+    """Does not mind a data type that stands for an interface."""
+    found = scope.member(wrong.interaction_item, InteractionPattern, "items")
+    return getattr(found and found.element, "nature", "") == "DATA"
+
+
+@complains_only_where("multiplicities_are_a_range", "R-9.3.3.4-04")
+def compares_with_one_only(role: Any, _: Any, _scope: Scope) -> bool:
+    """Compares multiplicities only where the upper one is 1."""
+    return bool(role.upper_multiplicity == 1)
+
+
+@complains_only_where("multiplicities_are_not_negative", "R-9.3.3.4-04", declares=("negative-multiplicities=refused",))
+def looks_at_lower_multiplicities_only(role: Any, _: Any, _scope: Scope) -> bool:
+    """Says that it refuses negative multiplicities, and takes any negative number for an upper one."""
+    return (role.lower_multiplicity or 0) < 0
+
+
+@complains_only_where("multiplicities_are_not_negative", "R-9.3.3.4-04", declares=("negative-multiplicities=refused",))
+def looks_at_upper_multiplicities_only(role: Any, _: Any, _scope: Scope) -> bool:
+    """Says that it refuses negative multiplicities, and takes any number for a lower one."""
+    return (role.upper_multiplicity or 0) < -1
+
+
+@complains_only_where("roles_involve_items_of_the_pattern", "R-9.3.3.4-06")
+def involves_items_of_any_pattern(wrong: Any, _: InteractionPattern, scope: Scope) -> bool:
+    """Asks only whether some pattern of the module has the item that a role involves."""
+    patterns = [d.element for known in scope.members.values() for d in known]
+    return wrong.item not in {item.name for pattern in patterns for item in getattr(pattern, "items", ())}
+
+
+@complains_only_where("ports_play_roles_of_the_pattern", "R-9.3.4-03")
+def plays_roles_of_any_pattern(wrong: Any, _: ConnectorDefinition, scope: Scope) -> bool:
+    """Asks only whether the role of a connector port is there, not of which pattern it is."""
+    return scope.member(wrong.port_role, InteractionPattern, "roles") is None
+
+
+@complains_only_where("bindings_are_of_items_of_the_pattern", "R-9.3.4.6-02")
+def binds_items_of_any_pattern(wrong: Any, _: ConnectorDefinition, scope: Scope) -> bool:
+    """Asks only whether the item of a binding is there, not of which pattern it is."""
+    return scope.member(wrong.interaction_item, InteractionPattern, "items") is None
+
+
+@complains_only_where("refines_a_pattern", "R-9.3.4-01")
+def refines_anything(wrong: ConnectorDefinition, _: ConnectorDefinition, scope: Scope) -> bool:
+    """Asks only whether what a connector refines is declared, not as what."""
+    return not _is_declared(scope, wrong.pattern)
+
+
+@complains_only_where("apis_are_port_types", "R-9.3.4.4-01")
+def anything_is_an_api(wrong: Any, _: Any, scope: Scope) -> bool:
+    """Asks only whether the API of a connector port is declared, not as what."""
+    return not _is_declared(scope, wrong.api)
+
+
+@complains_only_where("items_are_bound_to_types", "R-9.3.4.6-03")
+def binds_items_to_anything(wrong: Any, _: Any, scope: Scope) -> bool:
+    """Asks only whether what an item is bound to is declared, not as what."""
+    return not _is_declared(scope, wrong.connector_item)
+
+
+@complains_only_where("port_elements_have_interfaces", "R-9.3.5.2-02")
+def port_elements_have_anything(wrong: Any, _: PortType, scope: Scope) -> bool:
+    """Asks only whether the interface of a port element is declared, not as what."""
+    return not _is_declared(scope, wrong.interface)
+
+
+@complains_only_where("ports_of_an_item_handle_its_type", "R-9.3.3.4-07")
+def only_the_first_port_handles_items(wrong: Any, connector: ConnectorDefinition, _: Scope) -> bool:
+    """Does not mind a later port that does not handle the type of an item."""
+    return wrong is connector.ports[0]
+
+
+def _seldom(name: str, lie: str, requirement: str, rule: str, holds: Holds, *also: str) -> None:
+    """Register a mutant in which the complaints of ``rule`` count only where ``holds``."""
+    derive = named(lambda program: complaining_where(program, rule, holds), name, lie)
+    breaks(requirement, also=also)(derive)
+
+
+_CIRCLES = (
+    ("aliases_lead_to_other_types", "names", "R-9.2.4.2-03"),
+    ("structures_are_finite", "contains", "R-9.2.4.3-06"),
+    ("arrays_are_finite", "contains", "R-9.2.4.9-01"),
+    ("interfaces_do_not_inherit_from_themselves", "inherits from", "R-9.2.7.1-05"),
+    ("patterns_do_not_extend_themselves", "extends", "R-9.3.3.2-06"),
+    ("definitions_do_not_extend_themselves", "extends", "R-9.4.3.2-14"),
+    ("types_do_not_refine_themselves", "refines", "R-9.5.3.1-11"),
+    ("composites_do_not_contain_themselves", "contains", "R-9.5.5.3-04"),
+)
+
+
+def _is_short(verb: str) -> Holds:
+    return lambda _wrong, _element, _scope, message: message.count(f" {verb} ") < 4
+
+
+for _rule, _verb, _requirement in _CIRCLES:
+    _seldom(f"short_circles_{_rule}", "Sees circles of up to three.", _requirement, _rule, _is_short(_verb))
+
+
+def _is_not_of(kind: str) -> Holds:
+    def holds(wrong: Any, _element: Element, scope: Scope, _message: str) -> bool:
+        found = actual_type(wrong.type, scope)
+        return not (found is not None and getattr(found.element, "kind", None) == kind)
+
+    return holds
+
+
+def _says_nothing_of(words: str) -> Holds:
+    return lambda _wrong, _element, _scope, message: words not in message
+
+
+for _kind in INTEGER_RANGES:
+    _lie = f"Minds defaults of all types but {_kind}."
+    _seldom(
+        f"any_default_of_{_kind.lower()}",
+        _lie,
+        "R-9.2.2.7-01",
+        "defaults_are_values_of_their_types",
+        _is_not_of(_kind),
+        "R-9.2.2.6-02",
+    )
+    _lie = f"Minds values of parameters of all types but {_kind}."
+    _seldom(
+        f"any_value_of_{_kind.lower()}",
+        _lie,
+        "R-9.2.9.2-03",
+        "values_fit_their_parameters",
+        _says_nothing_of(f"{_kind} holds"),
+    )
+
+
+def _is_no(kind: type[Element]) -> Holds:
+    def holds(wrong: Any, _element: Element, scope: Scope, _message: str) -> bool:
+        found = actual_type(wrong.type, scope)
+        return not (found is not None and isinstance(found.element, kind))
+
+    return holds
+
+
+_DEFAULTS = "defaults_are_values_of_their_types"
+_seldom("any_default_of_floats", "Does not look at floats.", "R-9.2.2.7-01", _DEFAULTS, _is_no(PrimitiveFloat))
+_seldom(
+    "any_default_by_alias",
+    "Does not follow aliases.",
+    "R-9.2.2.7-01",
+    _DEFAULTS,
+    lambda wrong, _element, scope, _message: scope.find(wrong.type, Alias) is None,
+)
+_seldom(
+    "any_default_of_components",
+    "Does not look at the attributes of component types.",
+    "R-9.2.2.7-01",
+    _DEFAULTS,
+    lambda _wrong, _element, scope, _message: not scope.path.startswith("::comp"),
+)
+_seldom(
+    "booleans_have_any_value",
+    "Takes any literal for a truth value.",
+    "R-9.2.9.2-03",
+    "values_fit_their_parameters",
+    _says_nothing_of("neither TRUE"),
+)
+
+
+def _is_among_the_first(members: str) -> Holds:
+    return lambda wrong, element, _scope, _message: wrong in getattr(element, members)[:2]
+
+
+_FIRST_TWO = (
+    ("ports_differ", "ports", "R-9.1.4.1-02"),
+    ("parts_differ", "parts", "R-9.1.4.1-02"),
+    ("index_values_are_in_range", "enumerators", "R-9.2.4.8-03"),
+    ("sizes_are_in_range", "dimensions", "R-9.2.4.11-03"),
+)
+
+for _rule, _members, _requirement in _FIRST_TWO:
+    _seldom(
+        f"first_two_{_members}",
+        f"Looks at the first two {_members} only.",
+        _requirement,
+        _rule,
+        _is_among_the_first(_members),
+    )
+
+_seldom(
+    "neighbouring_defaults",
+    "Sees a second default case right after the first case only.",
+    "R-9.2.4.6-08",
+    "one_case_is_the_default",
+    lambda wrong, union, _scope, _message: wrong is union.cases[1],
+)
+_seldom(
+    "attributes_of_components_of_one_name",
+    "Does not look at the attributes of component types.",
+    "R-9.1.4.1-02",
+    "attributes_differ",
+    lambda _wrong, owner, _scope, _message: not isinstance(owner, ComponentType),
+)
+_seldom(
+    "first_exception_only",
+    "Looks at the first exception that a method raises.",
+    "R-9.2.7.2-03",
+    "raises_exceptions",
+    lambda wrong, method, _scope, _message: wrong is method.raised_exceptions[0],
+)
+
+
+def _is_not_nested(_wrong: Any, _element: Any, scope: Scope, _message: str) -> bool:
+    return scope.path.count("::") < 2
+
+
+_seldom(
+    "outermost_connectors_only",
+    "Does not look at connectors in modules of modules.",
+    "R-9.3.4-01",
+    "refines_a_pattern",
+    _is_not_nested,
+)
+_seldom(
+    "outermost_definitions_only",
+    "Does not look at policy definitions in modules of modules.",
+    "R-9.4.3.2-03",
+    "specifies_an_aspect",
+    _is_not_nested,
+)
+
+
+_seldom(
+    "binds_only_in_policies_on_components",
+    "Looks at the bindings of policies on components, not on ports.",
+    "R-9.5.4.2-11",
+    "policies_bind_abstract_types",
+    lambda _wrong, policy, _scope, _message: not isinstance(policy, ComponentPortTechnicalPolicy),
+)

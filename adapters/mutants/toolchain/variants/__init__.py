@@ -1,0 +1,1 @@
+"""Conformant variants of the reference tool chain."""
