@@ -34,7 +34,7 @@ from ucm_cts.harness.hosting.hosts import Hosts
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.values import Incident
-from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, examine_mutant
+from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant
 from ucm_cts.reference_models.monitor import Monitor
 
 BATCH = 400

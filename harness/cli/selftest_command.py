@@ -14,13 +14,13 @@ from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.order import clause_key
 from ucm_cts.harness.report.write import prepare_folder
-from ucm_cts.harness.selftest.cheating import all_cheats
-from ucm_cts.harness.selftest.conducting import Conduct, Result
-from ucm_cts.harness.selftest.killing import Subject, Thoroughness, all_mutants, all_variants, names
+from ucm_cts.harness.selftest.cheat_trials import all_cheats
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult, by_clause
 from ucm_cts.harness.selftest.models_killing import all_models
 from ucm_cts.harness.selftest.page import write_matrix
+from ucm_cts.harness.selftest.running import Result, SelfTest
 from ucm_cts.harness.selftest.toolchains import ToolChainSubject, all_subjects
+from ucm_cts.harness.selftest.trials import Subject, Thoroughness, all_mutants, all_variants, names
 
 TOLD_EVERY = 50
 """Without a terminal, progress is printed each time this many subjects have been examined."""
@@ -75,7 +75,7 @@ def selftest(
     if listed:
         _list(chosen, cheats, models, console)
         return
-    conduct = Conduct(
+    conduct = SelfTest(
         [subject for subject in chosen if subject.breaks],
         [subject for subject in chosen if not subject.breaks and not quick],
         Thoroughness(seed, whole, quick),
@@ -112,7 +112,7 @@ def _list(
         console.print(f"models of {requirement} are spoilt, in every way", markup=False, soft_wrap=True)
 
 
-def _conduct(conduct: Conduct, console: Output) -> bool:
+def _conduct(conduct: SelfTest, console: Output) -> bool:
     """Run all subjects. Returns True if interrupted."""
     done = wrong = 0
     with ends_like_interrupts(), progress_of(console) as progress:

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ucm_cts.adapters.mutants.cpp import COMMAND, native_mutants
-from ucm_cts.harness.selftest.killing import Thoroughness, examine_mutant, native_subject
 from ucm_cts.harness.selftest.matrix import MutantResult
+from ucm_cts.harness.selftest.trials import Thoroughness, examine_mutant, native_subject
 
 OFTEN_ENOUGH = 0.95
 """In this part of the runs a mutant must be found out."""

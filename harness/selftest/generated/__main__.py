@@ -19,7 +19,7 @@ from ucm_cts.harness.selftest.generated import python_programs
 from ucm_cts.harness.selftest.generated.cpp_programs import CONCERNED, EQUIVALENTS, CppFramework, DoesNotCompile
 from ucm_cts.harness.selftest.generated.mutants import GENERATED, GeneratedMutant
 from ucm_cts.harness.selftest.generated.page import Tally, page
-from ucm_cts.harness.selftest.generated.quick_trial import Glancer
+from ucm_cts.harness.selftest.generated.quick_trial import QuickTrials
 from ucm_cts.harness.selftest.generated.record import Result, append, read_equivalents, read_results
 from ucm_cts.harness.selftest.generated.trial import Outcome, ordered, stated, try_out
 
@@ -49,26 +49,28 @@ def main() -> None:
 @limit_option
 @part_option
 @again_option
-@click.option("--glance-only", is_flag=True, help="Leave out what takes the whole pipeline to tell.")
-def python(results: Path, limit: int | None, part: str, again: str, glance_only: bool) -> None:
+@click.option(
+    "--quick-only", "--glance-only", "quick_only", is_flag=True, help="Leave out what takes the whole pipeline to tell."
+)
+def python(results: Path, limit: int | None, part: str, again: str, quick_only: bool) -> None:
     """Mutants of the Python reference framework."""
     candidates, census = python_programs.candidates()
     _tell(f"{len(candidates)} mutants to run; {dict(census)}")
     statement = stated(python_programs.HOME / "ics.toml")
-    glancer = Glancer(statement, ordered(statement, ()), SEED)
-    glancer.learn(Engine(ReferenceAdapter))
+    quick_trials = QuickTrials(statement, ordered(statement, ()), SEED)
+    quick_trials.learn(Engine(ReferenceAdapter))
     known = read_results(results)
     drawn = _drawn(candidates, limit, part)
     for mutant in _left(drawn, known, again):
-        with python_programs.python_door(mutant) as endpoint:
-            glance = glancer.look(endpoint, python_programs.CONCERNED[mutant.file])
-        known[mutant.digest] = glance.outcome or Outcome("open", glance.suspect)
+        with python_programs.python_endpoint(mutant) as endpoint:
+            trial = quick_trials.try_out(endpoint, python_programs.CONCERNED[mutant.file])
+        known[mutant.digest] = trial.outcome or Outcome("open", trial.suspect)
         append(results, mutant, known[mutant.digest])
     reasons = read_equivalents(python_programs.EQUIVALENTS)
-    for mutant in [] if glance_only else drawn:
+    for mutant in [] if quick_only else drawn:
         outcome = known[mutant.digest]
         if outcome.fate == "open" and mutant.key not in reasons:
-            with python_programs.python_door(mutant) as endpoint:
+            with python_programs.python_endpoint(mutant) as endpoint:
                 outcome = try_out(endpoint, statement, python_programs.CONCERNED[mutant.file], outcome.by, SEED)
             append(results, mutant, outcome)
             _tell(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")

@@ -139,7 +139,7 @@ class _Bare(ast.NodeTransformer):
 
 
 @contextmanager
-def python_door(mutant: GeneratedMutant | None) -> Iterator[str]:
+def python_endpoint(mutant: GeneratedMutant | None) -> Iterator[str]:
     """The adapter of the framework with ``mutant`` in it, or of the framework as it is, while in the ``with`` statement."""
     with TemporaryDirectory(prefix="mutant-") as folder:
         package = Path(folder) / _PACKAGE

@@ -1,7 +1,7 @@
-"""A quick look at a mutated Python framework, in a forked process of this one: most mutants need no more.
+"""Quick trials of mutated Python frameworks, in a forked process of this one: most mutants need no more.
 
-Only what cannot be doubted counts here: a failure that is shown again with more patience, and a framework that cannot be
-loaded. Everything else is for the ordinary pipeline, which is told where to look first.
+A quick trial reports a failure that a second run with more patience shows again, and a framework that cannot be loaded.
+The ordinary pipeline decides all other cases; the quick trial tells it which purpose to run first.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
 
 SECONDS = 10
-"""What a scenario may take before the glance is given up."""
+"""What a scenario may take before the quick trial is given up."""
 
 BYTES = 4 << 30
 """Address space that a forked process may take beside what it has from its parent."""
@@ -48,7 +48,7 @@ FAVOURITES = 40
 """Scenarios that found out most mutants so far are tried first."""
 
 
-class Glance(Value, frozen=True):
+class QuickTrial(Value, frozen=True):
     """``outcome`` if there is one already; otherwise ``suspect`` is the purpose in which something went wrong, if any did."""
 
     outcome: Outcome | None = None
@@ -76,8 +76,8 @@ _TIME = re.compile(rb'"(t|calendar)":\d+')
 
 
 @dataclass
-class Glancer:
-    """Glances at one framework's mutants after the other, and learns which scenarios find out most."""
+class QuickTrials:
+    """Tries one mutant after the other, and learns which scenarios find out most of them."""
 
     statement: Statement
     purposes: Sequence[TestPurpose]
@@ -86,7 +86,7 @@ class Glancer:
     _prepared: list[Prepared] = field(default_factory=list)
     _killers: Counter[str] = field(default_factory=Counter)
     _right: set[bytes] = field(default_factory=set)
-    _watch: ClockGaps | None = None
+    _clock_gaps: ClockGaps | None = None
 
     def __post_init__(self) -> None:
         disguise, payloads = Disguise(self.seed, "{port}_{element}"), Payloads(self.seed)
@@ -100,8 +100,8 @@ class Glancer:
                     )
         self._monitor = Monitor(load_life_cycle(), self.statement.ics)
 
-    def look(self, adapter: str, clauses: Sequence[str]) -> Glance:
-        """Look at ``adapter``, ``package.module:Class``, whose package can be found; ``clauses`` come first."""
+    def try_out(self, adapter: str, clauses: Sequence[str]) -> QuickTrial:
+        """Try ``adapter``, ``package.module:Class``, whose package can be found; purposes of ``clauses`` come first."""
         began = time.monotonic()
         reading, writing = os.pipe()
         child = os.fork()
@@ -114,12 +114,14 @@ class Glancer:
             os.kill(child, signal.SIGKILL)
         os.waitpid(child, 0)
         *at, last = told.split(b"\n") or [b""]
-        glance = msgspec.json.decode(last, type=Glance) if last.startswith(b"{") else Glance(None, _last(at, last))
-        if glance.outcome is not None:
-            self._killers[glance.outcome.scenario] += 1
+        trial = (
+            msgspec.json.decode(last, type=QuickTrial) if last.startswith(b"{") else QuickTrial(None, _last(at, last))
+        )
+        if trial.outcome is not None:
+            self._killers[trial.outcome.scenario] += 1
             seconds = round(time.monotonic() - began, 2)
-            return Glance(msgspec.structs.replace(glance.outcome, seconds=seconds))
-        return glance
+            return QuickTrial(msgspec.structs.replace(trial.outcome, seconds=seconds))
+        return trial
 
     def _be_child(self, adapter: str, clauses: tuple[str, ...], writing: int) -> None:
         most = _address_space() + BYTES
@@ -128,18 +130,18 @@ class Glancer:
         os.dup2(null, 1)
         os.dup2(null, 2)
         try:
-            self._watch = ClockGaps().start()
+            self._clock_gaps = ClockGaps().start()
             os.write(writing, msgspec.json.encode(self._examine(adapter, clauses, writing)))
         finally:
             os._exit(0)
 
-    def _examine(self, adapter: str, clauses: tuple[str, ...], writing: int) -> Glance:
+    def _examine(self, adapter: str, clauses: tuple[str, ...], writing: int) -> QuickTrial:
         module, _, name = adapter.partition(":")
         sys.dont_write_bytecode = True
         try:
             engine = Engine(getattr(importlib.import_module(module), name))
         except BaseException as error:  # noqa: BLE001 - whatever a mutant does
-            return Glance(Outcome("not loaded", type(error).__name__, told=str(error)))
+            return QuickTrial(Outcome("not loaded", type(error).__name__, told=str(error)))
         favourites = {name for name, _ in self._killers.most_common(FAVOURITES)}
 
         def late(one: Prepared) -> tuple[bool, bool]:
@@ -149,11 +151,11 @@ class Glancer:
             os.write(writing, one.purpose.encode() + b"\n")
             findings = self._findings(engine, one)
             if findings is None:
-                return Glance(None, one.purpose)
+                return QuickTrial(None, one.purpose)
             if findings and (again := self._findings(engine, one.patiently())):
                 first = again[0]
-                return Glance(Outcome("failed", first.requirement, one.name, f"{first.rule}: {first.observed}"))
-        return Glance()
+                return QuickTrial(Outcome("failed", first.requirement, one.name, f"{first.rule}: {first.observed}"))
+        return QuickTrial()
 
     def _findings(self, engine: Engine, one: Prepared) -> list[Finding] | None:
         """What is wrong, less what a stall of the machine may have caused; None if it takes the pipeline to tell."""
@@ -165,7 +167,7 @@ class Glancer:
             return None
         if contradiction(one.scenario, reply.events, bool(reply.stuck)) is not None:
             return None
-        stalled = self._watch is None or self._watch.longest(reply.events)
+        stalled = self._clock_gaps is None or self._clock_gaps.longest(reply.events)
         found = self._monitor.judge(one.scenario, reply.events).findings
         return [finding for finding in found if not (stalled and is_timed(finding))]
 

@@ -8,7 +8,7 @@ import pytest
 from folders import ROOT
 
 from ucm_cts.adapters.mutants.python import CHEATS, UNSEEN, Cheat
-from ucm_cts.harness.selftest.cheating import examine_cheat
+from ucm_cts.harness.selftest.cheat_trials import examine_cheat
 
 
 @pytest.mark.parametrize("cheat", CHEATS.values(), ids=CHEATS.keys())

@@ -11,7 +11,7 @@ from cpp_builds import Builds
 from ucm_cts.adapters.mutants.cpp import VARIABLE, NativeMutant, native_mutants
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.purposes.selection import load_purposes
-from ucm_cts.harness.selftest.killing import Thoroughness, examine_mutant, native_subject
+from ucm_cts.harness.selftest.trials import Thoroughness, examine_mutant, native_subject
 
 QUICK = {
     "crashes_in_remove": "whole-life",

@@ -24,7 +24,7 @@ from ucm_cts.harness.selftest.generated.mutants import (
     generate,
 )
 from ucm_cts.harness.selftest.generated.page import Tally, page
-from ucm_cts.harness.selftest.generated.quick_trial import Glancer
+from ucm_cts.harness.selftest.generated.quick_trial import QuickTrials
 from ucm_cts.harness.selftest.generated.record import Result, append, read_equivalents, read_results
 from ucm_cts.harness.selftest.generated.trial import Outcome, ordered, stated
 
@@ -126,14 +126,14 @@ def test_other_programs_and_none() -> None:
 def test_a_glance_finds_out_a_mutant_and_spares_the_framework() -> None:
     statement = stated(python_programs.HOME / "ics.toml")
     purposes = select(tuple(ordered(statement, ("12.10",))), "R-11.2.2.1-07")[:5]
-    glancer = Glancer(statement, purposes, 1)
-    glancer.learn(Engine(ReferenceAdapter))
-    with python_programs.python_door(None) as endpoint:
-        right = glancer.look(endpoint, ())
-    with python_programs.python_door(of_framework("self.members[member.id] = member", "pass")) as endpoint:
-        forgets = glancer.look(endpoint, ())
-    with python_programs.python_door(of_framework("import itertools", "import iter_tools")) as endpoint:
-        broken = glancer.look(endpoint, ())
+    quick_trials = QuickTrials(statement, purposes, 1)
+    quick_trials.learn(Engine(ReferenceAdapter))
+    with python_programs.python_endpoint(None) as endpoint:
+        right = quick_trials.try_out(endpoint, ())
+    with python_programs.python_endpoint(of_framework("self.members[member.id] = member", "pass")) as endpoint:
+        forgets = quick_trials.try_out(endpoint, ())
+    with python_programs.python_endpoint(of_framework("import itertools", "import iter_tools")) as endpoint:
+        broken = quick_trials.try_out(endpoint, ())
     assert right.outcome is None
     assert not right.suspect
     assert forgets.outcome is not None
@@ -144,10 +144,10 @@ def test_a_glance_finds_out_a_mutant_and_spares_the_framework() -> None:
 
 def test_a_framework_that_hangs_is_suspect() -> None:
     statement = stated(python_programs.HOME / "ics.toml")
-    glancer = Glancer(statement, ordered(statement, ())[:1], 1, silence=1)
+    quick_trials = QuickTrials(statement, ordered(statement, ())[:1], 1, silence=1)
     hangs = of_framework("self._shut_down(self.started.pop(), failures)", "pass")
-    with python_programs.python_door(hangs) as endpoint:
-        assert glancer.look(endpoint, ()).suspect == ordered(statement, ())[0].id
+    with python_programs.python_endpoint(hangs) as endpoint:
+        assert quick_trials.try_out(endpoint, ()).suspect == ordered(statement, ())[0].id
 
 
 def test_results_are_kept_one_by_one_and_the_last_word_counts(tmp_path: Path) -> None:

@@ -19,12 +19,12 @@ from ucm_cts.adapters.contract.messages import Traced
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Enter, Trace
 from ucm_cts.adapters.mutants.python import MUTANTS
-from ucm_cts.harness.selftest.conducting import Conduct
 from ucm_cts.harness.selftest.divergence import divergence
-from ucm_cts.harness.selftest.killing import Thoroughness, all_mutants, examine_mutant, examine_variant
 from ucm_cts.harness.selftest.matrix import Matrix
 from ucm_cts.harness.selftest.models_killing import all_models, examine_models
 from ucm_cts.harness.selftest.page import to_html
+from ucm_cts.harness.selftest.running import SelfTest
+from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant, examine_variant
 from ucm_cts.reference_models.findings import Finding
 
 ASKED = scenario(
@@ -126,7 +126,7 @@ def test_wrong_framework_is_no_conformant_variant() -> None:
 
 def test_subject_that_cannot_be_had_is_not_killed_and_no_others_suffer() -> None:
     there, gone = all_mutants()["initialises_at_stop"], replace(all_mutants()["delivers_twice"], adapter="no.such:One")
-    conduct = Conduct([gone, replace(there, clauses=("11.2.1.2",))], [], QUICK, jobs=2)
+    conduct = SelfTest([gone, replace(there, clauses=("11.2.1.2",))], [], QUICK, jobs=2)
     heard: list[str] = []
     conduct.run(lambda result: heard.append(result.name))
     assert sorted(heard) == ["delivers_twice", "initialises_at_stop"]

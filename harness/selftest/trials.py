@@ -1,7 +1,8 @@
-"""Runs one mutant, or one conformant variant, through the ordinary pipeline and tells what became of it."""
+"""Trials of one mutant or one conformant variant: the ordinary pipeline examines it, and the result says what failed and why."""
 
 from __future__ import annotations
 
+import atexit
 import functools
 import time
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -35,11 +36,11 @@ from ucm_cts.reference_models.monitor import Monitor
 PATIENCE = 500
 """Milliseconds, as a vendor would declare them: mutants often never do what is waited for, and their machine is this one."""
 
-LOOKS = 25
-"""So many findings for one requirement are compared with what the right framework does, those of short scenarios first."""
+COMPARED = 25
+"""The number of findings for a requirement that are compared with the trace of the right framework, short scenarios first."""
 
 LIMITS = Limits(seconds=3, incident_seconds=20)
-"""A mutant that hangs is not waited for longer."""
+"""What a trial waits for a mutant that hangs."""
 
 _DERIVED = "ucm_cts.adapters.mutants.python"
 
@@ -48,10 +49,11 @@ Shown = tuple[Finding, Execution]
 
 @dataclass(frozen=True)
 class Subject:
-    """Somebody whose verdicts are known: ``adapter`` names it, ``model`` the framework it was made from, ``reference`` the
-    reference framework below both, whose statement holds but for its own ``readings``.
+    """A framework whose verdicts are known.
 
-    ``breaks`` are the requirements it must fail, none for a conformant variant; ``also`` those that it may fail, too.
+    ``adapter`` is its endpoint, ``model`` that of the framework it was made from. It has the statement of ``reference``, the
+    reference framework below both, but for its own ``readings``. It must fail the requirements ``breaks``, none for a
+    conformant variant, and may fail those of ``also``.
     """
 
     name: str
@@ -111,7 +113,7 @@ def all_variants() -> dict[str, Subject]:
 
 
 def examine_mutant(subject: Subject, how: Thoroughness) -> MutantResult:
-    """Is ``subject`` found out, for the right reason?"""
+    """The trial of a mutant: which requirements fail, and whether for the right reason."""
     ran = _run(subject, how)
     kills = tuple(ran.kill(subject, requirement) for requirement in sorted(ran.shown))
     return MutantResult(
@@ -130,14 +132,14 @@ def examine_mutant(subject: Subject, how: Thoroughness) -> MutantResult:
 
 
 def examine_variant(subject: Subject, how: Thoroughness) -> VariantResult:
-    """Is nothing held against ``subject``?"""
+    """The trial of a conformant variant: what fails although nothing may."""
     ran = _run(subject, how)
     failed = tuple(ran.kill(subject, requirement) for requirement in sorted(ran.shown))
     return VariantResult(subject.name, failed, ran.incidents, ran.scenarios, ran.seconds, ran.trouble)
 
 
 @dataclass
-class _Ran:
+class _Trial:
     """What the ordinary pipeline showed of one subject."""
 
     seed: int
@@ -149,11 +151,11 @@ class _Ran:
     trouble: str = ""
 
     def kill(self, subject: Subject, requirement: str) -> Kill:
-        """The finding that tells best why ``requirement`` failed."""
+        """The finding that says best why ``requirement`` failed."""
         known = self.right.get(requirement)
         if known is not None:
             return known
-        by_length = sorted(self.shown[requirement], key=lambda shown: length(shown[1]))[:LOOKS]
+        by_length = sorted(self.shown[requirement], key=lambda shown: length(shown[1]))[:COMPARED]
         for number, (finding, execution) in enumerate(by_length, 1):
             if _names_the_place(subject, self.seed, finding, execution):
                 self.right[requirement] = _kill(finding, execution, True, number)
@@ -161,8 +163,8 @@ class _Ran:
         return _kill(*by_length[0], False, len(by_length))
 
 
-def _run(subject: Subject, how: Thoroughness) -> _Ran:
-    ran = _Ran(how.seed)
+def _run(subject: Subject, how: Thoroughness) -> _Trial:
+    ran = _Trial(how.seed)
     began = time.monotonic()
     profile = "core" if how.whole or subject.clauses != CONTAINER else "container"
     statement = _statement(subject)
@@ -187,7 +189,7 @@ def _being(subject: Subject) -> AbstractContextManager[None]:
     return being(subject.name) if subject.is_native else nullcontext()
 
 
-def _is_enough(ran: _Ran, subject: Subject) -> bool:
+def _is_enough(ran: _Trial, subject: Subject) -> bool:
     return (any if subject.is_rare else all)(
         requirement in ran.shown and ran.kill(subject, requirement).names_the_place for requirement in subject.breaks
     )
@@ -217,7 +219,10 @@ def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_
 
 
 def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: Execution) -> bool:
-    """A framework that dies or hangs is named by that alone, one that says what it does not do by what it says."""
+    """Whether the finding is about what the mutant does otherwise than its model.
+
+    An incident always is. Where only the statement is wrong, the finding must vanish under the statement of the model.
+    """
     if execution.incident is not None:
         return True
     right = _right_traces(subject.model, seed).of(execution.scenario)
@@ -230,14 +235,18 @@ def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: E
 
 
 class _RightTraces:
-    """What the framework from which mutants were made does with a scenario."""
+    """The traces of the framework from which mutants were made."""
 
     def __init__(self, adapter: str, seed: int) -> None:
         self._driver = Driver(locate(adapter), seed)
         self._known: dict[bytes, Trace] = {}
 
+    def close(self) -> None:
+        """End the host."""
+        self._driver.__exit__(None, None, None)
+
     def of(self, scenario: Scenario) -> Trace:
-        """The trace, in the scenario's own names; empty if the framework did not come back."""
+        """The trace of ``scenario``, in its own names; empty if the framework did not come back."""
         key = msgspec.json.encode(scenario)
         if key not in self._known:
             (answer,) = self._driver.run([("right", scenario)])
@@ -247,8 +256,10 @@ class _RightTraces:
 
 @functools.cache
 def _right_traces(adapter: str, seed: int) -> _RightTraces:
-    """One for each process; its host ends with the process."""
-    return _RightTraces(adapter, seed)
+    """One for each process, which keeps its host from trial to trial and ends it at exit."""
+    traces = _RightTraces(adapter, seed)
+    atexit.register(traces.close)
+    return traces
 
 
 T = TypeVar("T")

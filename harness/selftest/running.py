@@ -1,4 +1,4 @@
-"""Conducts a self-test: all mutants and conformant variants, several at a time, each in the ordinary pipeline."""
+"""Runs a self-test: all mutants, conformant variants and cheats, several at a time, each in the ordinary pipeline."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from dataclasses import dataclass, field
 import ucm_cts
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.models.core_models import CHECKS
-from ucm_cts.harness.selftest.cheating import all_cheats, examine_cheat
-from ucm_cts.harness.selftest.killing import (
+from ucm_cts.harness.selftest.cheat_trials import all_cheats, examine_cheat
+from ucm_cts.harness.selftest.matrix import CheatResult, Matrix, MutantResult, VariantResult
+from ucm_cts.harness.selftest.models_killing import examine_models
+from ucm_cts.harness.selftest.toolchains import ToolChainSubject, examine_toolchain, testable_of_toolchains
+from ucm_cts.harness.selftest.trials import (
     Subject,
     Thoroughness,
     examine_mutant,
     examine_variant,
 )
-from ucm_cts.harness.selftest.matrix import CheatResult, Matrix, MutantResult, VariantResult
-from ucm_cts.harness.selftest.models_killing import examine_models
-from ucm_cts.harness.selftest.toolchains import ToolChainSubject, examine_toolchain, testable_of_toolchains
 from ucm_cts.reference_models.properties.table import PROPERTIES
 
 Result = MutantResult | VariantResult | CheatResult
@@ -32,8 +32,8 @@ ALL_CHECKS = PROPERTIES.keys() | CHECKS.keys()
 
 
 @dataclass
-class Conduct:
-    """A self-test under way; ``matrix`` tells what is known at any time, also after an interrupt."""
+class SelfTest:
+    """A self-test that is running; ``matrix`` has the results so far, also after an interrupt."""
 
     mutants: Sequence[Subject | ToolChainSubject]
     variants: Sequence[Subject | ToolChainSubject]
@@ -47,7 +47,7 @@ class Conduct:
     _began: float = field(default_factory=time.monotonic)
 
     def run(self, tell: Callable[[Result], None]) -> None:
-        """Examine everybody; ``tell`` hears each result as it is known."""
+        """Examine all subjects; ``tell`` is called with each result."""
         for requirement in self.models:
             spoilt = examine_models(requirement)
             self._done[spoilt.name] = spoilt
@@ -61,7 +61,7 @@ class Conduct:
         tell: Callable[[Result], None],
         uses: int | None = None,
     ) -> None:
-        """Several at a time; no process examines more of them than it has ``uses``."""
+        """Examine ``subjects``, several at a time; a process examines at most ``uses`` of them."""
         context = multiprocessing.get_context("spawn")
         leave_interrupts = _leave_interrupts_to_the_parent
         with ProcessPoolExecutor(self.jobs, context, leave_interrupts, max_tasks_per_child=uses) as pool:
@@ -75,20 +75,18 @@ class Conduct:
                         self._done[result.name] = result
                         tell(result)
             except BaseException:
-                for (
-                    worker
-                ) in multiprocessing.active_children():  # what they do takes long, and is of no interest any more
+                for worker in multiprocessing.active_children():  # what they do takes long, and is not needed any more
                     worker.terminate()
                 raise
 
     @property
     def number(self) -> int:
-        """How many are to be examined."""
+        """The number of subjects."""
         return len(self.mutants) + len(self.variants) + len(self.models) + len(self.cheats)
 
     @property
     def matrix(self) -> Matrix:
-        """What is known by now."""
+        """The results so far."""
         results = list(self._done.values())
         return Matrix(
             ucm_cts.__version__,

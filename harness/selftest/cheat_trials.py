@@ -1,4 +1,4 @@
-"""Adapters that cheat, in the ordinary pipeline: does what must come out come out? (docs/honesty.md)"""
+"""Trials of adapters that cheat, in the ordinary pipeline: a cheat must be found out as its register says (docs/honesty.md)."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ CHANGES_THE_SDK = {name for name, cheat in CHEATS.items() if cheat.adapter and "
 """These cannot be run in the harness's own process. The others are: some of them learn from one run for the next."""
 
 FEW, MANY = 30, 40
-"""So many purposes are enough, and so many scenarios of one are left to a run."""
+"""At most ``FEW`` purposes are run, and none of more than ``MANY`` scenarios."""
 
 
 def examine_cheat(cheat: Cheat) -> CheatResult:
-    """Is ``cheat`` found out, in the way that its register says?"""
+    """The trial of ``cheat``: what came out, and whether it is what its register says."""
     began = time.monotonic()
     report = report_on(cheat)
     came_out = tuple(sorted(what_came_out(report)))
@@ -40,7 +40,7 @@ def all_cheats() -> dict[str, Cheat]:
 
 
 def report_on(cheat: Cheat) -> FrameworkReport:
-    """What a run says of ``cheat``, after its rehearsals."""
+    """The report of a run of ``cheat``, after its rehearsals."""
     in_process = cheat.name not in ENDS_THE_HOST | CHANGES_THE_SDK
     _rehearse(cheat, True)
     for seed in range(1, cheat.rehearsals + 2):
@@ -56,7 +56,7 @@ def report_on(cheat: Cheat) -> FrameworkReport:
 
 
 def purposes(cheat: Cheat) -> list[TestPurpose]:
-    """Those that mean to exercise what the cheat is to fail, or the first ones; and those that nobody foresees."""
+    """The purposes that exercise what the cheat must fail, or the first ones, and those of unforeseen scenarios."""
     quick = [
         purpose
         for purpose in load_purposes("core")
