@@ -1,4 +1,4 @@
-"""Fixtures of several test modules, and who runs what where there are several workers."""
+"""Fixtures of several test modules, the lane of each test, and which worker runs it."""
 
 import signal
 
@@ -12,9 +12,19 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
+@pytest.hookimpl(tryfirst=True)  # before -m selects
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """A file stays with one worker, for what it keeps between tests; so do all that build the same C++ programs."""
-    if config.pluginmanager.hasplugin("xdist"):
-        for item in items:
-            name = item.path.stem
-            item.add_marker(pytest.mark.xdist_group("test_cpp" if name.startswith("test_cpp") else name))
+    """What uses C++ builds is native, and what is neither native nor slow is fast.
+
+    The fast tests of a file stay with one worker, for what they keep between them; so do the native ones. Slow tests
+    are handed out one by one, and first.
+    """
+    for item in items:
+        if "builds" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.native)
+        lane = next((lane for lane in ("slow", "native") if item.get_closest_marker(lane)), "fast")
+        if lane == "fast":
+            item.add_marker(pytest.mark.fast)
+        if lane != "slow" and config.pluginmanager.hasplugin("xdist"):
+            item.add_marker(pytest.mark.xdist_group(item.path.stem))
+    items.sort(key=lambda item: item.get_closest_marker("fast") is not None)

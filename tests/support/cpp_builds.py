@@ -8,7 +8,6 @@ import socket
 import subprocess
 import sys
 from collections.abc import Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from typing import Any
 import pytest
 from folders import ROOT, SUPPORT
 from guides import guide_files
+from once import once, shared_folder
 
 import ucm_cts
 from ucm_cts.adapters.contract import data_types as d
@@ -96,37 +96,20 @@ def run(command: Sequence[str | Path], **options: Any) -> subprocess.CompletedPr
 
 
 class Builds:
-    """Everything this file needs built, each in the background from the moment the tests begin."""
+    """C++ programs of this project and of the guide; each is built when a test first asks for it, once for all workers."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self._pool = ThreadPoolExecutor(os.cpu_count() or 2)
-        self._prefix = self._pool.submit(self._install)
-        (folder / "rude.cpp").write_text(RUDE)
-        framework = folder / "framework.cpp"  # compiled at once: most of the time goes into headers
-        framework.write_text("".join(f'#include "{source}"\n' for source in FRAMEWORK_SOURCES))
-        reference = [ADAPTER, TYPED_BODIES, framework]
-        tsan = ["-fsanitize=thread", "-g1"]
-        asan = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g1"]
-        self._programs: dict[str, Future[Path]] = {
-            "rude": self._compile("rude", [folder / "rude.cpp"], STRICT),
-            "tsan": self._compile("tsan", reference, ["-std=c++11", *tsan]),
-            "asan": self._compile("asan", reference, ["-std=c++11", *asan]),
-            "spellings": self._compile("spellings", [SDK / "example" / "other_spellings.cpp"], STRICT),
-            "patchbay": self._compile("patchbay", [NATIVE / "patchbay.cpp"], [*STRICT, *asan]),
-            "links": self._compile("links", [NATIVE / "lwucm_links.cpp", framework], ["-std=c++11", *tsan]),
-            "power": self._compile("power", [NATIVE / "stress_power.cpp"], [*STRICT, "-O2"]),
-            "beans": self._compile("beans", [BEANS / "beans_adapter.cpp"], [*STRICT, "-I", str(BEANS)]),
-        }
-        self._vendor = self._pool.submit(self._build_like_a_vendor)
 
     def program(self, name: str) -> Path:
-        return self._programs[name].result()
+        return once(self.folder / name, lambda: self._compile(name))
 
     @property
     def prefix(self) -> Path:
         """Where the package is installed: site-packages, or a folder made for a plain checkout."""
-        return self._prefix.result()
+        if COMMAND.exists() and (PACKAGE / "share" / "cmake" / "ucm_cts").exists():
+            return PACKAGE
+        return once(self.folder / "package", self._install) / "installed" / "ucm_cts"
 
     @property
     def reference(self) -> Path:
@@ -135,36 +118,47 @@ class Builds:
     @property
     def vendor(self) -> Path:
         """Where the guide's CMake project was built."""
-        return self._vendor.result()
+        return once(self.folder / "vendor", self._build_like_a_vendor) / "build"
 
-    def _compile(self, name: str, sources: Sequence[Path], flags: Sequence[str]) -> Future[Path]:
-        includes: list[str | Path] = ["-I", SDK / "include", "-I", FRAMEWORK / "include"]
-        command: list[str | Path] = [
-            os.environ.get("CXX", "c++"),
-            *flags,
-            *includes,
-            *sources,
-            "-o",
-            self.folder / name,
-        ]
-        return self._pool.submit(lambda: (run([*command, "-pthread", "-rdynamic"]), self.folder / name)[1])
+    def _compile(self, name: str) -> None:
+        def text(content: str) -> Path:
+            path = self.folder / f"{name}.cpp"
+            path.write_text(content)
+            return path
 
-    def _install(self) -> Path:
-        if COMMAND.exists() and (PACKAGE / "share" / "cmake" / "ucm_cts").exists():
-            return PACKAGE
-        build, prefix = self.folder / "package", self.folder / "installed" / "ucm_cts"
+        framework = "".join(f'#include "{source}"\n' for source in FRAMEWORK_SOURCES)
+        reference = f'{framework}#include "{ADAPTER}"\n#include "{TYPED_BODIES}"\n'
+        tsan = ["-std=c++11", "-fsanitize=thread", "-g1"]
+        asan = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g1"]
+        source, flags = {
+            "rude": lambda: (text(RUDE), STRICT),
+            "tsan": lambda: (text(reference), tsan),
+            "asan": lambda: (text(reference), ["-std=c++11", *asan]),
+            "spellings": lambda: (SDK / "example" / "other_spellings.cpp", STRICT),
+            "patchbay": lambda: (NATIVE / "patchbay.cpp", [*STRICT, *asan]),
+            "links": lambda: (text(f'{framework}#include "{NATIVE / "lwucm_links.cpp"}"\n'), tsan),
+            "power": lambda: (NATIVE / "stress_power.cpp", [*STRICT, "-O2"]),
+            "beans": lambda: (BEANS / "beans_adapter.cpp", [*STRICT, "-I", str(BEANS)]),
+        }[name]()
+        includes = ["-I", SDK / "include", "-I", FRAMEWORK / "include"]
+        run(
+            [os.environ.get("CXX", "c++"), *flags, *includes, source, "-o", self.folder / name, "-pthread", "-rdynamic"]
+        )
+
+    def _install(self) -> None:
+        build = self.folder / "package"
+        prefix = build / "installed" / "ucm_cts"
         run(["cmake", "-S", ROOT, "-B", build, f"-DCMAKE_INSTALL_PREFIX={prefix}", *self._cmake_options()])
         run(["cmake", "--build", build, "-j2"])
         run(["cmake", "--install", build])
-        return prefix
 
-    def _build_like_a_vendor(self) -> Path:
+    def _build_like_a_vendor(self) -> None:
         folder = self.folder / "vendor"
-        folder.mkdir()
+        folder.mkdir(exist_ok=True)
         for name in ("CMakeLists.txt", "acme_adapter.cpp"):
             (folder / name).write_text(guide_files(GUIDE)[name])
         acme = folder / "acme"
-        acme.mkdir()
+        acme.mkdir(exist_ok=True)
         (acme / "ucm.hpp").write_text("#include <lwucm/runtime.hpp>\nnamespace acme = lwucm;\n")
         sources = "\n".join(f'"{source}"' for source in FRAMEWORK_SOURCES)
         (folder / "acmeConfig.cmake").write_text(
@@ -173,22 +167,10 @@ class Builds:
             set_target_properties(acme_ucm PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD ON)
             add_library(acme::ucm ALIAS acme_ucm)"""
         )
-        build = folder / "build"
-        package = self.prefix / "share" / "cmake" / "ucm_cts"
-        run(
-            [
-                "cmake",
-                "-S",
-                folder,
-                "-B",
-                build,
-                f"-Ducm_cts_DIR={package}",
-                f"-Dacme_DIR={folder}",
-                *self._cmake_options(),
-            ]
-        )
+        build, package = folder / "build", self.prefix / "share" / "cmake" / "ucm_cts"
+        places = [f"-Ducm_cts_DIR={package}", f"-Dacme_DIR={folder}"]
+        run(["cmake", "-S", folder, "-B", build, *places, *self._cmake_options()])
         run(["cmake", "--build", build, "-j2"])
-        return build
 
     @staticmethod
     def _cmake_options() -> list[str]:
@@ -205,7 +187,7 @@ class Builds:
 def builds(tmp_path_factory: pytest.TempPathFactory) -> Builds:
     if shutil.which("cmake") is None or shutil.which(os.environ.get("CXX", "c++")) is None:
         pytest.skip("needs cmake and a C++ compiler")
-    return Builds(tmp_path_factory.mktemp("cpp"))
+    return Builds(shared_folder(tmp_path_factory) / "cpp")
 
 
 def wire(*lines: bytes | m.ToHost) -> bytes:

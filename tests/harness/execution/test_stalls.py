@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import os
 import threading
 from dataclasses import replace
@@ -11,12 +10,11 @@ from typing import Any
 
 import msgspec
 import pytest
+import unsteady
 from command_line import within
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Trace
-from ucm_cts.adapters.mutants.python.registry import Base, bind
-from ucm_cts.adapters.reference.python.framework import Failures, Member
 from ucm_cts.harness.execution import campaign
 from ucm_cts.harness.execution import confirmation as module
 from ucm_cts.harness.execution.campaign import Campaign
@@ -165,26 +163,13 @@ def test_shorter_scenarios_do_not_count_if_the_machine_stood_still() -> None:
 # whole runs
 
 
-class _Forgets(Base):
-    """Does not record what an error is, while there is something to forget."""
-
-    left = 0
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        if severity == "error" and _Forgets.left > 0:
-            _Forgets.left -= 1
-        else:
-            super()._log(member, severity, message)
-
-
-Forgetful = bind("Forgetful", _Forgets)
 READABLE = msgspec.structs.replace(default_statement(), readings=default_statement().readings | {"trace-sink": "hook"})
 
 
 def report_of(forgotten: int) -> Report:
     (purpose,) = (p for p in load_purposes("core") if p.id == "log-of-several-components")
-    importlib.import_module("test_stalls")._Forgets.left = forgotten  # as an adapter, this module is imported by name
-    with Driver(locate("test_stalls:Forgetful", True), seed=5) as driver:
+    unsteady.Forgets.left = forgotten
+    with Driver(locate("unsteady:Forgetful", True), seed=5) as driver:
         run = Campaign(driver, "core", (), READABLE)
         for _ in run.check([_impatient(purpose)]):
             pass
@@ -219,37 +204,11 @@ def test_verdict_is_inconclusive_if_the_machine_stood_still(monkeypatch: pytest.
 # second looks at whole runs
 
 
-class _Slips(Base):
-    """Forgets to tell a body that it is removed, while there is something to forget."""
-
-    left = 0
-
-    def _remove(self, member: Member, failures: Failures) -> None:
-        if _Slips.left > 0:
-            _Slips.left -= 1
-        else:
-            super()._remove(member, failures)
-
-
-Slipping = bind("Slipping", _Slips)
-
-
-class _MissesOnOneCore(Base):
-    """Does not record what an error is where there is one core only."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        if severity != "error" or len(os.sched_getaffinity(0)) > 1:
-            super()._log(member, severity, message)
-
-
-MissingOnOneCore = bind("MissingOnOneCore", _MissesOnOneCore)
-
-
 def looked_at_again(
     adapter: str, purpose_id: str, in_process: bool, requirement: str, times: int = 1
 ) -> RequirementResult:
     (purpose,) = (p for p in load_purposes("core") if p.id == purpose_id)
-    with Driver(locate(f"test_stalls:{adapter}", in_process), seed=5) as driver:
+    with Driver(locate(f"unsteady:{adapter}", in_process), seed=5) as driver:
         run = Campaign(driver, "core", (), READABLE)
         for _ in run.check([_impatient(purpose)] * times):
             pass
@@ -262,7 +221,7 @@ def looked_at_again(
 
 @pytest.mark.parametrize(("slips", "verdict"), [(1, "inconclusive"), (1000, "fail")])
 def test_failure_that_is_not_shown_again_is_unstable_and_both_traces_are_kept(slips: int, verdict: str) -> None:
-    importlib.import_module("test_stalls")._Slips.left = slips
+    unsteady.Slips.left = slips
     result = looked_at_again("Slipping", "same-connection-twice", True, "R-11.2.1.2-06")
     assert result.verdict == verdict
     (failed, *_) = result.findings
@@ -275,7 +234,7 @@ def test_failure_that_is_not_shown_again_is_unstable_and_both_traces_are_kept(sl
 
 @pytest.mark.parametrize(("slips", "verdict"), [(4, "inconclusive"), (1000, "fail")])
 def test_failure_that_was_seen_more_than_once_is_looked_at_again_too(slips: int, verdict: str) -> None:
-    importlib.import_module("test_stalls")._Slips.left = slips
+    unsteady.Slips.left = slips
     result = looked_at_again("Slipping", "same-connection-twice", True, "R-11.2.1.2-06", times=2)
     assert result.verdict == verdict
     assert result.findings[0].occurrences == 2
@@ -284,9 +243,9 @@ def test_failure_that_was_seen_more_than_once_is_looked_at_again_too(slips: int,
 
 def test_what_there_is_no_time_to_look_at_stands_and_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(campaign, "SECONDS_FOR_CONFIRMATION", -1)
-    importlib.import_module("test_stalls")._Slips.left = 1
+    unsteady.Slips.left = 1
     (purpose,) = (p for p in load_purposes("core") if p.id == "same-connection-twice")
-    with Driver(locate("test_stalls:Slipping", True), seed=5) as driver:
+    with Driver(locate("unsteady:Slipping", True), seed=5) as driver:
         run = Campaign(driver, "core", (), READABLE)
         for _ in run.check([_impatient(purpose)]):
             pass
