@@ -6,6 +6,8 @@ import pytest
 from cpp_builds import builds
 
 __all__ = ["builds"]
+NATIVE = {"builds", "java", "vendor"}
+"""Fixtures that need a compiler."""
 
 # A shell that runs the tests in the background may have them ignore these; then no test could interrupt what it starts.
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -14,13 +16,13 @@ signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 @pytest.hookimpl(tryfirst=True)  # before -m selects
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """What uses C++ builds is native, and what is neither native nor slow is fast.
+    """What uses such a fixture is native, and what is neither native nor slow is fast.
 
     The fast tests of a file stay with one worker, for what they keep between them; so do the native ones. Slow tests
     are handed out one by one, and first.
     """
     for item in items:
-        if "builds" in getattr(item, "fixturenames", ()):
+        if NATIVE & {*getattr(item, "fixturenames", ())}:
             item.add_marker(pytest.mark.native)
         lane = next((lane for lane in ("slow", "native") if item.get_closest_marker(lane)), "fast")
         if lane == "fast":

@@ -185,6 +185,7 @@ def test_every_option_is_told_and_no_other() -> None:
     assert shown == there
 
 
+@pytest.mark.native
 def test_certify_command_leaves_what_the_readme_says(here: Path) -> None:
     (command,) = re.findall(r"(?ms)^\[testenv:certify\]$[^\[]*?^commands = (.+?)$", TOX)
     assert marked("README.md", "certify command").rstrip().endswith(" && pipx run tox -e certify")
@@ -389,6 +390,7 @@ def test_cpp_guide_with_a_plain_compiler(vendor: Path) -> None:
     assert lacking <= blameless(report_of(vendor / "out"))
 
 
+@pytest.mark.native
 def test_cpp_guide_step_by_step() -> None:
     (code,) = re.findall(r"(?m)^ +import acme_adapter\n(?: +.*\n)+", text_of("docs/adapter-cpp.md"))
     alias = "import sys, ucm_cts.adapters._reference_cpp as module; sys.modules['acme_adapter'] = module\n"

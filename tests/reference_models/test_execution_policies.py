@@ -17,6 +17,8 @@ from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
 from ucm_cts.reference_models.monitor import Monitor
 
+pytestmark = pytest.mark.native
+
 EXCLUSION = {f"R-10.1.3.2-{number}" for number in ("06", "09", "10", "13", "16")}
 
 

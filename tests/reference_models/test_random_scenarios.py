@@ -32,6 +32,8 @@ from ucm_cts.harness.statement.applicability import fitting
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.monitor import Monitor
 
+pytestmark = pytest.mark.slow
+
 WAITING = ("calls_wait_for_the_start", "starts_all_at_a_time")
 """Variants that may wait for ever where a scenario calls too early or a body raises."""
 

@@ -27,6 +27,8 @@ from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 from ucm_cts.reference_models.verdicts import Verdicts
 
+pytestmark = pytest.mark.slow
+
 T = TypeVar("T")
 
 

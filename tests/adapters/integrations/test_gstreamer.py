@@ -14,6 +14,8 @@ from gstreamer_here import gstreamer_adapter
 
 from ucm_cts.adapters.contract import programming_model as ucm
 
+pytestmark = pytest.mark.native
+
 
 @pytest.fixture(scope="module")
 def module() -> Any:

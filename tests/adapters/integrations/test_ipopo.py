@@ -24,6 +24,8 @@ from pelix.framework import FrameworkFactory
 
 from ucm_cts.adapters.integrations.ipopo.adapter import IpopoAdapter
 
+pytestmark = pytest.mark.slow
+
 
 class Body(ucm.ComponentObject, ucm.Connectable, ucm.PortElementObject):
     """Notes its callbacks in ``story``; is its own provided port element."""

@@ -12,6 +12,8 @@ from pipeline import Product
 
 from ucm_cts.adapters.contract.adapter import Adapter
 
+pytestmark = pytest.mark.native
+
 
 def check_here(adapter: type[Adapter]) -> None:
     (habits,) = (habits for name, habits in HABITS.items() if name.rpartition(" ")[0] == adapter.product)

@@ -10,6 +10,8 @@ from folders import ROOT
 from ucm_cts.adapters.mutants.python import CHEATS, UNSEEN, Cheat
 from ucm_cts.harness.selftest.cheat_trials import examine_cheat
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("cheat", CHEATS.values(), ids=CHEATS.keys())
 def test_cheat_is_found_out_for_the_right_reason(cheat: Cheat) -> None:

@@ -19,6 +19,8 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
+pytestmark = pytest.mark.slow
+
 SHORT = 0.2
 """Of the patience of scenarios. What a mutant never does is not waited for longer; a burst takes its time."""
 

@@ -13,6 +13,8 @@ from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.selftest.trials import Thoroughness, examine_mutant, native_subject
 
+pytestmark = pytest.mark.native
+
 QUICK = {
     "crashes_in_remove": "whole-life",
     "hangs_in_second_stop": "late-addition-is-connected",

@@ -9,6 +9,8 @@ from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, Mutant, mutants_
 from ucm_cts.harness.catalogue.requirements import load_requirements
 from ucm_cts.reference_models.properties.table import PROPERTIES
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("mutant", mutants_of(CONTAINER).values(), ids=mutants_of(CONTAINER).keys())
 def test_mutant_fails_for_the_right_reason(mutant: Mutant) -> None:

@@ -21,6 +21,8 @@ from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
+pytestmark = pytest.mark.slow
+
 SCRIPTED = {
     "waits-for-one-who-fails",
     "entered-while-it-waits-for-another",

@@ -14,6 +14,8 @@ from ucm_cts.harness.catalogue.requirements import load_options, load_requiremen
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.statement.applicability import why_not
 
+pytestmark = pytest.mark.slow
+
 REQUIREMENTS = {requirement.id: requirement for requirement in load_requirements()}
 
 

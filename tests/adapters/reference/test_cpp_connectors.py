@@ -19,6 +19,8 @@ from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
+pytestmark = pytest.mark.native
+
 SHORT_PATIENCE = 500
 """Milliseconds. Scenarios that wait for what must not come take no longer."""
 

@@ -11,6 +11,8 @@ from cpp_builds import CONNECTED, PAIR, Builds, events, story
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 
+pytestmark = pytest.mark.native
+
 RAISES: Callable[[s.Hook], s.Declaration] = lambda hook: s.Declaration(("p_e",), plan={hook: (s.RaiseError(),)})
 
 READINGS: dict[str, tuple[dict[str, s.Declaration], tuple[s.Step, ...], str]] = {

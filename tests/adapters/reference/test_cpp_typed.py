@@ -27,6 +27,8 @@ from ucm_cts.harness.statement.files import read_statement
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
+pytestmark = pytest.mark.native
+
 BODIES = "UCM_CTS_LWUCM_BODIES"
 README = FRAMEWORK / "README.md"
 

@@ -19,6 +19,8 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.harness.execution.integrity import contradiction
 
+pytestmark = pytest.mark.native
+
 ULONG, TEXT = d.Integer("ULONG"), d.String("CHAR32")
 PROBLEM = d.Structure("problem", {"why": TEXT, "codes": d.Sequence(d.Integer("ULONGLONG"))})
 COLOUR = d.Enumeration("colour", "ULONGLONG", {"red": 0, "blue": 2**64 - 1})

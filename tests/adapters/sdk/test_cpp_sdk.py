@@ -17,6 +17,8 @@ from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 
+pytestmark = pytest.mark.native
+
 # the wire
 
 

@@ -28,6 +28,8 @@ from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.selection import load_purposes
 
+pytestmark = pytest.mark.native
+
 __all__ = ["java"]
 
 # the same as in Python

@@ -18,6 +18,8 @@ from command_line import Outcome, report_of, ucm_cts, within
 
 from ucm_cts.harness.catalogue.requirements import Requirement, load_interpretations, load_requirements
 
+pytestmark = pytest.mark.slow
+
 SUBJECT, REQUIREMENT = "subjects:stops_in_startup_order", "R-11.2.2.1-13"
 OTHER = "R-11.2.3-15"
 KNOWN = [{"requirement": REQUIREMENT, "observed": "stop shut down *", "reason": "known to us", "expires": "2099-12-31"}]

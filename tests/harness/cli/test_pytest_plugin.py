@@ -25,6 +25,8 @@ from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.monitor import Monitor
 
+pytestmark = pytest.mark.slow
+
 PURPOSES = {purpose.id.replace(" ", "-"): purpose for purpose in load_purposes("container")}
 SUBJECT, REQUIREMENT = "stops_in_startup_order", "R-11.2.2.1-13"
 NODE = re.compile(r"test_clause\[([\d.]+)-(.*)\]")

@@ -22,6 +22,8 @@ from ucm_cts.harness.results.values import Incident
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import stated_by
 
+pytestmark = pytest.mark.slow
+
 STARTS = Scenario({}, (s.Start(),))
 STOPS = Scenario({}, (s.Start(), s.Stop()))
 LISTS = Scenario({}, (s.GetComponents(),))

@@ -19,6 +19,8 @@ from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.report.write import save_report
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Report
 
+pytestmark = pytest.mark.slow
+
 LIES = st.lists(
     st.tuples(st.sampled_from(lying.KINDS), st.integers(0, 200), st.integers(0, 200)), min_size=1, max_size=4
 )

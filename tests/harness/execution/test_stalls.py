@@ -28,6 +28,8 @@ from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.results.values import Report, RequirementResult
 from ucm_cts.reference_models.findings import Finding
 
+pytestmark = pytest.mark.slow
+
 MILLISECOND = 1_000_000
 
 

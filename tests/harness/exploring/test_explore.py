@@ -40,6 +40,8 @@ from ucm_cts.harness.results.incidents import may_wait
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.results.values import Execution, Incident, IncidentKind
 
+pytestmark = pytest.mark.slow
+
 SUBJECT, REQUIREMENT = "subjects:stops_in_startup_order", "R-11.2.2.1-13"
 MENDED = "subjects:Mended"
 REFERENCE = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"

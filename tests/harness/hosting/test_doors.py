@@ -27,6 +27,8 @@ from ucm_cts.harness.purposes.scripts import load_scripts
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.monitor import Monitor
 
+pytestmark = pytest.mark.native
+
 GENERATED = 60
 PYTHON = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 

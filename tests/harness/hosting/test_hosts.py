@@ -25,6 +25,8 @@ from ucm_cts.harness.results.values import Incident
 sys.path.insert(0, str(SUPPORT / "hostile"))
 import speakers
 
+pytestmark = pytest.mark.slow
+
 REFERENCE = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 CALM = Scenario({"calm": Declaration()}, (s.AddComponent("calm"), s.Start()))
 TRIGGER = Scenario({"calm": Declaration(), "trigger": Declaration()}, (s.AddComponent("trigger"),))

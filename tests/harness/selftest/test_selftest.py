@@ -27,6 +27,8 @@ from ucm_cts.harness.selftest.running import SelfTest
 from ucm_cts.harness.selftest.trials import Thoroughness, all_mutants, examine_mutant, examine_variant
 from ucm_cts.reference_models.findings import Finding
 
+pytestmark = pytest.mark.slow
+
 ASKED = scenario(
     {"server": {"provides": ["in.api"]}, "client": {"requires": ["out.api"]}},
     [

@@ -453,6 +453,7 @@ def test_wrong_statements_are_wrong_use(here: Path) -> None:
     assert (outcome.status, outcome.err) == (2, "ucm-cts: nowhere.toml: cannot be read: No such file or directory\n")
 
 
+@pytest.mark.native
 def test_ics_writes_what_is_published_with_a_short_name(here: Path) -> None:
     assert ucm_cts("ics", "reference-cpp", "--out", "own.toml").status == 0
     own, published = read_statement(here / "own.toml"), stated_by(None, "reference-cpp")
@@ -460,6 +461,7 @@ def test_ics_writes_what_is_published_with_a_short_name(here: Path) -> None:
     assert {r.status for r in compare(own.model_paths, own.readings).results} == {"kept"}
 
 
+@pytest.mark.native
 def test_reference_frameworks_state_what_they_are(here: Path) -> None:
     for name in ("reference-py", "reference-cpp"):
         assert ucm_cts("run", name, "-k", "R-11.2.2.1-13", "--out", name).err == ""

@@ -14,6 +14,8 @@ from ucm_cts.harness.toolchains.cpp import compiling
 from ucm_cts.harness.toolchains.cpp.comparing import compare
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Error, NoCompiler, compile_text
 
+pytestmark = pytest.mark.native
+
 
 def test_errors_are_read_as_json() -> None:
     told = (

@@ -13,6 +13,8 @@ from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout
 from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.reference_models.mapping.cpp.expected import Standard
 
+pytestmark = pytest.mark.native
+
 BROKEN = "less_or_equal_is_less_cpp03"
 """Found out when the program of probes runs."""
 

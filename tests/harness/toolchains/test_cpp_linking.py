@@ -20,6 +20,8 @@ from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.harness.toolchains.examinations import examination_for
 from ucm_cts.harness.toolchains.renaming import Renaming
 
+pytestmark = pytest.mark.native
+
 DEMONSTRATION = '#include "constants.hpp"\nint main() { return 0; }\n'
 UNFINISHED = "void to_be_written();\nvoid body() { to_be_written(); }\n"
 NOT_CODE = "your code goes here\n"

@@ -13,6 +13,8 @@ from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Headers
 from ucm_cts.harness.toolchains.cpp.listing import LISTED, Listed, listed
 
+pytestmark = pytest.mark.native
+
 CLASS = r"(class Abstract_\w+ (?::[^{]*)?\{.*?\n\};)"
 FORWARD = r"\n(class Abstract_\w+;)"
 ROOTS = "".join(f"using ::framework::{name}Exception; " for name in ("", "User", "System"))

@@ -17,6 +17,8 @@ from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.reference_models.mapping.cpp.expected import Standard
 from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 
+pytestmark = pytest.mark.native
+
 KNOWN = mutants()
 
 TRIED = (

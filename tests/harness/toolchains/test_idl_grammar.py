@@ -270,6 +270,7 @@ def test_annotations_are_blanked_for_omniidl_in_place() -> None:
     assert "@a(" not in blank
 
 
+@pytest.mark.native
 def test_omniidl_judges_what_it_knows_and_says_so_of_the_rest() -> None:
     good = {"b.idl": '#include "a.idl"\nmodule m { typedef x::t u; };', "a.idl": "module x { @int8 typedef octet t; };"}
     assert opinion(good).verdict == "agreed"

@@ -129,6 +129,7 @@ def test_hostile_directives_are_refused_in_one_line(text: str) -> None:
     assert "\n" not in str(refused.value)
 
 
+@pytest.mark.native
 def test_files_go_on_with_the_macros_of_those_that_they_include() -> None:
     files = {
         "b.idl": "typedef string<N> t;",

@@ -20,6 +20,8 @@ from ucm_cts.reference_models.mapping.idl.declarations import Module
 from ucm_cts.reference_models.mapping.idl.expectations import RULE_OF
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
+pytestmark = pytest.mark.slow
+
 MUTANTS = {name: mutant for name, mutant in mutants().items() if mutant.task == "idl"}
 VARIANTS = {name: variant for name, variant in variants().items() if variant.task == "idl"}
 

@@ -19,6 +19,8 @@ from folders import SUPPORT
 from ucm_cts.harness.toolchains.acceptance import Answer, judge
 from ucm_cts.harness.toolchains.corpus.selection import Question, differing_lines
 
+pytestmark = pytest.mark.slow
+
 FAKE = SUPPORT / "fake_toolchain.py"
 CASE = "structure"
 """Models of one kind are enough to tell behaviours apart."""
