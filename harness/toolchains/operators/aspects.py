@@ -41,24 +41,6 @@ def second_list_of_languages(languages: etree._Element) -> None:
     languages.addnext(again)
 
 
-@breaks("R-9.4.2.1-05", at="NonfunctionalAspectModule", under=ELSEWHERE)
-def port_type_among_aspects(module: etree._Element) -> None:
-    """A port type stands in a nonfunctional aspect module."""
-    etree.SubElement(module, "PortType", name="misplaced_port_type")
-
-
-@breaks("R-9.4.3.1-02", at="TechnicalAspect")
-def no_multiplicity(aspect: etree._Element) -> None:
-    """An aspect without multiplicity."""
-    del aspect.attrib["multiplicity"]
-
-
-@breaks("R-9.4.3.1-03", at="TechnicalAspect")
-def unknown_multiplicity(aspect: etree._Element) -> None:
-    """There is no such multiplicity."""
-    aspect.set("multiplicity", "sometimes")
-
-
 @breaks("R-9.4.1-03", at="TechnicalAspect", under=("missing-policies=check",))
 def nothing_where_one_is_wanted(aspect: etree._Element) -> bool:
     """An implementation has no policy of an aspect that wants exactly one."""
@@ -127,24 +109,6 @@ def _second_policy(implementation: etree._Element, multiplicity: str) -> bool:
 def definition_of(policy: etree._Element) -> etree._Element | None:
     """The policy definition that a policy on components or ports uses."""
     return resolved(policy, str(policy.get("technicalPolicyDefinition")), "TechnicalPolicyDefinition")
-
-
-@breaks("R-9.4.3.2-03", at="TechnicalPolicyDefinition")
-def aspect_of_nothing_known(definition: etree._Element) -> None:
-    """The aspect is declared nowhere."""
-    definition.set("technicalAspect", NOWHERE)
-
-
-@breaks("R-9.4.3.2-04", at="TechnicalPolicyDefinition")
-def no_applicability(definition: etree._Element) -> None:
-    """A policy definition without applicability."""
-    del definition.attrib["applicability"]
-
-
-@breaks("R-9.4.3.2-05", at="TechnicalPolicyDefinition")
-def unknown_applicability(definition: etree._Element) -> None:
-    """There is no such applicability."""
-    definition.set("applicability", "onConnector")
 
 
 @breaks("R-9.4.3.2-09", at="TechnicalPolicyDefinition")

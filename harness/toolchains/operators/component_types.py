@@ -16,7 +16,6 @@ from ucm_cts.harness.toolchains.corpus.declarations import (
     spare_like,
     spare_unlike,
 )
-from ucm_cts.harness.toolchains.operators.aspects import ELSEWHERE
 from ucm_cts.harness.toolchains.operators.operator import breaks, keeps
 
 
@@ -35,12 +34,6 @@ def submodule_of_components(module: etree._Element) -> None:
     etree.SubElement(module, "ComponentModule", name="spare_components")
 
 
-@breaks("R-9.5.2.1-04", at="ComponentModule", under=ELSEWHERE)
-def port_type_among_components(module: etree._Element) -> None:
-    """A port type stands in a component module."""
-    etree.SubElement(module, "PortType", name="misplaced_port_type")
-
-
 @keeps("R-9.5.2.2-02", at="ComponentType")
 def annotated_component_type(component: etree._Element) -> bool:
     """A component type may have an annotation."""
@@ -57,24 +50,6 @@ def _annotated(element: etree._Element) -> bool:
     definition = spare(element, "AnnotationDefinition")
     element.insert(0, etree.Element("Annotation", annotationDefinition=definition))
     return bool(definition)
-
-
-@breaks("R-9.5.2.3-02", at="AtomicComponentImplementation")
-def atomic_implementation_of_nothing(implementation: etree._Element) -> None:
-    """An atomic implementation without component type."""
-    del implementation.attrib["type"]
-
-
-@breaks("R-9.5.2.3-02", at="CompositeComponentImplementation")
-def composite_of_nothing(composite: etree._Element) -> None:
-    """A composite without component type."""
-    del composite.attrib["type"]
-
-
-@breaks("R-9.5.2.3-03", at="AtomicComponentImplementation")
-def implements_nothing_known(implementation: etree._Element) -> None:
-    """The component type is declared nowhere."""
-    implementation.set("type", NOWHERE)
 
 
 @breaks("R-9.5.3.1-04", at="ComponentType")
@@ -205,12 +180,6 @@ def item_of_nothing_known(binding: etree._Element) -> None:
     binding.addnext(again)
 
 
-@breaks("R-9.5.3.5-02", at="InteractionItemBinding")
-def item_stands_for_nothing_known(binding: etree._Element) -> None:
-    """The actual type is declared nowhere."""
-    binding.set("actualType", NOWHERE)
-
-
 @breaks("R-9.5.3.5-03", at="InteractionItemBinding", under=("abstract-actual-types=refused",))
 def item_stands_for_something_abstract(binding: etree._Element) -> bool:
     """The actual type is abstract."""
@@ -228,12 +197,6 @@ def item_stands_for_another_nature(binding: etree._Element) -> bool:
 def item_stands_for_two_types(binding: etree._Element) -> bool:
     """One item has two actual types."""
     return _again(binding)
-
-
-@breaks("R-9.5.3.6-01", at="PortTypeSpec")
-def port_of_nothing_known(spec: etree._Element) -> None:
-    """The port type is declared nowhere."""
-    spec.set("type", NOWHERE)
 
 
 @breaks("R-9.5.3.6-02", at="AbstractTypeBinding", under=("missing-type-bindings=check",))

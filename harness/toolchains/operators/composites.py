@@ -86,12 +86,6 @@ def part_of_a_part(composite: etree._Element) -> None:
     _part(composite, path(other))
 
 
-@breaks("R-9.5.5.4-01", at="Connection")
-def connection_of_nothing_known(connection: etree._Element) -> None:
-    """The connector or pattern is declared nowhere."""
-    connection.set("definition", NOWHERE)
-
-
 @breaks("R-9.5.5.4-04", at="Connection")
 def end_with_an_api_of_its_own(connection: etree._Element) -> bool:
     """The connector has no port with the port type of one of the ends."""
@@ -230,12 +224,6 @@ def end_at_no_port_known(end: etree._Element) -> bool:
 def _in_connection(end: etree._Element) -> bool:
     around = end.getparent()
     return around is not None and around.tag == "Connection"
-
-
-@breaks("R-9.5.5.6-01", at="PortDelegation")
-def delegation_of_nothing_known(delegation: etree._Element) -> None:
-    """The composite's type has no such port."""
-    delegation.set("port", NOWHERE)
 
 
 @breaks("R-9.5.5.6-02", at="PortDelegation")

@@ -67,18 +67,6 @@ def extends_itself(pattern: etree._Element) -> None:
     pattern.set("extends", str(pattern.get("name")))
 
 
-@breaks("R-9.3.3.3-03", at="InteractionItem")
-def no_nature(item: etree._Element) -> None:
-    """An item without nature."""
-    del item.attrib["nature"]
-
-
-@breaks("R-9.3.3.3-04", at="InteractionItem")
-def unknown_nature(item: etree._Element) -> None:
-    """There is no such nature."""
-    item.set("nature", "VALUE")
-
-
 @breaks("R-9.3.3.3-05", at="ItemBinding")
 def other_nature(binding: etree._Element) -> bool:
     """What is bound is of another nature than the item."""
@@ -89,31 +77,6 @@ def other_nature(binding: etree._Element) -> bool:
         return False
     item.set("nature", "INTERFACE" if item.get("nature") == "DATA" else "DATA")
     return True
-
-
-@breaks("R-9.3.3.4-02", at="InteractionRole")
-def no_lower_multiplicity(role: etree._Element) -> None:
-    """A role without a lower multiplicity."""
-    del role.attrib["lowerMultiplicity"]
-
-
-@breaks("R-9.3.3.4-03", at="InteractionRole")
-def no_upper_multiplicity(role: etree._Element) -> None:
-    """A role without an upper multiplicity."""
-    del role.attrib["upperMultiplicity"]
-
-
-@breaks("R-9.3.3.4-04", at="InteractionRole")
-def more_at_least_than_at_most(role: etree._Element) -> None:
-    """No number is at least that much and at most that little."""
-    role.set("lowerMultiplicity", "4")
-    role.set("upperMultiplicity", "3")
-
-
-@breaks("R-9.3.3.4-06", at="InvolvedItem")
-def involves_nothing_known(involved: etree._Element) -> None:
-    """The pattern has no such item."""
-    involved.set("item", NOWHERE)
 
 
 @breaks("R-9.3.3.4-07", at="ConnectorDefinition")
@@ -162,23 +125,11 @@ def connector_with_a_sister(connector: etree._Element) -> None:
     connector.addnext(sister)
 
 
-@breaks("R-9.3.4-01", at="ConnectorDefinition")
-def refines_nothing_known(connector: etree._Element) -> None:
-    """The pattern is declared nowhere."""
-    connector.set("pattern", NOWHERE)
-
-
 @breaks("R-9.3.4-03", at="ConnectorPort")
 def plays_nothing_known(port: etree._Element) -> None:
     """The pattern has no such role."""
     pattern = str(port.get("portRole")).rpartition(".")[0]
     port.set("portRole", f"{pattern}.{NOWHERE}")
-
-
-@breaks("R-9.3.4.4-01", at="ConnectorPort")
-def api_of_nothing_known(port: etree._Element) -> None:
-    """The port type is declared nowhere."""
-    port.set("api", NOWHERE)
 
 
 @breaks("R-9.3.4.4-02", at="ConnectorPort", under=("connector-port-api=required",))
@@ -193,12 +144,6 @@ def binds_nothing_known(binding: etree._Element) -> None:
     pattern = str(binding.get("interactionItem")).rpartition(".")[0]
     connector_item = str(binding.get("connectorItem"))
     beside(binding, "ItemBinding", interactionItem=f"{pattern}.{NOWHERE}", connectorItem=connector_item)
-
-
-@breaks("R-9.3.4.6-03", at="ItemBinding")
-def bound_to_nothing_known(binding: etree._Element) -> None:
-    """The type is declared nowhere."""
-    binding.set("connectorItem", NOWHERE)
 
 
 @breaks("R-9.3.4.6-04", at="ItemBinding", under=("unbound-items=required",))
@@ -226,15 +171,3 @@ def interface_of_nothing_known(element: etree._Element) -> bool:
         return False
     element.set("interface", NOWHERE)
     return True
-
-
-@breaks("R-9.3.5.2-03", at="PortElement")
-def no_kind(element: etree._Element) -> None:
-    """A port element without a kind."""
-    del element.attrib["kind"]
-
-
-@breaks("R-9.3.5.2-04", at="PortElement")
-def unknown_kind(element: etree._Element) -> None:
-    """There is no such kind."""
-    element.set("kind", "OFFERED")

@@ -28,18 +28,6 @@ def beside(element: etree._Element, tag: str, **attributes: str) -> etree._Eleme
     return new
 
 
-@breaks("R-9.2.7-10", at="Parameter")
-def unknown_direction(parameter: etree._Element) -> None:
-    """There is no such direction."""
-    parameter.set("direction", "SIDEWAYS")
-
-
-@breaks("R-9.2.7.3-02", at="Parameter")
-def no_direction(parameter: etree._Element) -> None:
-    """A parameter without direction."""
-    del parameter.attrib["direction"]
-
-
 @breaks("R-9.2.7-11", at="Method")
 def second_return(method: etree._Element) -> bool:
     """The method returns two things."""
@@ -58,12 +46,6 @@ def return_first(method: etree._Element) -> bool:
         return False
     first.addprevious(known)
     return True
-
-
-@breaks("R-9.2.7.1-02", at="InheritedInterface")
-def inherits_nothing_known(inherited: etree._Element) -> None:
-    """What is inherited is declared nowhere."""
-    inherited.set("interface", NOWHERE)
 
 
 @breaks("R-9.2.7.1-05", at="Interface")
@@ -108,12 +90,6 @@ def method_again(method: etree._Element) -> None:
     method.addnext(copy.deepcopy(method))
 
 
-@breaks("R-9.2.7.2-03", at="RaisedException")
-def raises_nothing_known(raised: etree._Element) -> None:
-    """What is raised is declared nowhere."""
-    raised.set("exception", NOWHERE)
-
-
 @keeps("R-9.2.7-12", at="Method")
 def raises_a_further_exception(method: etree._Element) -> bool:
     """A method may raise any number of exceptions."""
@@ -147,12 +123,6 @@ def field_of_an_abstract_type(field: etree._Element) -> bool:
     beside(structure, "AbstractDataType", name="never_bound_t")
     field.set("type", "never_bound_t")
     return True
-
-
-@breaks("R-9.2.9.4-01", at="Annotation")
-def annotation_of_nothing_known(annotation: etree._Element) -> None:
-    """Its definition is declared nowhere."""
-    annotation.set("annotationDefinition", NOWHERE)
 
 
 @breaks("R-9.2.9.2-01", at="ConfigurationParameterValue")

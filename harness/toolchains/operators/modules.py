@@ -142,24 +142,6 @@ def empty_platform_module_inside(module: etree._Element) -> None:
     etree.SubElement(module, "PlatformModule", name="nothing_inside")
 
 
-@breaks("R-9.1.4.7-02", at="ApplicationModule", under=ELSEWHERE)
-def platform_in_an_application(module: etree._Element) -> None:
-    """An application module holds a module of a platform."""
-    etree.SubElement(module, "InteractionModule", name="nothing_inside")
-
-
-@breaks("R-9.1.4.8-02", at="PlatformModule", under=ELSEWHERE)
-def application_in_a_platform(module: etree._Element) -> None:
-    """A platform module holds a module of an application."""
-    etree.SubElement(module, "ComponentModule", name="nothing_inside")
-
-
-@breaks("R-9.2.2.15-03", at="ContractModule", under=ELSEWHERE)
-def component_type_among_contracts(module: etree._Element) -> None:
-    """A contract module holds a component type."""
-    etree.SubElement(module, "ComponentType", name="nothing_inside")
-
-
 @keeps("R-9.2.2.15-02", at="ContractModule")
 def contract_module_inside(module: etree._Element) -> None:
     """Contract modules may be nested."""
@@ -209,12 +191,6 @@ def of_an_interface(element: etree._Element) -> bool:
 def of_an_exception(element: etree._Element) -> bool:
     """Its type is an exception."""
     return _change_type(element, "Exception")
-
-
-@breaks("R-9.2.2.5-01", at=OF_TYPES)
-def of_a_type_not_known(element: etree._Element) -> None:
-    """Its type is declared nowhere."""
-    element.set("type", NOWHERE)
 
 
 @breaks("R-9.2.2.5-02", at=OF_TYPES)

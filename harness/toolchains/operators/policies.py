@@ -27,24 +27,6 @@ def implementation_with_a_twin(implementation: etree._Element) -> bool:
     return True
 
 
-@breaks("R-9.5.4.1-01", at="AtomicComponentImplementation")
-def no_language(implementation: etree._Element) -> None:
-    """An atomic implementation without language."""
-    del implementation.attrib["language"]
-
-
-@breaks("R-9.5.4.1-02", at="AtomicComponentImplementation")
-def language_that_nobody_lists(implementation: etree._Element) -> None:
-    """No module lists the language."""
-    implementation.set("language", "Fortran_66")
-
-
-@breaks("R-9.5.4.1-04", at="AtomicComponentImplementation")
-def policy_of_nothing_known(implementation: etree._Element) -> None:
-    """The policy is declared nowhere."""
-    etree.SubElement(implementation, "TechnicalPolicy", name=NOWHERE)
-
-
 @breaks("R-9.5.4.2-01", at=POLICIES)
 def policy_of_nobody(policy: etree._Element) -> None:
     """A policy that manages no component."""
@@ -76,12 +58,6 @@ def named_by_the_policy_only(used: etree._Element) -> bool:
         return False
     implementation.remove(used)
     return True
-
-
-@breaks("R-9.5.4.2-04", at=POLICIES)
-def definition_of_nothing_known(policy: etree._Element) -> None:
-    """The policy definition is declared nowhere."""
-    policy.set("technicalPolicyDefinition", NOWHERE)
 
 
 @breaks("R-9.5.4.2-08", at=POLICIES)

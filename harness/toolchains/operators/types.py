@@ -7,7 +7,6 @@ import copy
 from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
-from ucm_cts.harness.toolchains.corpus.declarations import NOWHERE
 from ucm_cts.harness.toolchains.operators.interfaces import beside
 from ucm_cts.harness.toolchains.operators.modules import in_the_same_module, module_of
 from ucm_cts.harness.toolchains.operators.operator import breaks, keeps
@@ -29,42 +28,6 @@ def _without(element: etree._Element, tag: str) -> None:
         element.text = None
 
 
-@breaks("R-9.2.3.2-02", at="PrimitiveInteger")
-def integer_of_an_unknown_kind(integer: etree._Element) -> None:
-    """There is no such kind of integer."""
-    integer.set("kind", "NUMBER")
-
-
-@breaks("R-9.2.3.2-02", at="PrimitiveInteger")
-def integer_without_kind(integer: etree._Element) -> None:
-    """The kind is missing."""
-    del integer.attrib["kind"]
-
-
-@breaks("R-9.2.3.3-02", at="PrimitiveFloat")
-def float_of_an_unknown_kind(number: etree._Element) -> None:
-    """There is no such kind of float."""
-    number.set("kind", "REAL")
-
-
-@breaks("R-9.2.3.4-02", at="PrimitiveChar")
-def char_of_an_unknown_kind(character: etree._Element) -> None:
-    """There is no such kind of character."""
-    character.set("kind", "CHAR16")
-
-
-@breaks("R-9.2.5.2-02", at="StringType")
-def string_of_an_unknown_base(string: etree._Element) -> None:
-    """There is no such kind of character."""
-    string.set("charBase", "CHAR16")
-
-
-@breaks("R-9.2.5.1-02", at="StringType")
-def string_of_a_word_long(string: etree._Element) -> None:
-    """A greatest size is a number."""
-    string.set("maxSize", "long")
-
-
 @keeps("R-9.2.5.1-03", at="StringType")
 def unbounded_string(string: etree._Element) -> bool:
     """A string may be unbounded."""
@@ -72,24 +35,6 @@ def unbounded_string(string: etree._Element) -> bool:
         return False
     string.set("maxSize", "-1")
     return True
-
-
-@breaks("R-9.2.4.1-01", at="Enumeration")
-def enumeration_without_index_type(enumeration: etree._Element) -> None:
-    """The index type is missing."""
-    del enumeration.attrib["indexType"]
-
-
-@breaks("R-9.2.4.1-02", at="Enumeration")
-def enumeration_indexed_by_floats(enumeration: etree._Element) -> None:
-    """An index type is an integer."""
-    enumeration.set("indexType", "FLOAT")
-
-
-@breaks("R-9.2.4.1-02", at="Sequence")
-def sequence_indexed_by_nothing_known(sequence: etree._Element) -> None:
-    """The index type is no kind, and is declared nowhere."""
-    sequence.set("indexType", NOWHERE)
 
 
 @breaks("R-9.2.4.2-03", at="Alias")
@@ -109,12 +54,6 @@ def field_by_way_of_an_alias(field: etree._Element) -> None:
 def structure_without_fields(structure: etree._Element) -> None:
     """The structure has no field."""
     _without(structure, "StructureField")
-
-
-@breaks("R-9.2.4.3-03", at="StructureField")
-def field_without_name(field: etree._Element) -> None:
-    """The field has no name."""
-    del field.attrib["name"]
 
 
 @breaks("R-9.2.4.3-05", at="StructureField")
@@ -142,12 +81,6 @@ def union_without_cases(union: etree._Element) -> None:
     _without(union, "UnionCase")
 
 
-@breaks("R-9.2.4.5-03", at="Union")
-def selector_without_name(union: etree._Element) -> None:
-    """The selector has no name."""
-    del union.attrib["selectorName"]
-
-
 @breaks("R-9.2.4.5-05", at="Union")
 def selector_of_a_boolean(union: etree._Element) -> None:
     """The selector is no enumeration."""
@@ -172,12 +105,6 @@ def case_without_selector_value(case: etree._Element) -> bool:
         return False
     _without(case, "SelectorValue")
     return True
-
-
-@breaks("R-9.2.4.6-04", at="SelectorValue")
-def selector_value_of_nothing_known(value: etree._Element) -> None:
-    """The selector has no such enumerator."""
-    value.set("enumerator", NOWHERE)
 
 
 @breaks("R-9.2.4.6-05", at="Union", under=("repeated-selector-values=refused",))
@@ -216,18 +143,6 @@ def _is_referred_to(declaration: etree._Element) -> bool:
         for element in declaration.getroottree().iter(etree.Element)
         for attribute in referring
     )
-
-
-@breaks("R-9.2.4.8-01", at="Enumerator")
-def enumerator_without_value(enumerator: etree._Element) -> None:
-    """The enumerator has no index value."""
-    del enumerator.attrib["value"]
-
-
-@breaks("R-9.2.4.8-02", at="Enumerator")
-def enumerator_of_a_word(enumerator: etree._Element) -> None:
-    """An index value is a number."""
-    enumerator.set("value", "first")
 
 
 @breaks("R-9.2.4.8-03", at="Enumerator")
@@ -286,12 +201,6 @@ def array_of_itself(array: etree._Element) -> None:
     array.set("type", str(array.get("name")))
 
 
-@breaks("R-9.2.4.11-01", at="ArrayDimension")
-def dimension_without_size(dimension: etree._Element) -> None:
-    """The dimension has no size."""
-    del dimension.attrib["size"]
-
-
 @breaks("R-9.2.4.11-03", at="ArrayDimension")
 def dimension_beyond_its_index(dimension: etree._Element) -> bool:
     """The size is one more than the index type holds."""
@@ -302,28 +211,10 @@ def dimension_beyond_its_index(dimension: etree._Element) -> bool:
     return True
 
 
-@breaks("R-9.2.4.11-04", at="ArrayDimension")
-def dimension_below_zero(dimension: etree._Element) -> None:
-    """A negative size leaves no index."""
-    dimension.set("size", "-1")
-
-
-@breaks("R-9.2.5.4-01", at="Sequence")
-def sequence_of_nothing_known(sequence: etree._Element) -> None:
-    """The type of the elements is declared nowhere."""
-    sequence.set("type", NOWHERE)
-
-
 @keeps("R-9.2.5.4-03", at="Sequence")
 def unbounded_sequence(sequence: etree._Element) -> None:
     """A sequence may be unbounded."""
     sequence.set("maxSize", "-1")
-
-
-@breaks("R-9.2.6.1-01", at="Constant")
-def constant_without_value(constant: etree._Element) -> None:
-    """The constant has no value."""
-    del constant.attrib["value"]
 
 
 @breaks("R-9.2.6.1-03", at="Constant")
