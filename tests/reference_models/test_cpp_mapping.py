@@ -12,9 +12,10 @@ from ucm_cts.harness.catalogue.requirements import SUITE, load_interpretations, 
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.toolchains.cpp.applicability import not_applicable, stand_for
 from ucm_cts.harness.toolchains.cpp.probes.running import CHECKS
-from ucm_cts.reference_models.mapping.cpp import expected as claims
+from ucm_cts.reference_models.mapping.cpp import claims
+from ucm_cts.reference_models.mapping.cpp.claims import Claim
 from ucm_cts.reference_models.mapping.cpp.classes import Named
-from ucm_cts.reference_models.mapping.cpp.expected import Claim, ExpectedCpp, Standard
+from ucm_cts.reference_models.mapping.cpp.expected import ExpectedCpp, Standard
 from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 
 

@@ -21,7 +21,7 @@ from ucm_cts.harness.toolchains.cpp.lister import ASKED, Answers, Question, Requ
 from ucm_cts.harness.toolchains.cpp.probes.checks import class_text, class_words, connection_declared
 from ucm_cts.harness.toolchains.cpp.probes.prelude import SHARED, SHARED_POINTERS, names_in, prelude, taken_first
 from ucm_cts.harness.toolchains.differences import Difference
-from ucm_cts.reference_models.mapping.cpp import expected as claims
+from ucm_cts.reference_models.mapping.cpp import claims
 from ucm_cts.reference_models.mapping.cpp.classes import Class, Connected
 from ucm_cts.reference_models.mapping.cpp.expected import Expected, ExpectedCpp
 

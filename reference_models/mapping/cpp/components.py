@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ucm_cts.adapters.contract.metamodel import components, contracts, interactions
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
+from ucm_cts.reference_models.mapping.cpp import claims
 from ucm_cts.reference_models.mapping.cpp.classes import (
     Abstract,
     Class,
@@ -20,28 +21,7 @@ from ucm_cts.reference_models.mapping.cpp.classes import (
     Returned,
 )
 from ucm_cts.reference_models.mapping.cpp.context import DATA, INTERFACES, Context, expect, plain, spelled
-from ucm_cts.reference_models.mapping.cpp.expected import (
-    Arity,
-    Claim,
-    ConnectionShape,
-    ConnectionTemplate,
-    ConnectionTo,
-    Declares,
-    DeclaresConnection,
-    Expected,
-    Implemented,
-    InheritsElement,
-    IsAbstract,
-    NoOperations,
-    NotCorba,
-    NothingElse,
-    Passed,
-    Pure,
-    ReturnsReference,
-    Runs,
-    Startup,
-    StartupTakes,
-)
+from ucm_cts.reference_models.mapping.cpp.expected import Expected
 from ucm_cts.reference_models.mapping.cpp.interfaces import (
     Bindings,
     Interfaces,
@@ -109,10 +89,10 @@ class Components:
         policies = list(self._policies(declared))
         abstract = self._abstract(declared, type_, ports, policies)
         owner = self.class_of(declared)
-        yield expect("R-13.7-01", declared, IsAbstract(Named(owner)))
-        yield expect("R-13.7-03", declared, Declares(owner))
-        yield expect("R-13.3-02", declared, Declares(owner))
-        yield expect("R-13-03", declared, NotCorba(Named(owner)))
+        yield expect("R-13.7-01", declared, claims.IsAbstract(Named(owner)))
+        yield expect("R-13.7-03", declared, claims.Declares(owner))
+        yield expect("R-13.3-02", declared, claims.Declares(owner))
+        yield expect("R-13-03", declared, claims.NotCorba(Named(owner)))
         yield from self._life_cycle(declared, owner, abstract)
         for use in ports:
             yield from self._port(declared, owner, abstract, use)
@@ -122,10 +102,10 @@ class Components:
         getters = self._policy_getters(policies)
         for use in getters:
             yield from self._getter(declared, owner, abstract, use, f"get_tp_{use.name}", ("17", "18", "19"))
-        yield expect("R-13.7-20", declared, NothingElse(Named(owner), _members(abstract)))
-        yield expect("R-13.7-02", declared, Implemented(Named(owner), abstract.key))
-        yield expect("R-13.9-01", declared, Implemented(Named(owner), abstract.key))
-        yield expect("R-13.9-04", declared, Runs(owner, abstract.key))
+        yield expect("R-13.7-20", declared, claims.NothingElse(Named(owner), _members(abstract)))
+        yield expect("R-13.7-02", declared, claims.Implemented(Named(owner), abstract.key))
+        yield expect("R-13.9-01", declared, claims.Implemented(Named(owner), abstract.key))
+        yield expect("R-13.9-04", declared, claims.Runs(owner, abstract.key))
 
     def _ports(self, type_: Declared) -> Iterator[Use]:
         for ancestor in reversed(lineage(type_)):
@@ -214,19 +194,19 @@ class Components:
     def _life_cycle(self, declared: Declared, owner: str, abstract: Abstract) -> Iterator[Expected]:
         for function, requirement in LIFE_CYCLE.items():
             forms = Forms(("void",), ((),))
-            yield expect(requirement, declared, Arity(Named(owner), function, 0, forms))
-            yield expect(requirement, declared, Passed(Named(owner), function, 0, 0, ("void",), forms))
-            yield expect(requirement, declared, Pure(Named(owner), abstract.key, function, 0))
+            yield expect(requirement, declared, claims.Arity(Named(owner), function, 0, forms))
+            yield expect(requirement, declared, claims.Passed(Named(owner), function, 0, 0, ("void",), forms))
+            yield expect(requirement, declared, claims.Pure(Named(owner), abstract.key, function, 0))
 
     def _startup(self, declared: Declared, owner: str, abstract: Abstract) -> Iterator[Expected]:
-        yield expect("R-13.7-04", declared, Pure(Named(owner), abstract.key, "on_startup", -1))
+        yield expect("R-13.7-04", declared, claims.Pure(Named(owner), abstract.key, "on_startup", -1))
         yield expect("R-13.7-12", declared, self._startup_of(abstract))
 
-    def _startup_of(self, abstract: Abstract) -> Startup:
+    def _startup_of(self, abstract: Abstract) -> claims.Startup:
         count, more = len(abstract.startup), len(abstract.more)
         must = self._context.reading("cpp-policy-connections") == "on_startup"
         least = count + more if must else count
-        return Startup(abstract.owner, least, count + more, tuple(c.name for c in abstract.startup))
+        return claims.Startup(abstract.owner, least, count + more, tuple(c.name for c in abstract.startup))
 
     def _port(self, declared: Declared, owner: str, abstract: Abstract, use: Use) -> Iterator[Expected]:
         if use.element.kind == "PROVIDED":
@@ -234,11 +214,11 @@ class Components:
             return
         name = f"{use.name}_Connection"
         for requirement, claim in (
-            ("R-13.7-08", DeclaresConnection(owner, name)),
-            ("R-13.7-09", ConnectionTemplate(owner, name)),
-            ("R-13.7-10", ConnectionShape(owner, name)),
-            ("R-13.7-11", ConnectionTo(owner, name, use.expected_class)),
-            ("R-13.7-12", StartupTakes(owner, name, self._startup_of(abstract))),
+            ("R-13.7-08", claims.DeclaresConnection(owner, name)),
+            ("R-13.7-09", claims.ConnectionTemplate(owner, name)),
+            ("R-13.7-10", claims.ConnectionShape(owner, name)),
+            ("R-13.7-11", claims.ConnectionTo(owner, name, use.expected_class)),
+            ("R-13.7-12", claims.StartupTakes(owner, name, self._startup_of(abstract))),
         ):
             yield expect(requirement, declared, claim, _named(use))
         yield from self._element(declared, use, Connected(owner, name))
@@ -247,23 +227,23 @@ class Components:
         self, declared: Declared, owner: str, abstract: Abstract, use: Use, name: str, numbers: tuple[str, str, str]
     ) -> Iterator[Expected]:
         there, pure, reference = (f"R-13.7-{number}" for number in numbers)
-        yield expect(there, declared, Arity(Named(owner), name, 0), _named(use))
-        yield expect(pure, declared, Pure(Named(owner), abstract.key, name, 0), _named(use))
-        yield expect(reference, declared, ReturnsReference(owner, name, use.expected_class), _named(use))
+        yield expect(there, declared, claims.Arity(Named(owner), name, 0), _named(use))
+        yield expect(pure, declared, claims.Pure(Named(owner), abstract.key, name, 0), _named(use))
+        yield expect(reference, declared, claims.ReturnsReference(owner, name, use.expected_class), _named(use))
         yield from self._element(declared, use, Returned(owner, name))
 
     def _element(self, declared: Declared, use: Use, reached: Class) -> Iterator[Expected]:
         """What is expected of the class of a port element's interface (13.8)."""
-        yield expect("R-13.8-02", declared, InheritsElement(reached), _named(use))
-        yield expect("R-13.8-03", declared, NoOperations(reached, "PortElementObject"), _named(use))
+        yield expect("R-13.8-02", declared, claims.InheritsElement(reached), _named(use))
+        yield expect("R-13.8-03", declared, claims.NoOperations(reached, "PortElementObject"), _named(use))
         if use.expected_class:
             return
-        yield expect("R-13.8-01", declared, Implemented(reached, use.key), _named(use))
+        yield expect("R-13.8-01", declared, claims.Implemented(reached, use.key), _named(use))
         assert isinstance(use.interface.element, contracts.Interface)
         for method in use.interface.element.methods:
             yield from self._interfaces.method_expected(method, use.interface, reached, use.key, use.bindings)
 
-    def _attributes(self, type_: Declared, owner: str, key: str) -> Iterator[Claim]:
+    def _attributes(self, type_: Declared, owner: str, key: str) -> Iterator[claims.Claim]:
         for ancestor in reversed(lineage(type_)):
             assert isinstance(ancestor.element, components.ComponentType)
             for attribute in ancestor.element.attributes:

@@ -9,8 +9,9 @@ from ucm_cts.adapters.contract.metamodel import contracts
 from ucm_cts.adapters.contract.metamodel.common import Named
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import SEPARATOR, Declared, Names, Scope, each_element
+from ucm_cts.reference_models.mapping.cpp import claims
 from ucm_cts.reference_models.mapping.cpp.classes import Sample
-from ucm_cts.reference_models.mapping.cpp.expected import Claim, Expected, Standard
+from ucm_cts.reference_models.mapping.cpp.expected import Expected, Standard
 
 DATA = (contracts.DataType, contracts.AbstractDataType)
 INTERFACES = (contracts.Interface, contracts.AbstractInterface)
@@ -139,7 +140,7 @@ def actual(declared: Declared) -> Declared:
     return declared
 
 
-def expect(requirement: str, declared: Declared, claim: Claim, member: Named | None = None) -> Expected:
+def expect(requirement: str, declared: Declared, claim: claims.Claim, member: Named | None = None) -> Expected:
     """``claim`` because of ``declared``, or of its ``member``."""
     if member is None:
         return Expected(requirement, declared.path, declared.element.line, claim)

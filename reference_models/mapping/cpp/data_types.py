@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from ucm_cts.adapters.contract.metamodel import contracts
 from ucm_cts.adapters.contract.metamodel.modules import MODULES
 from ucm_cts.adapters.contract.metamodel.names import Declared
+from ucm_cts.reference_models.mapping.cpp import claims
 from ucm_cts.reference_models.mapping.cpp.classes import Named
 from ucm_cts.reference_models.mapping.cpp.context import (
     ABSTRACT,
@@ -21,38 +22,7 @@ from ucm_cts.reference_models.mapping.cpp.context import (
     plain,
     spelled,
 )
-from ucm_cts.reference_models.mapping.cpp.expected import (
-    ArrayOf,
-    BoundedSequence,
-    ConstantIs,
-    Copied,
-    Declares,
-    Derives,
-    Discriminator,
-    EnumeratorOf,
-    EnumeratorValue,
-    EnumForm,
-    Expected,
-    Field,
-    Is,
-    IsAbstract,
-    IsClass,
-    IsConstant,
-    Namespace,
-    NoMember,
-    NoOtherEnumerators,
-    NotCorba,
-    NotDerived,
-    NotInHeader,
-    Regular,
-    SafeEnum,
-    SafeEnumInner,
-    Sizes,
-    StructForm,
-    Thrown,
-    Underlying,
-    Works,
-)
+from ucm_cts.reference_models.mapping.cpp.expected import Expected
 
 INTEGERS = {
     "BYTE": ("R-13.1-01", "uint8_t"),
@@ -73,7 +43,7 @@ def modules(context: Context) -> Iterator[Expected]:
     """A namespace for each module (13.3)."""
     for declared in context.declared:
         if isinstance(declared.element, MODULES) and context.is_sayable(declared.path):
-            yield expect("R-13.3-01", declared, Namespace(spelled(declared)))
+            yield expect("R-13.3-01", declared, claims.Namespace(spelled(declared)))
 
 
 def data_types(context: Context) -> Iterator[Expected]:
@@ -82,7 +52,7 @@ def data_types(context: Context) -> Iterator[Expected]:
         if isinstance(declared.element, contracts.DataType) and context.is_sayable(declared.path):
             if is_abstract(declared) or isinstance(declared.element, contracts.NativeType):
                 continue
-            yield expect("R-13.2-01", declared, Declares(spelled(declared)))
+            yield expect("R-13.2-01", declared, claims.Declares(spelled(declared)))
             yield from _data_type(declared, context)
 
 
@@ -107,19 +77,19 @@ def _data_type(declared: Declared, context: Context) -> Iterator[Expected]:
         case contracts.PrimitiveInteger(kind=kind) if kind in INTEGERS:
             requirement, type_ = INTEGERS[kind]
             types = byte_types(context) if kind == "BYTE" else (type_,)
-            yield expect(requirement, declared, Is(name, types))
+            yield expect(requirement, declared, claims.Is(name, types))
         case contracts.PrimitiveFloat(kind=kind) if kind in FLOATS:
-            yield expect(FLOATS[kind][0], declared, Is(name, (FLOATS[kind][1],)))
+            yield expect(FLOATS[kind][0], declared, claims.Is(name, (FLOATS[kind][1],)))
         case contracts.PrimitiveChar(kind=kind) if kind in CHARS:
-            yield expect(CHARS[kind][0], declared, Is(name, (CHARS[kind][1],)))
+            yield expect(CHARS[kind][0], declared, claims.Is(name, (CHARS[kind][1],)))
         case contracts.PrimitiveBoolean():
-            yield expect("R-13.1-13", declared, Is(name, ("bool",)))
+            yield expect("R-13.1-13", declared, claims.Is(name, ("bool",)))
         case contracts.StringType(char_base=kind) if kind in STRINGS:
-            yield expect(STRINGS[kind][0], declared, Is(name, (STRINGS[kind][1],)))
+            yield expect(STRINGS[kind][0], declared, claims.Is(name, (STRINGS[kind][1],)))
         case contracts.Alias(type=type_):
             renamed = context.data(type_, declared.scope)
             if renamed is not None and context.is_sayable(renamed.path):
-                yield expect("R-13.2-02", declared, Is(name, (spelled(renamed),)))
+                yield expect("R-13.2-02", declared, claims.Is(name, (spelled(renamed),)))
         case contracts.Structure():
             yield from _structure(declared, declared.element, context)
         case contracts.Union():
@@ -138,7 +108,7 @@ def byte_types(context: Context) -> tuple[str, ...]:
     return ("uint8_t", "int8_t") if reading == OBSERVED else (reading,)
 
 
-def struct_forms(context: Context) -> tuple[StructForm, ...]:
+def struct_forms(context: Context) -> tuple[claims.StructForm, ...]:
     """How fields may be read and written."""
     match context.reading("cpp-struct"):
         case "accessors":
@@ -166,29 +136,29 @@ def _field(
     if _is_large(declared):
         return
     if found is not None and nameable and context.is_sayable(found.path):
-        claim = Field(spelled(declared), plain(field.name), context.sample(found), struct_forms(context))
+        claim = claims.Field(spelled(declared), plain(field.name), context.sample(found), struct_forms(context))
         yield expect(requirement, declared, claim, field)
         if claim.sample.comparable:
-            yield expect(copied, declared, Copied(claim.owner, claim.field, claim.sample, claim.forms), field)
+            yield expect(copied, declared, claims.Copied(claim.owner, claim.field, claim.sample, claim.forms), field)
             if isinstance(field, contracts.ExceptionField):
-                thrown = Copied(claim.owner, claim.field, claim.sample, claim.forms, True)
+                thrown = claims.Copied(claim.owner, claim.field, claim.sample, claim.forms, True)
                 yield expect("R-13.4-08", declared, thrown, field)
 
 
 def _structure(declared: Declared, structure: contracts.Structure, context: Context) -> Iterator[Expected]:
     name = spelled(declared)
-    yield expect("R-13.2.1-01", declared, IsClass(name))
+    yield expect("R-13.2.1-01", declared, claims.IsClass(name))
     if not _is_large(declared):
-        yield expect("R-13.2.1-02", declared, Regular(name))
+        yield expect("R-13.2.1-02", declared, claims.Regular(name))
     for field in structure.fields:
         yield from _field("R-13.2.1-03", "R-13.2.1-02", declared, field, context)
 
 
 def _union(declared: Declared, union: contracts.Union, context: Context) -> Iterator[Expected]:
     name = spelled(declared)
-    yield expect("R-13.2.2-01", declared, IsClass(name))
+    yield expect("R-13.2.2-01", declared, claims.IsClass(name))
     if not _is_large(declared):
-        yield expect("R-13.2.2-02", declared, Regular(name))
+        yield expect("R-13.2.2-02", declared, claims.Regular(name))
     for case in union.cases:
         yield from _field("R-13.2.2-03", "R-13.2.2-02", declared, case, context)
         yield from _discriminator(declared, union, case, context)
@@ -208,7 +178,7 @@ def _discriminator(
     others = {v.enumerator for other in union.cases if other is not case for v in other.selector_values}
     chosen = [e for e in enumerators if e in listed or (case.default_case and e not in others)]
     if chosen and context.is_sayable(selector.path, type_.path, case.name, *enumerators):
-        claim = Discriminator(
+        claim = claims.Discriminator(
             spelled(declared),
             tuple(dict.fromkeys(("_d", plain(union.selector_name)))),
             plain(case.name),
@@ -230,25 +200,29 @@ def _enumeration(declared: Declared, enumeration: contracts.Enumeration, context
     if context.modern:
         reading = context.reading("cpp-enum")
         forms: tuple[str, ...] = ("enum", "enum-class") if reading == OBSERVED else (reading,)
-        yield expect(form, declared, EnumForm(name, forms))  # type: ignore[arg-type]
+        yield expect(form, declared, claims.EnumForm(name, forms))  # type: ignore[arg-type]
         if types:
-            yield expect(inner, declared, Underlying(name, types))
+            yield expect(inner, declared, claims.Underlying(name, types))
     else:
-        yield expect("R-13.10.2-01", declared, IsClass(f"{name}_def"))
-        yield expect("R-13.10.2-01", declared, EnumForm(f"{name}_def::type", ("enum",)))
-        yield expect(form, declared, SafeEnum(name, f"{name}_def"))
+        yield expect("R-13.10.2-01", declared, claims.IsClass(f"{name}_def"))
+        yield expect("R-13.10.2-01", declared, claims.EnumForm(f"{name}_def::type", ("enum",)))
+        yield expect(form, declared, claims.SafeEnum(name, f"{name}_def"))
         if types:
-            yield expect(inner, declared, SafeEnumInner(name, types))
-        yield expect(inner, declared, Works("safe-enum-default", (f"{name}_def",)))
+            yield expect(inner, declared, claims.SafeEnumInner(name, types))
+        yield expect(inner, declared, claims.Works("safe-enum-default", (f"{name}_def",)))
     owner = name if context.modern else f"{name}_def"
     sayable = [e for e in enumeration.enumerators if context.is_sayable(e.name)]
     for enumerator in sayable:
-        found = EnumeratorOf(name, plain(enumerator.name), name if context.modern else f"{name}_def::type")
+        found = claims.EnumeratorOf(name, plain(enumerator.name), name if context.modern else f"{name}_def::type")
         yield expect(member, declared, found, enumerator)
         if enumerator.value is not None:
-            yield expect(value, declared, EnumeratorValue(owner, plain(enumerator.name), enumerator.value), enumerator)
+            yield expect(
+                value, declared, claims.EnumeratorValue(owner, plain(enumerator.name), enumerator.value), enumerator
+            )
     if len(sayable) == len(enumeration.enumerators):
-        whole = NoOtherEnumerators(owner if context.modern else f"{owner}::type", tuple(plain(e.name) for e in sayable))
+        whole = claims.NoOtherEnumerators(
+            owner if context.modern else f"{owner}::type", tuple(plain(e.name) for e in sayable)
+        )
         yield expect(member if context.modern else value, declared, whole)
     if not context.modern and len(sayable) > 1:
         yield from _safe_enum(declared, tuple(f"{name}::{plain(e.name)}" for e in sayable[:2]), sayable)
@@ -258,13 +232,13 @@ def _safe_enum(
     declared: Declared, values: tuple[str, ...], enumerators: list[contracts.Enumerator]
 ) -> Iterator[Expected]:
     types = (spelled(declared),)
-    yield expect("R-13.10.2-06", declared, Works("safe-enum-construction", types, values))
+    yield expect("R-13.10.2-06", declared, claims.Works("safe-enum-construction", types, values))
     numbers = tuple(str(e.value) for e in enumerators[:2] if e.value is not None)
     if len(numbers) == len(values):
-        yield expect("R-13.10.2-07", declared, Works("safe-enum-underlying", types, (*values, *numbers)))
+        yield expect("R-13.10.2-07", declared, claims.Works("safe-enum-underlying", types, (*values, *numbers)))
         ordered = tuple(v for _, v in sorted(zip(map(int, numbers), values, strict=True)))
         for position, operator in enumerate(("==", "!=", "<", "<=", ">", ">=")):
-            claim = Works("safe-enum-comparison", types, ordered, operator)
+            claim = claims.Works("safe-enum-comparison", types, ordered, operator)
             yield expect(f"R-13.10.2-{position + 8:02}", declared, claim)
 
 
@@ -289,11 +263,11 @@ def _array(declared: Declared, array: contracts.Array, context: Context) -> Iter
     sizes = [d.size for d in array.dimensions if d.size is not None]
     if element is None or len(sizes) != len(array.dimensions) or not context.is_sayable(element.path):
         return
-    claim = ArrayOf(spelled(declared), context.array, spelled(element), len(sizes))
+    claim = claims.ArrayOf(spelled(declared), context.array, spelled(element), len(sizes))
     yield expect("R-13.2.4-01" if context.modern else "R-13.10.1-01", declared, claim)
-    yield expect("R-13.2.4-02", declared, Sizes(spelled(declared), tuple(sizes)))
+    yield expect("R-13.2.4-02", declared, claims.Sizes(spelled(declared), tuple(sizes)))
     if not context.modern:
-        yield expect("R-13.10.1-02", declared, Works("array", (spelled(declared),), tuple(map(str, sizes))))
+        yield expect("R-13.10.1-02", declared, claims.Works("array", (spelled(declared),), tuple(map(str, sizes))))
 
 
 def _sequence(declared: Declared, sequence: contracts.Sequence, context: Context) -> Iterator[Expected]:
@@ -304,11 +278,11 @@ def _sequence(declared: Declared, sequence: contracts.Sequence, context: Context
         return
     name = spelled(declared)
     if sequence.max_size is None or sequence.max_size < 0:
-        yield expect("R-13.2.5-02", declared, Is(name, (f"::std::vector< {spelled(element)} >",)))
+        yield expect("R-13.2.5-02", declared, claims.Is(name, (f"::std::vector< {spelled(element)} >",)))
         return
     reading = context.reading("cpp-bounded-sequence")
     forms: tuple[str, ...] = ("array", "bounded-vector") if reading == OBSERVED else (reading,)
-    claim = BoundedSequence(name, context.array, context.sample(element), sequence.max_size, forms)  # type: ignore[arg-type]
+    claim = claims.BoundedSequence(name, context.array, context.sample(element), sequence.max_size, forms)  # type: ignore[arg-type]
     yield expect("R-13.2.5-01", declared, claim)
 
 
@@ -322,14 +296,14 @@ def constants(context: Context) -> Iterator[Expected]:
         if type_ is None or not context.is_sayable(declared.path, type_.path):
             continue
         name = spelled(declared)
-        yield expect("R-13.2.7-01", declared, IsConstant(name))
+        yield expect("R-13.2.7-01", declared, claims.IsConstant(name))
         value = constant_value(element.value, actual(type_), declared, context)
         if value:
-            claim = ConstantIs(name, spelled(type_), f"static_cast< {spelled(type_)} >({value})")
+            claim = claims.ConstantIs(name, spelled(type_), f"static_cast< {spelled(type_)} >({value})")
             yield expect("R-13.2.7-02", declared, claim)
         floating = isinstance(actual(type_).element, contracts.PrimitiveFloat)
         if floating and not context.modern and context.reading("cpp03-float-constants", "source") == "source":
-            yield expect("R-13.10-05", declared, NotInHeader(name))
+            yield expect("R-13.10-05", declared, claims.NotInHeader(name))
 
 
 _TOKEN = re.compile(
@@ -377,30 +351,30 @@ def exceptions(context: Context) -> Iterator[Expected]:
             roots = True
             yield from _roots(declared)
         name = spelled(declared)
-        yield expect("R-13.3-02", declared, Declares(name))
-        yield expect("R-13.4-01", declared, IsClass(name))
+        yield expect("R-13.3-02", declared, claims.Declares(name))
+        yield expect("R-13.4-01", declared, claims.IsClass(name))
         if not _is_large(declared):
-            yield expect("R-13.4-01", declared, Regular(name))
-        yield expect("R-13.4-04", declared, Derives(Named(name), "::UCM::UserException"))
-        yield expect("R-13.4-03", declared, NoMember(Named(name), "rep_id"))
-        yield expect("R-13.4-03", declared, NoMember(Named(name), "_rep_id"))
-        yield expect("R-13.4-06", declared, NotCorba(Named(name)))
+            yield expect("R-13.4-01", declared, claims.Regular(name))
+        yield expect("R-13.4-04", declared, claims.Derives(Named(name), "::UCM::UserException"))
+        yield expect("R-13.4-03", declared, claims.NoMember(Named(name), "rep_id"))
+        yield expect("R-13.4-03", declared, claims.NoMember(Named(name), "_rep_id"))
+        yield expect("R-13.4-06", declared, claims.NotCorba(Named(name)))
         if not _is_large(declared):
-            yield expect("R-13.4-08", declared, Thrown(name, "::UCM::Exception"))
+            yield expect("R-13.4-08", declared, claims.Thrown(name, "::UCM::Exception"))
         for field in element.fields:
             yield from _field("R-13.4-07", "R-13.4-01", declared, field, context)
 
 
 def _roots(declared: Declared) -> Iterator[Expected]:
     root = "::UCM::Exception"
-    yield expect("R-13.4-02", declared, IsAbstract(Named(root)))
-    yield expect("R-13.4-02", declared, Derives(Named("::UCM::UserException"), root))
-    yield expect("R-13.4-02", declared, Derives(Named("::UCM::SystemException"), root))
-    yield expect("R-13.4-03", declared, NoMember(Named(root), "rep_id"))
-    yield expect("R-13.4-03", declared, NoMember(Named(root), "_rep_id"))
-    yield expect("R-13.4-05", declared, IsClass("::UCM::SystemException"))
+    yield expect("R-13.4-02", declared, claims.IsAbstract(Named(root)))
+    yield expect("R-13.4-02", declared, claims.Derives(Named("::UCM::UserException"), root))
+    yield expect("R-13.4-02", declared, claims.Derives(Named("::UCM::SystemException"), root))
+    yield expect("R-13.4-03", declared, claims.NoMember(Named(root), "rep_id"))
+    yield expect("R-13.4-03", declared, claims.NoMember(Named(root), "_rep_id"))
+    yield expect("R-13.4-05", declared, claims.IsClass("::UCM::SystemException"))
     both = ("::UCM::UserException", "::UCM::SystemException")
     for derived, other in (both, both[::-1]):
-        yield expect("R-13.4-05", declared, NotDerived(Named(derived), other))
+        yield expect("R-13.4-05", declared, claims.NotDerived(Named(derived), other))
     for other in ("::UCM::UserException", "::UCM::SystemException"):
-        yield expect("R-13.4-06", declared, NotCorba(Named(other)))
+        yield expect("R-13.4-06", declared, claims.NotCorba(Named(other)))

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from ucm_cts.adapters.contract.metamodel import contracts
 from ucm_cts.adapters.contract.metamodel.common import Named as NamedElement
 from ucm_cts.adapters.contract.metamodel.names import Declared
+from ucm_cts.reference_models.mapping.cpp import claims
 from ucm_cts.reference_models.mapping.cpp.classes import Abstract, Class, Forms, Method, Named, Parameter, Sample
 from ucm_cts.reference_models.mapping.cpp.context import (
     ABSTRACT,
@@ -22,21 +23,7 @@ from ucm_cts.reference_models.mapping.cpp.context import (
     spelled,
 )
 from ucm_cts.reference_models.mapping.cpp.data_types import is_abstract
-from ucm_cts.reference_models.mapping.cpp.expected import (
-    Arity,
-    Claim,
-    Declares,
-    Derives,
-    Expected,
-    Implemented,
-    IsAbstract,
-    NoMutator,
-    NotCorba,
-    NothingElse,
-    Passed,
-    Pure,
-    Works,
-)
+from ucm_cts.reference_models.mapping.cpp.expected import Expected
 
 Bindings = tuple[tuple[str, Declared], ...]
 """Paths of abstract types, and what stands for each."""
@@ -231,16 +218,16 @@ class Interfaces:
         owner = Named(interface_class(declared))
         methods = self.members.of_interface(declared, ())
         assert isinstance(declared.element, contracts.Interface)
-        yield expect("R-13.6-02", declared, Declares(owner.name))
-        yield expect("R-13.3-02", declared, Declares(owner.name))
+        yield expect("R-13.6-02", declared, claims.Declares(owner.name))
+        yield expect("R-13.3-02", declared, claims.Declares(owner.name))
         if methods:
-            yield expect("R-13.6-01", declared, IsAbstract(owner))
+            yield expect("R-13.6-01", declared, claims.IsAbstract(owner))
         for base in bases(declared):
             if self._context.is_sayable(base.path):
-                yield expect("R-13.6-05", declared, Derives(owner, interface_class(base)))
-        yield expect("R-13-03", declared, NotCorba(owner))
-        yield expect("R-13.6-04", declared, NothingElse(owner, tuple(m.name for m in methods)))
-        yield expect("R-13.6-03", declared, Implemented(owner, key))
+                yield expect("R-13.6-05", declared, claims.Derives(owner, interface_class(base)))
+        yield expect("R-13-03", declared, claims.NotCorba(owner))
+        yield expect("R-13.6-04", declared, claims.NothingElse(owner, tuple(m.name for m in methods)))
+        yield expect("R-13.6-03", declared, claims.Implemented(owner, key))
         for attribute in declared.element.attributes:
             yield from self._attribute(attribute, declared, owner, key)
         for method in declared.element.methods:
@@ -260,7 +247,7 @@ class Interfaces:
         owner: Class,
         key: str,
         requirements: tuple[str, str, str, str],
-    ) -> Iterator[tuple[str, Claim]]:
+    ) -> Iterator[tuple[str, claims.Claim]]:
         """What is claimed of an attribute's functions; ``requirements`` are those of its accessor, its mutator, of both being
         pure virtual, and of the mutator not being there.
         """
@@ -270,16 +257,16 @@ class Interfaces:
         assert accessor.result is not None
         type_ = accessor.result.type
         read = Forms((type_,), ((),), accessor.constant)
-        yield reading, Arity(owner, accessor.name, 0, read)
-        yield reading, Passed(owner, accessor.name, 0, 0, (type_,), read)
-        yield pure, Pure(owner, key, accessor.name, 0)
+        yield reading, claims.Arity(owner, accessor.name, 0, read)
+        yield reading, claims.Passed(owner, accessor.name, 0, 0, (type_,), read)
+        yield pure, claims.Pure(owner, key, accessor.name, 0)
         if mutator is None:
-            yield read_only, NoMutator(owner, accessor.name, type_)
+            yield read_only, claims.NoMutator(owner, accessor.name, type_)
             return
         written = Forms(("void",), tuple(mutator.signatures()))
-        yield writing, Arity(owner, accessor.name, 1, written)
-        yield writing, Passed(owner, accessor.name, 1, 1, mutator.parameters[0].types, written)
-        yield pure, Pure(owner, key, accessor.name, 1)
+        yield writing, claims.Arity(owner, accessor.name, 1, written)
+        yield writing, claims.Passed(owner, accessor.name, 1, 1, mutator.parameters[0].types, written)
+        yield pure, claims.Pure(owner, key, accessor.name, 1)
 
     def method_expected(
         self, method: contracts.Method, declared: Declared, owner: Class, key: str, bindings: Bindings
@@ -288,19 +275,19 @@ class Interfaces:
         found = self.members.method(method, declared, bindings)
         count = len(found.parameters)
         forms = Forms((found.result.type if found.result is not None else "void",), tuple(found.signatures()))
-        yield expect("R-13.6.1-01", declared, Pure(owner, key, found.name, count), method)
-        yield expect("R-13.6.1-02", declared, Arity(owner, found.name, count, forms), method)
+        yield expect("R-13.6.1-01", declared, claims.Pure(owner, key, found.name, count), method)
+        yield expect("R-13.6.1-02", declared, claims.Arity(owner, found.name, count, forms), method)
         position = 0
         for parameter in method.parameters:
             if parameter.direction != "RETURN":
                 position += 1
                 type_ = bound(parameter.type, declared, bindings)
                 taken = found.parameters[position - 1]
-                claim = Passed(owner, found.name, count, position, taken.types, forms)
+                claim = claims.Passed(owner, found.name, count, position, taken.types, forms)
                 yield expect(_requirement(type_, parameter.direction), declared, claim, parameter)
                 yield from self._reference(type_, declared, claim, parameter)
         returned = next((p for p in method.parameters if p.direction == "RETURN"), None)
-        claim = Passed(owner, found.name, count, 0, forms.results, forms)
+        claim = claims.Passed(owner, found.name, count, 0, forms.results, forms)
         if returned is None:
             yield expect("R-13.6.1-06", declared, claim, method)
         else:
@@ -309,17 +296,17 @@ class Interfaces:
             yield from self._reference(type_, declared, claim, returned)
 
     def _reference(
-        self, type_: Declared, declared: Declared, claim: Passed, parameter: contracts.Parameter
+        self, type_: Declared, declared: Declared, claim: claims.Passed, parameter: contracts.Parameter
     ) -> Iterator[Expected]:
         """That a reference to an interface is a shared pointer, however that is passed."""
         if not isinstance(type_.element, contracts.Interface):
             return
         reference = self._context.reference(interface_class(type_))
         types = (reference, f"const {reference}&", f"{reference}&")
-        somehow = Passed(claim.owner, claim.method, claim.parameters, claim.position, types, claim.forms)
+        somehow = claims.Passed(claim.owner, claim.method, claim.parameters, claim.position, types, claim.forms)
         yield expect("R-13.6.2-01" if self._context.modern else "R-13.10.3-01", declared, somehow, parameter)
         if not self._context.modern:
-            yield expect("R-13.10.3-02", declared, Works("shared_ptr", (interface_class(type_),)), parameter)
+            yield expect("R-13.10.3-02", declared, claims.Works("shared_ptr", (interface_class(type_),)), parameter)
 
 
 def _requirement(type_: Declared, direction: str) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ucm_cts.harness.toolchains.cpp.probes.overloads import found_function, ways_to, ways_to_startup
 from ucm_cts.harness.toolchains.cpp.probes.prelude import ARRAY_WORKS, SHARED_WORKS, SHARED_WORKS_TYPES
-from ucm_cts.reference_models.mapping.cpp import expected as claims
+from ucm_cts.reference_models.mapping.cpp import claims
 from ucm_cts.reference_models.mapping.cpp.classes import Class, Connected, Named, Returned, Sample
 
 Support = str

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 
-from ucm_cts.reference_models.mapping.cpp import expected as claims
+from ucm_cts.reference_models.mapping.cpp import claims
+from ucm_cts.reference_models.mapping.cpp.claims import Claim
 from ucm_cts.reference_models.mapping.cpp.classes import Connected, Named, Returned
-from ucm_cts.reference_models.mapping.cpp.expected import Claim
 
 _AT_LAST = (claims.Implemented, claims.Runs)
 _USED = (

@@ -42,7 +42,7 @@ from ucm_cts.harness.toolchains.cpp.probes.prelude import (
     taken_first,
 )
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
-from ucm_cts.reference_models.mapping.cpp import expected as claims
+from ucm_cts.reference_models.mapping.cpp import claims
 from ucm_cts.reference_models.mapping.cpp.expected import Expected, ExpectedCpp
 
 CHECKS = {
