@@ -73,8 +73,6 @@ class TypedProbe : public Implemented {
     void on_remove() override { core.body->on_remove(); }
 
   protected:
-    typedef TypedProbe Base;
-
     Core core;
 };
 
@@ -97,137 +95,77 @@ class LabelledProbe : public TypedProbe<Implemented> {
         this->core.configure(1, value);
     }
 
-  protected:
-    typedef LabelledProbe Base;
-
   private:
     ::probe_api::label_t label_;
     ::probe_api::label_t level_;
 };
 
-class Hermit : public TypedProbe< ::probes::Abstract_hermit_body> {
+/// A probe that requires no port element.
+template <class Probe>
+class RequiresNothing : public Probe {
   public:
-    using Base::Base;
-    void on_startup() override { core.start({}); }
+    using Probe::Probe;
+    void on_startup() override { this->core.start({}); }
 };
 
-class Source : public TypedProbe< ::probes::Abstract_source_body> {
+/// A probe that requires `out`.
+template <class Probe>
+class RequiresOne : public Probe {
   public:
-    using Base::Base;
-    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
+    using Probe::Probe;
+    void on_startup(const ::probes::out_api_Connection& out_api) override { this->core.start({out_api}); }
 };
 
-class Sink : public TypedProbe< ::probes::Abstract_sink_body> {
+/// A probe that requires `left` and `right`.
+template <class Probe>
+class RequiresTwo : public Probe {
   public:
-    using Base::Base;
-    void on_startup() override { core.start({}); }
-    ExchangePointer get_in_api() override { return core.element(0); }
-};
-
-class Relay : public TypedProbe< ::probes::Abstract_relay_body> {
-  public:
-    using Base::Base;
-    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
-    ExchangePointer get_in_api() override { return core.element(0); }
-};
-
-class Junction : public TypedProbe< ::probes::Abstract_junction_body> {
-  public:
-    using Base::Base;
+    using Probe::Probe;
     void on_startup(const ::probes::left_api_Connection& left_api,
                     const ::probes::right_api_Connection& right_api) override {
-        core.start({left_api, right_api});
+        this->core.start({left_api, right_api});
     }
 };
 
-class Twin : public TypedProbe< ::probes::Abstract_twin_body> {
+/// A probe that provides `in`.
+template <class Probe>
+class ProvidesOne : public Probe {
   public:
-    using Base::Base;
-    void on_startup() override { core.start({}); }
-    ExchangePointer get_in_api() override { return core.element(0); }
-    ExchangePointer get_aux_api() override { return core.element(1); }
+    using Probe::Probe;
+    ExchangePointer get_in_api() override { return this->core.element(0); }
 };
 
-class Labelled : public LabelledProbe< ::probes::Abstract_labelled_body> {
+/// A probe that provides `in` and `aux`.
+template <class Probe>
+class ProvidesTwo : public ProvidesOne<Probe> {
   public:
-    using Base::Base;
-    void on_startup() override { core.start({}); }
-    ExchangePointer get_in_api() override { return core.element(0); }
+    using ProvidesOne<Probe>::ProvidesOne;
+    ExchangePointer get_aux_api() override { return this->core.element(1); }
 };
 
-class LabelledRelay : public LabelledProbe< ::probes::Abstract_labelled_relay_body> {
+/// A probe that provides `in`, `aux` and `extra`.
+template <class Probe>
+class ProvidesThree : public ProvidesTwo<Probe> {
   public:
-    using Base::Base;
-    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
-    ExchangePointer get_in_api() override { return core.element(0); }
+    using ProvidesTwo<Probe>::ProvidesTwo;
+    ExchangePointer get_extra_api() override { return this->core.element(2); }
 };
 
-class Fork : public LabelledProbe< ::probes::Abstract_fork_body> {
-  public:
-    using Base::Base;
-    void on_startup(const ::probes::left_api_Connection& left_api,
-                    const ::probes::right_api_Connection& right_api) override {
-        core.start({left_api, right_api});
-    }
-    ExchangePointer get_in_api() override { return core.element(0); }
-};
-
-class LabelledTwin : public LabelledProbe< ::probes::Abstract_labelled_twin_body> {
-  public:
-    using Base::Base;
-    void on_startup() override { core.start({}); }
-    ExchangePointer get_in_api() override { return core.element(0); }
-    ExchangePointer get_aux_api() override { return core.element(1); }
-};
-
-class Merger : public LabelledProbe< ::probes::Abstract_merger_body> {
-  public:
-    using Base::Base;
-    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
-    ExchangePointer get_in_api() override { return core.element(0); }
-    ExchangePointer get_aux_api() override { return core.element(1); }
-};
-
-class Exchanger : public LabelledProbe< ::probes::Abstract_exchanger_body> {
-  public:
-    using Base::Base;
-    void on_startup(const ::probes::left_api_Connection& left_api,
-                    const ::probes::right_api_Connection& right_api) override {
-        core.start({left_api, right_api});
-    }
-    ExchangePointer get_in_api() override { return core.element(0); }
-    ExchangePointer get_aux_api() override { return core.element(1); }
-};
-
-class Triplet : public LabelledProbe< ::probes::Abstract_triplet_body> {
-  public:
-    using Base::Base;
-    void on_startup() override { core.start({}); }
-    ExchangePointer get_in_api() override { return core.element(0); }
-    ExchangePointer get_aux_api() override { return core.element(1); }
-    ExchangePointer get_extra_api() override { return core.element(2); }
-};
-
-class Funnel : public LabelledProbe< ::probes::Abstract_funnel_body> {
-  public:
-    using Base::Base;
-    void on_startup(const ::probes::out_api_Connection& out_api) override { core.start({out_api}); }
-    ExchangePointer get_in_api() override { return core.element(0); }
-    ExchangePointer get_aux_api() override { return core.element(1); }
-    ExchangePointer get_extra_api() override { return core.element(2); }
-};
-
-class Hub : public LabelledProbe< ::probes::Abstract_hub_body> {
-  public:
-    using Base::Base;
-    void on_startup(const ::probes::left_api_Connection& left_api,
-                    const ::probes::right_api_Connection& right_api) override {
-        core.start({left_api, right_api});
-    }
-    ExchangePointer get_in_api() override { return core.element(0); }
-    ExchangePointer get_aux_api() override { return core.element(1); }
-    ExchangePointer get_extra_api() override { return core.element(2); }
-};
+typedef RequiresNothing<TypedProbe< ::probes::Abstract_hermit_body>> Hermit;
+typedef RequiresOne<TypedProbe< ::probes::Abstract_source_body>> Source;
+typedef ProvidesOne<RequiresNothing<TypedProbe< ::probes::Abstract_sink_body>>> Sink;
+typedef ProvidesOne<RequiresOne<TypedProbe< ::probes::Abstract_relay_body>>> Relay;
+typedef RequiresTwo<TypedProbe< ::probes::Abstract_junction_body>> Junction;
+typedef ProvidesTwo<RequiresNothing<TypedProbe< ::probes::Abstract_twin_body>>> Twin;
+typedef ProvidesOne<RequiresNothing<LabelledProbe< ::probes::Abstract_labelled_body>>> Labelled;
+typedef ProvidesOne<RequiresOne<LabelledProbe< ::probes::Abstract_labelled_relay_body>>> LabelledRelay;
+typedef ProvidesOne<RequiresTwo<LabelledProbe< ::probes::Abstract_fork_body>>> Fork;
+typedef ProvidesTwo<RequiresNothing<LabelledProbe< ::probes::Abstract_labelled_twin_body>>> LabelledTwin;
+typedef ProvidesTwo<RequiresOne<LabelledProbe< ::probes::Abstract_merger_body>>> Merger;
+typedef ProvidesTwo<RequiresTwo<LabelledProbe< ::probes::Abstract_exchanger_body>>> Exchanger;
+typedef ProvidesThree<RequiresNothing<LabelledProbe< ::probes::Abstract_triplet_body>>> Triplet;
+typedef ProvidesThree<RequiresOne<LabelledProbe< ::probes::Abstract_funnel_body>>> Funnel;
+typedef ProvidesThree<RequiresTwo<LabelledProbe< ::probes::Abstract_hub_body>>> Hub;
 
 /// A probe that hears of each connection (11.2.1.3).
 template <class Probe>
