@@ -15,25 +15,10 @@ from ucm_cts.adapters.contract.messages import Welcome
 from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.cli import options
 from ucm_cts.harness.cli.compare_command import compare
 from ucm_cts.harness.cli.explanation import explanation, overview
 from ucm_cts.harness.cli.explore_command import explore
-from ucm_cts.harness.cli.options import (
-    CONFORMANT,
-    HARNESS_FAILED,
-    NOT_CONFORMANT,
-    WRONG_USE,
-    Folder,
-    Seconds,
-    adapter_argument,
-    ics_option,
-    in_process_option,
-    leave,
-    profile_option,
-    seed_option,
-    timeout_option,
-    toolchain_option,
-)
 from ucm_cts.harness.cli.results_command import results
 from ucm_cts.harness.cli.selftest_command import selftest
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
@@ -66,26 +51,26 @@ def cli() -> None:
 
 
 @cli.command()
-@adapter_argument
-@profile_option
+@options.adapter_argument
+@options.profile_option
 @click.option("-k", "expression", default="", help="Only test purposes whose id, clause or requirement contains this.")
-@seed_option
+@options.seed_option
 @click.option(
     "--out",
-    type=Folder(file_okay=False, path_type=Path),
+    type=options.Folder(file_okay=False, path_type=Path),
     default=Path("ucm-cts-report"),
     show_default=True,
 )
 @click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
-@ics_option
-@toolchain_option
+@options.ics_option
+@options.toolchain_option
 @click.option("--repeat", type=click.IntRange(min=1), default=1, show_default=True, help="Runs, with a seed each.")
-@in_process_option
-@timeout_option
+@options.in_process_option
+@options.timeout_option
 @click.option("--memory", type=click.IntRange(min=16), default=1024, show_default=True, help="MiB a host may use.")
 @click.option(
     "--incident-time",
-    type=Seconds(min=0),
+    type=options.Seconds(min=0),
     default=Limits.incident_seconds,
     show_default=True,
     help="Seconds that crashes and hangs may take in all before scenarios that would meet more of them are left out.",
@@ -182,8 +167,10 @@ def run(
         console.print("interrupted: the report holds what was measured so far")
     if cut_short:
         console.print(f"{cut_short}; the report holds the runs before", markup=False, soft_wrap=True)
-    status = NOT_CONFORMANT if outdated or interrupted or cut_short or not succeeded(report) else CONFORMANT
-    leave(console, status, f"; the report is in {out}")
+    status = (
+        options.NOT_CONFORMANT if outdated or interrupted or cut_short or not succeeded(report) else options.CONFORMANT
+    )
+    options.leave(console, status, f"; the report is in {out}")
 
 
 def _is_given(context: click.Context, parameter: str) -> bool:
@@ -229,11 +216,11 @@ def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output,
 
 
 @cli.command()
-@adapter_argument
+@options.adapter_argument
 @click.option(
     "--out", type=click.Path(dir_okay=False, path_type=Path), default=Path("ucm-cts-ics.toml"), show_default=True
 )
-@toolchain_option
+@options.toolchain_option
 @click.option("--force", is_flag=True, help="Write over a file that is there.")
 @click.pass_context
 def ics(context: click.Context, adapter: str, out: Path, toolchain: Path | None, force: bool) -> None:
@@ -254,7 +241,7 @@ def ics(context: click.Context, adapter: str, out: Path, toolchain: Path | None,
         write_statement(out, identity, adapter, force)
     console = Output()
     console.print(f"{out} is written; edit it, then: ucm-cts run {subject} --ics {out}", markup=False, soft_wrap=True)
-    leave(console, CONFORMANT)
+    options.leave(console, options.CONFORMANT)
 
 
 @cli.command()
@@ -266,16 +253,16 @@ def explain(requirement: str) -> None:
         console.print(overview())
     else:
         console.print(explanation(requirement))
-    leave(console, CONFORMANT)
+    options.leave(console, options.CONFORMANT)
 
 
 @cli.command()
 @click.argument("file", type=click.Path(dir_okay=False, path_type=Path))
-@adapter_argument
-@ics_option
-@in_process_option
-@seed_option
-@timeout_option
+@options.adapter_argument
+@options.ics_option
+@options.in_process_option
+@options.seed_option
+@options.timeout_option
 def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: int | None, timeout: float) -> None:
     """Run the scenario in FILE on ADAPTER and print what happens as a sequence diagram.
 
@@ -307,7 +294,7 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
             console.out(
                 "\nno rule was broken" if not findings else f"\n{len(findings)} rule(s) broken", highlight=False
             )
-    leave(console, NOT_CONFORMANT if failed else CONFORMANT)
+    options.leave(console, options.NOT_CONFORMANT if failed else options.CONFORMANT)
 
 
 cli.add_command(selftest)
@@ -324,16 +311,16 @@ def main() -> None:
         sys.exit(end.exit_code)
     except click.ClickException as error:
         error.show()
-        sys.exit(WRONG_USE)
+        sys.exit(options.WRONG_USE)
     except (WrongUse, DocumentError, HostUnavailable) as error:
         click.echo(f"ucm-cts: {error}", err=True)
-        sys.exit(WRONG_USE)
+        sys.exit(options.WRONG_USE)
     except (click.exceptions.Abort, KeyboardInterrupt):
         click.echo("ucm-cts: interrupted", err=True)
-        sys.exit(HARNESS_FAILED)
+        sys.exit(options.HARNESS_FAILED)
     except Exception as error:  # noqa: BLE001 - the last resort: a user sees one line, not a traceback
         click.echo(f"ucm-cts: the harness failed: {type(error).__name__}: {error}", err=True)
-        sys.exit(HARNESS_FAILED)
+        sys.exit(options.HARNESS_FAILED)
 
 
 def _short(text: str) -> str:

@@ -14,18 +14,7 @@ import click
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 import ucm_cts
-from ucm_cts.harness.cli.options import (
-    CONFORMANT,
-    NOT_CONFORMANT,
-    Folder,
-    adapter_argument,
-    framework_profile_option,
-    ics_option,
-    in_process_option,
-    leave,
-    seed_option,
-    timeout_option,
-)
+from ucm_cts.harness.cli import options
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.exploring.exploration import Exploration, Replayed
@@ -73,7 +62,7 @@ class _Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 
 
 
 @click.command()
-@adapter_argument
+@options.adapter_argument
 @click.option(
     "--budget",
     type=_Budget(),
@@ -81,10 +70,13 @@ class _Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 
     show_default=True,
     help="How long to draw scenarios, or how many: 60s, 5m, 2h, 500scenarios.",
 )
-@framework_profile_option
-@seed_option
+@options.framework_profile_option
+@options.seed_option
 @click.option(
-    "--out", type=Folder(file_okay=False, path_type=Path), default=Path("ucm-cts-exploration"), show_default=True
+    "--out",
+    type=options.Folder(file_okay=False, path_type=Path),
+    default=Path("ucm-cts-exploration"),
+    show_default=True,
 )
 @click.option(
     "--database",
@@ -93,9 +85,9 @@ class _Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 
     help="Where failures are remembered: a folder, readonly:folder, or module:NAME of a hypothesis ExampleDatabase. "
     "May be given several times. Without it, the folder 'examples' in the folder of --out.",
 )
-@ics_option
-@in_process_option
-@timeout_option
+@options.ics_option
+@options.in_process_option
+@options.timeout_option
 def explore(
     adapter: str,
     budget: Budget,
@@ -139,7 +131,9 @@ def explore(
     if interrupted:
         console.print("interrupted: what was found so far is kept, and shortened the next time")
     found = is_found(report)
-    leave(console, NOT_CONFORMANT if found or interrupted else CONFORMANT, f"; what was found is in {out}")
+    options.leave(
+        console, options.NOT_CONFORMANT if found or interrupted else options.CONFORMANT, f"; what was found is in {out}"
+    )
 
 
 def _explore(

@@ -3,21 +3,9 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
-from ucm_cts.adapters.contract.trace import (
-    BodyEvent,
-    Call,
-    Create,
-    Dependency,
-    Enter,
-    Exit,
-    Held,
-    Pushed,
-    Reply,
-    Request,
-    Siblings,
-)
 from ucm_cts.harness.execution.planned_actions import Act, Plan, is_as_planned, plan_of
 
 _NONE_HELD: dict[str, int] = {}
@@ -41,7 +29,7 @@ class Body:
             plan = self.plans[hook] = plan_of(self.declaration, hook)
         return plan
 
-    def be_given(self, dependencies: tuple[Dependency, ...]) -> None:
+    def be_given(self, dependencies: tuple[t.Dependency, ...]) -> None:
         """It hears which references there are."""
         self.held = {}
         for dependency in dependencies:
@@ -56,7 +44,7 @@ class Frame:
 
     __slots__ = ("acts", "body", "event", "held")
 
-    def __init__(self, event: Call | Enter | Request, body: Body | None = None) -> None:
+    def __init__(self, event: t.Call | t.Enter | t.Request, body: Body | None = None) -> None:
         self.event = event
         self.body = body
         self.acts: list[Act] = []
@@ -73,11 +61,11 @@ class Thread:
         self.clock: int | None = None
         self.frames: list[Frame] = []
 
-    def entered(self, event: BodyEvent) -> Frame | None:
+    def entered(self, event: t.BodyEvent) -> Frame | None:
         """Where the body that acts is; None if this thread is not inside it."""
         frame = self.frames[-1] if self.frames else None
         inside = frame.event if frame is not None else None
-        if type(inside) is Enter and inside.instance == event.instance and inside.component == event.component:
+        if type(inside) is t.Enter and inside.instance == event.instance and inside.component == event.component:
             return frame
         return None
 
@@ -93,12 +81,12 @@ class BodyChecks:
         """Was it made?"""
         return 1 <= instance <= len(self.made.get(component, ()))
 
-    def body(self, event: BodyEvent) -> Body | None:
+    def body(self, event: t.BodyEvent) -> Body | None:
         """The body that the event is about; None if it was never made."""
         made = self.made.get(event.component)
         return made[event.instance - 1] if made and 1 <= event.instance <= len(made) else None
 
-    def why_outside(self, event: BodyEvent) -> str:
+    def why_outside(self, event: t.BodyEvent) -> str:
         """Why the body that acts cannot do so: it was never made, or is not entered."""
         if event.component not in self.made:
             return f"there is no component {event.component}"
@@ -106,7 +94,7 @@ class BodyChecks:
             return f"instance {event.instance} of {event.component} was never made"
         return f"{event.component} acts without having been entered"
 
-    def check_create(self, event: Create, thread: Thread) -> str | None:
+    def check_create(self, event: t.Create, thread: Thread) -> str | None:
         bodies = self.made.get(event.component)
         if bodies is None:
             return self.why_outside(event)
@@ -114,7 +102,7 @@ class BodyChecks:
         due = len(bodies)
         return None if event.instance == due else f"instance {event.instance} is made after {due - 1}"
 
-    def check_enter(self, event: Enter, thread: Thread) -> str | None:
+    def check_enter(self, event: t.Enter, thread: Thread) -> str | None:
         body = self.body(event)
         if body is None:
             return self.why_outside(event)
@@ -124,7 +112,7 @@ class BodyChecks:
         thread.frames.append(Frame(event, body))
         return problem
 
-    def check_request(self, event: Request, thread: Thread) -> str | None:
+    def check_request(self, event: t.Request, thread: Thread) -> str | None:
         body = self.body(event)
         if body is None:
             return self.why_outside(event)
@@ -136,36 +124,36 @@ class BodyChecks:
         known = event.port in declaration.requires or event.port in [p.element for p in declaration.policies]
         return None if known else f"a request through {event.port!r}"
 
-    def check_reply(self, event: Reply, thread: Thread) -> str | None:
+    def check_reply(self, event: t.Reply, thread: Thread) -> str | None:
         asked = thread.frames[-1].event if thread.frames else None
-        same = isinstance(asked, Request) and asked.port == event.port and asked.instance == event.instance
+        same = isinstance(asked, t.Request) and asked.port == event.port and asked.instance == event.instance
         if not same or asked.component != event.component:  # type: ignore[union-attr]
             exists = self.exists(event.component, event.instance)
             return "a reply without its request" if exists else self.why_outside(event)
         thread.frames.pop()
         return None
 
-    def check_act(self, event: Pushed | Siblings | Held, thread: Thread) -> str | None:
+    def check_act(self, event: t.Pushed | t.Siblings | t.Held, thread: Thread) -> str | None:
         frame = thread.entered(event)
         if frame is None or frame.body is None:
             return self.why_outside(event)
         frame.acts.append(event)
-        if isinstance(event, Pushed):
+        if isinstance(event, t.Pushed):
             answers = sum(event.answers.values())
             return None if answers == event.count else f"{answers} answers to {event.count} messages"
-        if isinstance(event, Held):
+        if isinstance(event, t.Held):
             actions = frame.body.plan(frame.event.hook).actions  # type: ignore[union-attr]
             if event.gate not in {a.gate for a in actions if isinstance(a, s.HoldAtGate)}:
                 return f"held at {event.gate!r}, which the plan does not name"
         return None
 
-    def check_exit(self, event: Exit, thread: Thread) -> str | None:
+    def check_exit(self, event: t.Exit, thread: Thread) -> str | None:
         frame = thread.entered(event)
         if frame is None or frame.body is None:
             return self.why_outside(event)
         thread.frames.pop()
         enter, body, acts = frame.event, frame.body, frame.acts
-        assert isinstance(enter, Enter)
+        assert isinstance(enter, t.Enter)
         if enter.hook != event.hook:
             return f"{event.hook} is left where {enter.hook} was entered"
         actions, raises, returned = plan = body.plan(enter.hook)
@@ -187,7 +175,7 @@ class BodyChecks:
         return None if event.value == value else f"exchange returned {event.value}, its plan says {value}"
 
 
-def _due_results(plan: Plan, enter: Enter) -> tuple[tuple[Datum, ...] | None, str | None]:
+def _due_results(plan: Plan, enter: t.Enter) -> tuple[tuple[Datum, ...] | None, str | None]:
     """What a method gives back, and the exception that it is left with."""
     answers = [a for a in plan.actions if isinstance(a, s.Answer) and a.method == enter.method]
     if not answers:
@@ -196,7 +184,7 @@ def _due_results(plan: Plan, enter: Enter) -> tuple[tuple[Datum, ...] | None, st
     return enter.arguments if own is None else own, answers[-1].exception
 
 
-def _entry_problem(declaration: Declaration, event: Enter) -> str | None:
+def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
     """Why a body of this declaration cannot be entered so."""
     hook = event.hook
     if (hook == "on_startup") != (event.dependencies is not None):

@@ -7,31 +7,8 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.contract.trace import (
-    Call,
-    Counted,
-    Create,
-    Enter,
-    Event,
-    Exit,
-    Held,
-    Opened,
-    Paused,
-    Pushed,
-    Raise,
-    Reference,
-    Reply,
-    Request,
-    Return,
-    Settled,
-    Siblings,
-    Skip,
-    StepEvent,
-    Stressed,
-    Timeout,
-    kind_of,
-)
 from ucm_cts.adapters.contract.traits import bound_by, used_by
 from ucm_cts.harness.execution.body_behaviour import BodyChecks, Frame, Thread
 from ucm_cts.harness.execution.step_order import StepOrder
@@ -43,7 +20,7 @@ _LONGEST_PATIENCE = 24 * 60 * 60 * 1000
 _NANOSECONDS = 1_000_000
 
 
-def contradiction(scenario: Scenario, trace: Iterable[Event], stuck: bool = False) -> str | None:
+def contradiction(scenario: Scenario, trace: Iterable[t.Event], stuck: bool = False) -> str | None:
     """Why ``trace`` cannot be what happened when ``scenario`` ran; None if it can.
 
     ``stuck`` traces may leave steps open; the trace is read once, event by event. Checks order, nesting, threads, gates, completeness, and that bodies kept to
@@ -57,7 +34,7 @@ def contradiction(scenario: Scenario, trace: Iterable[Event], stuck: bool = Fals
     return None if stuck else check.end()
 
 
-def believable(scenario: Scenario, events: Sequence[Event]) -> tuple[Event, ...]:
+def believable(scenario: Scenario, events: Sequence[t.Event]) -> tuple[t.Event, ...]:
     """``events`` as far as they can be true."""
     check = _Check(scenario)
     for index, event in enumerate(events):
@@ -77,13 +54,13 @@ class _Check(BodyChecks):
         self.bound = {s.MANAGER, s.UNKNOWN, s.NIL}
         self.null = {s.NIL}
         self.order = StepOrder(scenario)
-        self.waiting: dict[int, Held] = {}
+        self.waiting: dict[int, t.Held] = {}
         self.arrivals: Counter[str] = Counter()
         self.opened: set[str] = set()
         patience = min(max(scenario.patience, 0), _LONGEST_PATIENCE) * _NANOSECONDS
         self.shortest_wait = patience * _PUNCTUALITY - _GRAIN
 
-    def take(self, event: Event) -> str | None:
+    def take(self, event: t.Event) -> str | None:
         """What is wrong with the next event."""
         self.taken += 1
         if event.n != self.taken:
@@ -111,7 +88,7 @@ class _Check(BodyChecks):
                 return f"step {number} ({s.operation(step)}) is missing or not ended"
         return None
 
-    def check_gate(self, event: Event) -> str | None:
+    def check_gate(self, event: t.Event) -> str | None:
         """A body that is held lets its thread go on when the gate is open, patience has run out or all is over."""
         held = self.waiting.pop(event.thread, None)
         if held is None or held.gate in self.opened or event.t - held.t >= self.shortest_wait:
@@ -144,28 +121,28 @@ class _Check(BodyChecks):
                 return f"step {number} comes after step {passed} ({s.operation(step)}), which is missing"
         return None
 
-    def check_begin(self, event: Call | Skip, thread: Thread) -> str | None:
+    def check_begin(self, event: t.Call | t.Skip, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
-        if step.ends_with != "return" and (isinstance(event, Call) or not used_by(step)):
+        if step.ends_with != "return" and (isinstance(event, t.Call) or not used_by(step)):
             return f"step {event.step} is no operation"
         frames = thread.frames
-        if isinstance(event, Skip) and step.optional and event.variable == s.operation(step) and frames:
+        if isinstance(event, t.Skip) and step.optional and event.variable == s.operation(step) and frames:
             top = frames.pop().event
             self.done[event.step] = True
-            is_own = isinstance(top, Call) and top.step == event.step
+            is_own = isinstance(top, t.Call) and top.step == event.step
             return None if is_own else f"step {event.step} is skipped and was not begun"
         if event.step in self.done:
             return f"step {event.step} is carried out twice"
         missing = self.missing(step)
-        if isinstance(event, Skip) and event.variable not in missing:
+        if isinstance(event, t.Skip) and event.variable not in missing:
             return f"step {event.step} is skipped although {event.variable} is bound"
-        if isinstance(event, Call) and missing:
+        if isinstance(event, t.Call) and missing:
             return f"step {event.step} is carried out although {missing[0]} is not bound"
         problem = self.check_order(event.step, thread)
-        self.done[event.step] = isinstance(event, Skip)
-        if isinstance(event, Call):
+        self.done[event.step] = isinstance(event, t.Skip)
+        if isinstance(event, t.Call):
             thread.frames.append(Frame(event))
         return problem
 
@@ -175,7 +152,7 @@ class _Check(BodyChecks):
             return [] if step.ref in self.bound and step.ref not in self.null else [step.ref]
         return [variable for variable in used_by(step) if variable not in self.bound]
 
-    def check_timeout(self, event: Timeout, thread: Thread) -> str | None:
+    def check_timeout(self, event: t.Timeout, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
@@ -187,23 +164,23 @@ class _Check(BodyChecks):
         self.done[event.step] = True
         return problem
 
-    def check_done(self, event: Counted | Paused | Stressed, thread: Thread) -> str | None:
+    def check_done(self, event: t.Counted | t.Paused | t.Stressed, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
-        if step.ends_with != kind_of(event) or event.step in self.done:
+        if step.ends_with != t.kind_of(event) or event.step in self.done:
             return f"step {event.step} is not the step that this event ends"
         if isinstance(step, s.Pause) and thread.clock is not None:
             due = step.milliseconds * _NANOSECONDS * _PUNCTUALITY - _GRAIN
             if event.t - thread.clock < due:
                 return f"step {event.step} ends too early"
-        if isinstance(event, Counted) and not 0 <= event.distinct <= event.received:
+        if isinstance(event, t.Counted) and not 0 <= event.distinct <= event.received:
             return f"step {event.step} has counted {event.distinct} of {event.received}"
         problem = self.check_order(event.step, thread)
         self.done[event.step] = True
         return problem
 
-    def check_opened(self, event: Opened, thread: Thread) -> str | None:
+    def check_opened(self, event: t.Opened, thread: Thread) -> str | None:
         number = self.order.next_open(event.gate, event.thread)
         if number is None:
             return f"gate {event.gate!r} is opened, and no step opens it here"
@@ -212,7 +189,7 @@ class _Check(BodyChecks):
         self.opened.add(event.gate)
         return problem
 
-    def check_settled(self, event: Settled, thread: Thread) -> str | None:
+    def check_settled(self, event: t.Settled, thread: Thread) -> str | None:
         number = self.order.next_settle(event.worker, event.thread)
         if number is None:
             return f"no step settles '{event.worker}' here"
@@ -223,7 +200,7 @@ class _Check(BodyChecks):
             return f"'{event.worker}' is recorded as done and is not"
         return problem
 
-    def check_end(self, event: Return | Raise, thread: Thread) -> str | None:
+    def check_end(self, event: t.Return | t.Raise, thread: Thread) -> str | None:
         step = self.step(event)
         if isinstance(step, str):
             return step
@@ -231,11 +208,11 @@ class _Check(BodyChecks):
             return f"step {event.step} is no operation"
         frames = thread.frames
         top = frames[-1].event if frames else None
-        if not isinstance(top, Call) or top.step != event.step:
+        if not isinstance(top, t.Call) or top.step != event.step:
             return f"step {event.step} ends without being open on thread {event.thread}"
         frames.pop()
         self.done[event.step] = True
-        if isinstance(event, Raise):
+        if isinstance(event, t.Raise):
             return None
         too_early = event.t - top.t < self.shortest_wait
         if isinstance(step, s.ReadLog) and len(event.records or ()) < step.records and too_early:
@@ -247,23 +224,23 @@ class _Check(BodyChecks):
             (self.null.add if event.value is None else self.null.discard)(step.bind)
         return self.check_value(step, event)
 
-    def step(self, event: StepEvent) -> s.Step | str:
+    def step(self, event: t.StepEvent) -> s.Step | str:
         """The event's step, or that there is none."""
         if not 0 <= event.step < len(self.scenario.steps):
             return f"there is no step {event.step}"
         return self.scenario.steps[event.step]
 
-    def check_value(self, step: s.Step, event: Return) -> str | None:
+    def check_value(self, step: s.Step, event: t.Return) -> str | None:
         value = event.value
         if (step.returns == "records") != (event.records is not None):
             return f"{s.operation(step)} returned {'no ' if event.records is None else ''}records"
         if not _fits(value, step.returns):
             return f"{s.operation(step)} cannot return {value!r}"
-        if isinstance(value, Reference) and value.instance > len(self.made.get(value.component, ())):
+        if isinstance(value, t.Reference) and value.instance > len(self.made.get(value.component, ())):
             return f"a reference to {value.component}#{value.instance}, which was never made"
         return None
 
-    def check_held(self, event: Held, thread: Thread) -> str | None:
+    def check_held(self, event: t.Held, thread: Thread) -> str | None:
         self.arrivals[event.gate] += 1
         self.waiting[event.thread] = event
         return self.check_act(event, thread)
@@ -277,29 +254,29 @@ def _fits(value: object, returns: s.Returns | None) -> bool:
         case "ids":
             return isinstance(value, tuple)
         case "reference":
-            return value is None or value == "opaque" or isinstance(value, Reference)
+            return value is None or value == "opaque" or isinstance(value, t.Reference)
         case _:
             return value is None
 
 
 _CHECKS: dict[type, Callable[[_Check, Any, Thread], str | None]] = {
-    Call: _Check.check_begin,
-    Skip: _Check.check_begin,
-    Return: _Check.check_end,
-    Raise: _Check.check_end,
-    Timeout: _Check.check_timeout,
-    Opened: _Check.check_opened,
-    Settled: _Check.check_settled,
-    Counted: _Check.check_done,
-    Paused: _Check.check_done,
-    Stressed: _Check.check_done,
-    Create: _Check.check_create,
-    Enter: _Check.check_enter,
-    Exit: _Check.check_exit,
-    Request: _Check.check_request,
-    Reply: _Check.check_reply,
-    Siblings: _Check.check_act,
-    Held: _Check.check_held,
-    Pushed: _Check.check_act,
+    t.Call: _Check.check_begin,
+    t.Skip: _Check.check_begin,
+    t.Return: _Check.check_end,
+    t.Raise: _Check.check_end,
+    t.Timeout: _Check.check_timeout,
+    t.Opened: _Check.check_opened,
+    t.Settled: _Check.check_settled,
+    t.Counted: _Check.check_done,
+    t.Paused: _Check.check_done,
+    t.Stressed: _Check.check_done,
+    t.Create: _Check.check_create,
+    t.Enter: _Check.check_enter,
+    t.Exit: _Check.check_exit,
+    t.Request: _Check.check_request,
+    t.Reply: _Check.check_reply,
+    t.Siblings: _Check.check_act,
+    t.Held: _Check.check_held,
+    t.Pushed: _Check.check_act,
 }
 """The check of each kind of event."""

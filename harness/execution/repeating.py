@@ -10,24 +10,15 @@ import msgspec
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Circumstances, Driver, Limits
 from ucm_cts.harness.hosting.locate import Endpoint
+from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.tally import cause_of, overall
-from ucm_cts.harness.results.values import (
-    Effort,
-    Evidence,
-    Execution,
-    FrameworkReport,
-    ReportedFinding,
-    RequirementResult,
-    TraceEvidence,
-    TransitionResult,
-)
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 
 SEEDS = 3
 """The scenario of a failure is run again for up to this many runs that did not show it, until one does not show it."""
 
-Steady = Callable[[ReportedFinding, int], Execution | None]
+Steady = Callable[[v.ReportedFinding, int], v.Execution | None]
 """Runs the scenario of a failure with the seed of another run; the execution, unless that one shows the failure, too."""
 
 
@@ -35,7 +26,7 @@ def looking(endpoint: Endpoint, limits: Limits, ics: Ics) -> Steady:
     """Looks for a steady execution on hosts behind ``endpoint``."""
     monitor = Monitor(load_life_cycle(), ics)
 
-    def steady(failed: ReportedFinding, seed: int) -> Execution | None:
+    def steady(failed: v.ReportedFinding, seed: int) -> v.Execution | None:
         if failed.execution is None:
             return None
         with Driver(endpoint, seed, limits) as driver:
@@ -47,7 +38,7 @@ def looking(endpoint: Endpoint, limits: Limits, ics: Ics) -> Steady:
     return steady
 
 
-def repeated(reports: Sequence[FrameworkReport], steady: Steady) -> FrameworkReport:
+def repeated(reports: Sequence[v.FrameworkReport], steady: Steady) -> v.FrameworkReport:
     """One report of all runs, which differ in their seeds only; the first one's is the report's."""
     first = reports[0]
     if len(reports) == 1:
@@ -72,8 +63,8 @@ def repeated(reports: Sequence[FrameworkReport], steady: Steady) -> FrameworkRep
 
 
 def _result(
-    results: Sequence[RequirementResult], reports: Sequence[FrameworkReport], steady: Steady
-) -> RequirementResult:
+    results: Sequence[v.RequirementResult], reports: Sequence[v.FrameworkReport], steady: Steady
+) -> v.RequirementResult:
     """The verdict that all runs agree on, or that it is unstable."""
     verdicts = Counter(result.verdict for result in results)
     exercised = sum(result.exercised for result in results)
@@ -88,11 +79,11 @@ def _result(
     reason = f"unstable: of {len(results)} runs with other seeds {counts}"
     kept = [r.seed for r, result in zip(reports, results, strict=True) if result.verdict == "pass"][:SEEDS]
 
-    def with_steady(failed: ReportedFinding) -> Evidence | None:
+    def with_steady(failed: v.ReportedFinding) -> v.Evidence | None:
         if failed.execution is None:
             return failed.evidence
         other = failed.steady or next(filter(None, (steady(failed, seed) for seed in kept)), None)
-        return TraceEvidence(failed.execution, other)
+        return v.TraceEvidence(failed.execution, other)
 
     findings = tuple(
         msgspec.structs.replace(failed, unstable=reason, evidence=with_steady(failed)) for failed in _joined(results)
@@ -100,9 +91,9 @@ def _result(
     return msgspec.structs.replace(worst, verdict="inconclusive", exercised=exercised, findings=findings, reason=reason)
 
 
-def _joined(results: Sequence[RequirementResult]) -> tuple[ReportedFinding, ...]:
+def _joined(results: Sequence[v.RequirementResult]) -> tuple[v.ReportedFinding, ...]:
     """Each cause once, with all its occurrences."""
-    known: dict[tuple[str, str, str], ReportedFinding] = {}
+    known: dict[tuple[str, str, str], v.ReportedFinding] = {}
     for failed in (failed for result in results for failed in result.findings):
         cause = cause_of(failed.finding)
         before = known.get(cause, msgspec.structs.replace(failed, occurrences=0))
@@ -110,8 +101,8 @@ def _joined(results: Sequence[RequirementResult]) -> tuple[ReportedFinding, ...]
     return tuple(known.values())
 
 
-def _transition(rows: Sequence[TransitionResult]) -> TransitionResult:
-    return TransitionResult(
+def _transition(rows: Sequence[v.TransitionResult]) -> v.TransitionResult:
+    return v.TransitionResult(
         rows[0].row,
         sum(row.exercised for row in rows),
         sum(row.violated for row in rows),
@@ -119,7 +110,7 @@ def _transition(rows: Sequence[TransitionResult]) -> TransitionResult:
     )
 
 
-def _readings(reports: Sequence[FrameworkReport]) -> dict[str, tuple[str, ...]]:
+def _readings(reports: Sequence[v.FrameworkReport]) -> dict[str, tuple[str, ...]]:
     options = sorted({option for report in reports for option in report.readings})
     return {
         option: tuple(sorted({value for report in reports for value in report.readings.get(option, ())}))
@@ -127,10 +118,10 @@ def _readings(reports: Sequence[FrameworkReport]) -> dict[str, tuple[str, ...]]:
     }
 
 
-def _effort(reports: Sequence[FrameworkReport]) -> Effort:
+def _effort(reports: Sequence[v.FrameworkReport]) -> v.Effort:
     measures: Counter[str] = Counter()
     seconds: Counter[str] = Counter()
     for report in reports:
         measures.update(report.effort.measures)
         seconds.update(report.effort.seconds)
-    return Effort(dict(measures.most_common()), {clause: round(spent, 3) for clause, spent in seconds.items()})
+    return v.Effort(dict(measures.most_common()), {clause: round(spent, 3) for clause, spent in seconds.items()})

@@ -13,15 +13,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, Parameter, message_interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
 from ucm_cts.harness.exploring.writer import Choose
-from ucm_cts.harness.purposes.connections import (
-    MESSAGE,
-    PROVIDER,
-    REQUIRER,
-    SERVICE,
-    Connector,
-    provided_end,
-    required_end,
-)
+from ucm_cts.harness.purposes import connections as c
 
 _NUMBER = Integer("LONG")
 _INTERFACES = {
@@ -33,7 +25,7 @@ _INTERFACES = {
     ),
     "numbers": message_interface(Integer("ULONG")),
 }
-_CONNECTORS: dict[str, Connector] = {"service": SERVICE, "numbers": MESSAGE}
+_CONNECTORS: dict[str, c.Connector] = {"service": c.SERVICE, "numbers": c.MESSAGE}
 _METHODS = ("echo", "tell")
 _CLOCK_API = "clock.clock_api"
 _TRACE_API = "trace.trace_api"
@@ -92,7 +84,7 @@ class CoreWriter:
     def cast(self, kind: str) -> list[str]:
         """Components that serve or receive, then components that call or push."""
         names = []
-        serving, calling = PROVIDER[_CONNECTORS[kind]], REQUIRER[_CONNECTORS[kind]]
+        serving, calling = c.PROVIDER[_CONNECTORS[kind]], c.REQUIRER[_CONNECTORS[kind]]
         for role, most in ((serving, 1 if kind == "service" else 2), (calling, 3)):
             for _ in range(self.choose(range(1, most + 1))):
                 name = f"{role} {sum(r == role for r in self.roles.values()) + 1}"
@@ -194,7 +186,7 @@ class CoreWriter:
 
     def attachment(self, name: str) -> Step:
         line = self.ends[name]
-        end = required_end if name in self.pushes else provided_end
+        end = c.required_end if name in self.pushes else c.provided_end
         return end(_CONNECTORS[self.lines[line]], line, name, container=self.places[name])
 
     def start_in(self, box: str) -> None:

@@ -23,19 +23,8 @@ from typing import Self
 
 import msgspec
 
+from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.messages import (
-    PROTOCOL,
-    FromHost,
-    Happened,
-    Hello,
-    Refused,
-    Run,
-    Traced,
-    Welcome,
-    encode,
-    from_host_decoder,
-)
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.adapters.contract.traits import duration
 from ucm_cts.adapters.sdk.python.loading import CannotLoad, load
@@ -60,7 +49,7 @@ class Answer(msgspec.Struct, frozen=True):
     """
 
     id: int
-    reply: Traced | Refused | Incident
+    reply: m.Traced | m.Refused | Incident
     happened: tuple[Event, ...] = ()
     host: int = 0
     sent: int = 0
@@ -78,7 +67,7 @@ class Hosts:
         self.limits = limits or Limits()
         self._opener: Opener | None = None
         self._host: Host | None = None
-        self._welcome: Welcome | None = None
+        self._welcome: m.Welcome | None = None
         self._opened = 0
 
     def __enter__(self) -> Self:
@@ -90,14 +79,14 @@ class Hosts:
         self.close()
 
     @property
-    def welcome(self) -> Welcome:
+    def welcome(self) -> m.Welcome:
         """The product behind the endpoint; starts a host if there has not been one."""
         if self._welcome is None:
             self._open()
             assert self._welcome
         return self._welcome
 
-    def run(self, runs: Iterable[Run], window: int = 32) -> Generator[Answer, None, None]:
+    def run(self, runs: Iterable[m.Run], window: int = 32) -> Generator[Answer, None, None]:
         """The answers to ``runs``, in order; up to ``window`` messages are on their way at a time.
 
         Between two answers the caller may ``run_again``: what was on its way is then sent again.
@@ -105,7 +94,7 @@ class Hosts:
         If there is no host any more, what remains is answered by incidents of kind ``unreachable``.
         """
         assert window > 0
-        waiting: deque[Run] = deque()
+        waiting: deque[m.Run] = deque()
         when: deque[int] = deque()
         source = iter(runs)
         current: Host | None = None
@@ -132,7 +121,7 @@ class Hosts:
                     when.clear()
                 for run in itertools.islice(waiting, sent, None):
                     when.append(time.monotonic_ns())
-                    current.submit(encode(run))
+                    current.submit(m.encode(run))
                 sent = len(waiting)
                 host = self._opened
                 answer = msgspec.structs.replace(self._receive(waiting[0]), host=host, sent=when.popleft())
@@ -143,7 +132,7 @@ class Hosts:
             if waiting:  # the caller has stopped asking for these answers
                 self.discard()
 
-    def run_again(self, run: Run, one_core: bool = False) -> Answer:
+    def run_again(self, run: m.Run, one_core: bool = False) -> Answer:
         """Run one scenario alone on a host of its own that sends each event as it happens, perhaps on ``one_core`` only.
 
         May be called between two answers of a ``run`` in progress, which goes on with a fresh host.
@@ -190,18 +179,18 @@ class Hosts:
             self._opener = opener(self._endpoint)
         return WatchedHost(self._opener.open(), self.limits)
 
-    def _greet(self, host: Host) -> Welcome:
-        host.submit(encode(Hello(PROTOCOL)))
+    def _greet(self, host: Host) -> m.Welcome:
+        host.submit(m.encode(m.Hello(m.PROTOCOL)))
         message = _decode(host, host.receive(Deadline.after(self.limits.welcome_seconds)))
-        if isinstance(message, Refused):
+        if isinstance(message, m.Refused):
             host.fail("refused", message.reason)
-        if not isinstance(message, Welcome):
+        if not isinstance(message, m.Welcome):
             host.fail("protocol", f"{_tag(message)} where welcome is due")
-        if message.protocol != PROTOCOL:
-            host.fail("protocol", f"the host speaks protocol {message.protocol}, the harness {PROTOCOL}")
+        if message.protocol != m.PROTOCOL:
+            host.fail("protocol", f"the host speaks protocol {message.protocol}, the harness {m.PROTOCOL}")
         return message
 
-    def _receive(self, run: Run) -> Answer:
+    def _receive(self, run: m.Run) -> Answer:
         assert self._host
         happened: list[Event] = []
         try:
@@ -212,19 +201,19 @@ class Hosts:
         except BaseException:
             self.discard()
             raise
-        if isinstance(reply, Traced) and reply.stuck:
+        if isinstance(reply, m.Traced) and reply.stuck:
             self.discard()
         return Answer(run.id, reply, tuple(happened))
 
-    def _receive_reply(self, host: Host, run: Run, happened: list[Event]) -> Traced | Refused:
+    def _receive_reply(self, host: Host, run: m.Run, happened: list[Event]) -> m.Traced | m.Refused:
         deadline = Deadline.after(self.limits.seconds + waits(run.scenario))
         while True:
             message = _decode(host, host.receive(deadline))
-            if isinstance(message, Welcome) or (isinstance(message, Happened) and not run.stream):
+            if isinstance(message, m.Welcome) or (isinstance(message, m.Happened) and not run.stream):
                 host.fail("protocol", f"{_tag(message)} where trace is due")
-            if message.id != run.id and not (isinstance(message, Refused) and message.id is None):
+            if message.id != run.id and not (isinstance(message, m.Refused) and message.id is None):
                 host.fail("protocol", f"{_tag(message)} has id {message.id} where {run.id} is due")
-            if not isinstance(message, Happened):
+            if not isinstance(message, m.Happened):
                 return message
             happened.append(message.event)
 
@@ -250,9 +239,9 @@ def waits(scenario: s.Scenario) -> float:
     return ((waiting + threads) * scenario.patience + milliseconds) / 1000
 
 
-def _decode(host: Host, line: bytes) -> FromHost:
+def _decode(host: Host, line: bytes) -> m.FromHost:
     try:
-        return from_host_decoder().decode(line)
+        return m.from_host_decoder().decode(line)
     except msgspec.ValidationError as error:
         host.fail("protocol", str(error))
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError):
@@ -260,7 +249,7 @@ def _decode(host: Host, line: bytes) -> FromHost:
         host.fail("garbage", f"not a JSON message: {shown!r}")
 
 
-def _tag(message: FromHost) -> str:
+def _tag(message: m.FromHost) -> str:
     return str(type(message).__struct_config__.tag)
 
 

@@ -10,21 +10,9 @@ import msgspec
 
 from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.harness.catalogue.requirements import Level, Requirement
+from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, shortest_first
 from ucm_cts.harness.results.statement import Statement
-from ucm_cts.harness.results.values import (
-    FactEvidence,
-    FrameworkReport,
-    Incident,
-    Overall,
-    Report,
-    ReportedFinding,
-    RequirementResult,
-    ToolChainReport,
-    TraceEvidence,
-    TransitionResult,
-    Verdict,
-)
 
 SCHEMA_FILE = "report.schema.json"
 
@@ -80,7 +68,7 @@ class RequirementEntry(Entry, frozen=True):
     clause: str
     title: str
     level: Level
-    verdict: Verdict
+    verdict: v.Verdict
     exercised: int
     reason: str
     findings: tuple[FindingEntry, ...]
@@ -125,7 +113,7 @@ class ReportEntry(Entry, frozen=True):
     product: str
     version: str
     profile: str
-    verdict: Overall
+    verdict: v.Overall
     requirements: tuple[RequirementEntry, ...]
     incidents: tuple[IncidentEntry, ...]
     transitions: tuple[TransitionEntry, ...]
@@ -143,7 +131,7 @@ class ReportEntry(Entry, frozen=True):
     runs: int
 
 
-def to_json(report: Report, catalogue: Sequence[Requirement]) -> bytes:
+def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     """``report.json``, indented, ending with a newline. The report must be clean (``foreign.clean_report``)."""
     known = {requirement.id: requirement for requirement in catalogue}
     shared = {name: getattr(report, name) for name in _SHARED}
@@ -161,9 +149,9 @@ def to_json(report: Report, catalogue: Sequence[Requirement]) -> bytes:
 _SHARED = ("product", "version", "profile", "verdict", "adapter", "suite_version", "seed", "started", "seconds")
 
 
-def _body(report: Report) -> dict[str, Any]:
+def _body(report: v.Report) -> dict[str, Any]:
     """What differs between products. For a tool chain ``scenarios`` are models and ``events`` are facts."""
-    if isinstance(report, FrameworkReport):
+    if isinstance(report, v.FrameworkReport):
         incidents = (
             _incident(item.incident, item.execution.name, number) for number, item in enumerate(report.incidents)
         )
@@ -175,7 +163,7 @@ def _body(report: Report) -> dict[str, Any]:
             "readings": report.readings,
             "runs": report.runs,
         }
-    assert isinstance(report, ToolChainReport)
+    assert isinstance(report, v.ToolChainReport)
     return {
         "incidents": (),
         "transitions": (),
@@ -195,7 +183,7 @@ def schema() -> dict[str, Any]:
     }
 
 
-def _requirement(result: RequirementResult, known: Mapping[str, Requirement]) -> RequirementEntry:
+def _requirement(result: v.RequirementResult, known: Mapping[str, Requirement]) -> RequirementEntry:
     return RequirementEntry(
         id=result.id,
         clause=result.clause,
@@ -211,7 +199,7 @@ def _requirement(result: RequirementResult, known: Mapping[str, Requirement]) ->
     )
 
 
-def _finding(failed: ReportedFinding, replay: str) -> FindingEntry:
+def _finding(failed: v.ReportedFinding, replay: str) -> FindingEntry:
     shown = FindingEntry(
         rule=failed.finding.rule,
         expected=failed.finding.expected,
@@ -224,7 +212,7 @@ def _finding(failed: ReportedFinding, replay: str) -> FindingEntry:
         replay="",
     )
     match failed.evidence:
-        case TraceEvidence(execution=execution, steady=steady):
+        case v.TraceEvidence(execution=execution, steady=steady):
             suspects = set(failed.finding.events)
             return msgspec.structs.replace(
                 shown,
@@ -234,7 +222,7 @@ def _finding(failed: ReportedFinding, replay: str) -> FindingEntry:
                 trace=execution.trace[-TRACE:] if failed.unstable else (),
                 steady=steady.trace[-TRACE:] if steady is not None else (),
             )
-        case FactEvidence(processed=processed):
+        case v.FactEvidence(processed=processed):
             return msgspec.structs.replace(
                 shown,
                 scenario=processed.name,
@@ -247,7 +235,7 @@ def _finding(failed: ReportedFinding, replay: str) -> FindingEntry:
     return shown
 
 
-def _incident(incident: Incident, scenario: str, number: int) -> IncidentEntry:
+def _incident(incident: v.Incident, scenario: str, number: int) -> IncidentEntry:
     return IncidentEntry(
         kind=incident.kind,
         detail=incident.detail,
@@ -271,7 +259,7 @@ def _statement(statement: Statement) -> StatementEntry:
     )
 
 
-def _transition(result: TransitionResult) -> TransitionEntry:
+def _transition(result: v.TransitionResult) -> TransitionEntry:
     return TransitionEntry(result.row, result.exercised, result.violated, result.readings)
 
 

@@ -10,29 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from ucm_cts.adapters.contract.trace import (
-    BodyEvent,
-    Call,
-    Counted,
-    Create,
-    Enter,
-    Event,
-    EventBase,
-    Exit,
-    Held,
-    Opened,
-    Paused,
-    Pushed,
-    Raise,
-    Reply,
-    Request,
-    Return,
-    Settled,
-    Siblings,
-    Skip,
-    Stressed,
-    Timeout,
-)
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.harness.report.wording import Wording, body_key
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Execution
@@ -125,10 +103,10 @@ def last_call(execution: Execution) -> str:
     words = Wording(execution)
     open_steps: list[int] = []
     for event in execution.trace:
-        if isinstance(event, Call):
+        if isinstance(event, t.Call):
             words.called(event.step)
             open_steps.append(event.step)
-        elif isinstance(event, Return | Raise | Timeout) and event.step in open_steps:
+        elif isinstance(event, t.Return | t.Raise | t.Timeout) and event.step in open_steps:
             open_steps.remove(event.step)
     return words.step(open_steps[-1]) if open_steps else ""
 
@@ -156,44 +134,44 @@ class _Walk:
             *(Lane(body_key(name, n), one_line(lane(name, n), 40), "body") for name, n in self.bodies),
         )
 
-    def follow(self, event: Event) -> None:
+    def follow(self, event: t.Event) -> None:
         """Append the lines of one event."""
         match event:
-            case Call():
+            case t.Call():
                 self._call(event)
-            case Skip():
+            case t.Skip():
                 self._skip(event)
-            case Timeout():
+            case t.Timeout():
                 self._timeout(event)
-            case Create():
+            case t.Create():
                 self._create(event)
-            case Enter():
+            case t.Enter():
                 self._enter(event)
-            case Exit():
+            case t.Exit():
                 self._exit(event)
-            case Request():
+            case t.Request():
                 self._request(event)
-            case Reply():
+            case t.Reply():
                 self._reply(event)
-            case Siblings():
+            case t.Siblings():
                 self._siblings(event)
-            case Held():
+            case t.Held():
                 self._held(event)
-            case Opened():
+            case t.Opened():
                 self._opened(event)
-            case Settled():
+            case t.Settled():
                 self._settled(event)
-            case Pushed():
+            case t.Pushed():
                 self._pushed(event)
-            case Counted():
+            case t.Counted():
                 self._counted(event)
-            case Stressed():
+            case t.Stressed():
                 self._stressed(event)
-            case Paused():
+            case t.Paused():
                 self._paused(event)
-            case Return():
+            case t.Return():
                 self._return(event)
-            case Raise():
+            case t.Raise():
                 self._raise(event)
 
     # the lanes
@@ -203,28 +181,30 @@ class _Walk:
             self.containers.append(name)
         return name
 
-    def _body(self, event: BodyEvent) -> str:
+    def _body(self, event: t.BodyEvent) -> str:
         component, instance = event.component, event.instance
         if (component, instance) not in self.bodies:
             self.bodies.append((component, instance))
         return body_key(component, instance)
 
-    def _home(self, event: BodyEvent) -> str:
+    def _home(self, event: t.BodyEvent) -> str:
         return self._container(self.words.home(event.component, event.instance))
 
     # the lines
 
-    def _add(self, kind: LineKind, source: str, target: str, label: str, event: EventBase, **more: Any) -> int:
+    def _add(self, kind: LineKind, source: str, target: str, label: str, event: t.EventBase, **more: Any) -> int:
         self.lines.append(Line(kind, source, target, one_line(label, LABEL), (event.n,), event.thread, **more))
         return len(self.lines) - 1
 
-    def _begin(self, what: str, source: str, target: str, label: str, event: EventBase, value: object = None) -> _Frame:
+    def _begin(
+        self, what: str, source: str, target: str, label: str, event: t.EventBase, value: object = None
+    ) -> _Frame:
         line = self._add("call", source, target, label, event, begins=True)
         frame = _Frame(what, line, source, target, value)
         self.frames.setdefault(event.thread, []).append(frame)
         return frame
 
-    def _end(self, what: str, label: str, result: str, event: EventBase, source: str) -> None:
+    def _end(self, what: str, label: str, result: str, event: t.EventBase, source: str) -> None:
         stack = self.frames.get(event.thread, [])
         at = next((i for i in range(len(stack) - 1, -1, -1) if stack[i].what == what), None)
         if at is None:
@@ -244,7 +224,7 @@ class _Walk:
         origin = frame.target or source
         self._add("answer", origin, frame.source, label, event, result=result, ends=True, answers=frame.line)
 
-    def _call(self, event: Call) -> None:
+    def _call(self, event: t.Call) -> None:
         step = event.step
         words = self.words
         words.called(step)
@@ -262,7 +242,7 @@ class _Walk:
         if (component, int(instance)) not in self.bodies:
             self.bodies.append((component, int(instance)))
 
-    def _return(self, event: Return) -> None:
+    def _return(self, event: t.Return) -> None:
         step = event.step
         self.words.returned(step, event.value)
         records = event.records
@@ -270,31 +250,31 @@ class _Walk:
         label = f"returns {result}" if result else "returns"
         self._end(f"step {step}", label, result, event, self.words.container(step))
 
-    def _raise(self, event: Raise) -> None:
+    def _raise(self, event: t.Raise) -> None:
         error, detail = event.error, one_line(event.detail, 60)
         name = "an undeclared exception" if error == "UNDECLARED" else error
         label = f"raises {name}: {detail}" if detail else f"raises {name}"
         self._end(f"step {event.step}", label, label, event, self.words.container(event.step))
 
-    def _skip(self, event: Skip) -> None:
+    def _skip(self, event: t.Skip) -> None:
         what, name = self.words.step(event.step), one_line(event.variable, 30)
         if event.variable == self.words.operation(event.step):
             self._end(f"step {event.step}", "is not offered", "is not offered", event, TEST)
             return
         self._add("note", TEST, TEST, f"skipped {what}: {name} was never bound", event)
 
-    def _timeout(self, event: Timeout) -> None:
+    def _timeout(self, event: t.Timeout) -> None:
         what = self.words.step(event.step)
         self._add("note", TEST, TEST, f"{what}: gave up after {self.words.patience} ms", event)
 
-    def _create(self, event: Create) -> None:
+    def _create(self, event: t.Create) -> None:
         open_calls = [frame.what for frame in self.frames.get(event.thread, []) if frame.what.startswith("step ")]
         during = int(open_calls[-1][5:]) if open_calls else None
         self.words.created(event.component, event.instance, during)
         home = self._home(event)
         self._add("call", home, self._body(event), "create", event)
 
-    def _enter(self, event: Enter) -> None:
+    def _enter(self, event: t.Enter) -> None:
         body, hook = self._body(event), event.hook
         what = f"{body} {hook}"
         label = self.words.hook(event)
@@ -319,56 +299,56 @@ class _Walk:
         else:
             self._begin(what, caller.source, body, label, event)
 
-    def _exit(self, event: Exit) -> None:
+    def _exit(self, event: t.Exit) -> None:
         body, hook = self._body(event), event.hook
         result = self.words.outcome(event)
         label = _came_back(event, result) if result else f"{hook} ends"
         self._end(f"{body} {hook}", label, result, event, body)
 
-    def _request(self, event: Request) -> None:
+    def _request(self, event: t.Request) -> None:
         body = self._body(event)
         sent = event.value if event.method is None else (event.method, event.arguments)
         frame = self._begin(f"{body} request {event.port}", body, "", self.words.request(event), event, sent)
         frame.arrived = False
 
-    def _reply(self, event: Reply) -> None:
+    def _reply(self, event: t.Reply) -> None:
         body = self._body(event)
         result = self.words.outcome(event)
         label = _came_back(event, result)
         self._end(f"{body} request {event.port}", label, result, event, body)
 
-    def _siblings(self, event: Siblings) -> None:
+    def _siblings(self, event: t.Siblings) -> None:
         answer = "raises an exception" if event.raised else self.words.value(event.ids)
         self._add("call", self._body(event), self._home(event), f"get_components ⇒ {answer}", event)
 
-    def _held(self, event: Held) -> None:
+    def _held(self, event: t.Held) -> None:
         body = self._body(event)
         self._add("note", body, body, f"held at {one_line(event.gate, 30)}", event)
 
-    def _opened(self, event: Opened) -> None:
+    def _opened(self, event: t.Opened) -> None:
         self._add("note", TEST, TEST, f"opens {one_line(event.gate, 30)}", event)
 
-    def _pushed(self, event: Pushed) -> None:
+    def _pushed(self, event: t.Pushed) -> None:
         body = self._body(event)
         answers = ", ".join(f"{times} times {code}" for code, times in event.answers.items())
         self._add("note", body, body, f"pushes {event.count} through {event.port}: {answers}", event)
 
-    def _counted(self, event: Counted) -> None:
+    def _counted(self, event: t.Counted) -> None:
         counted = f"{event.received} messages received, {event.distinct} distinct, {event.disordered} out of order"
         self._add("note", TEST, TEST, f"{lane(event.component, event.instance)}: {counted}", event)
 
-    def _stressed(self, event: Stressed) -> None:
+    def _stressed(self, event: t.Stressed) -> None:
         control = f"{event.control_overlaps} in {event.control_calls} without protection"
         self._add("note", TEST, TEST, f"{event.overlaps} overlaps in {event.calls} calls, {control}", event)
 
-    def _paused(self, event: Paused) -> None:
+    def _paused(self, event: t.Paused) -> None:
         self._add("note", TEST, TEST, self.words.step(event.step), event)
 
-    def _settled(self, event: Settled) -> None:
+    def _settled(self, event: t.Settled) -> None:
         self._add("note", TEST, TEST, f"{one_line(event.worker, 30)} is {event.where}", event)
 
 
-def _came_back(event: Exit | Reply, result: str) -> str:
+def _came_back(event: t.Exit | t.Reply, result: str) -> str:
     return f"raises {result}" if event.raised or event.exception is not None else f"returns {result}"
 
 

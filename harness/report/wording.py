@@ -4,20 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.scenario import (
-    MANAGER,
-    NIL,
-    AddComponent,
-    Connect,
-    CreateContainer,
-    Destroy,
-    GetPortElement,
-    Invoke,
-    RemoveContainer,
-    Step,
-    operation,
-)
 from ucm_cts.adapters.contract.trace import Enter, Exit, MaybeReference, Reference, Reply, Request
 from ucm_cts.adapters.contract.traits import Kind
 from ucm_cts.harness.results.foreign import one_line
@@ -37,11 +25,11 @@ class Wording:
     def __init__(self, execution: Execution) -> None:
         self.patience = execution.scenario.patience
         self._steps = execution.scenario.steps
-        self._elements: dict[str, GetPortElement] = {}
+        self._elements: dict[str, s.GetPortElement] = {}
         self._references: dict[str, Reference] = {}
-        self._added: dict[str, AddComponent] = {}
+        self._added: dict[str, s.AddComponent] = {}
         self._adds: dict[str, list[str]] = {}
-        self._connections: dict[str, Connect] = {}
+        self._connections: dict[str, s.Connect] = {}
         self._homes: dict[tuple[str, int], str] = {}
 
     # what happened so far
@@ -49,47 +37,47 @@ class Wording:
     def called(self, number: int) -> None:
         """Step ``number`` began: from here on its names mean what it binds."""
         match self._step(number):
-            case AddComponent() as step:
+            case s.AddComponent() as step:
                 self._added[step.bind or step.component] = step
                 self._adds.setdefault(step.component, []).append(step.container)
-            case GetPortElement() as step:
+            case s.GetPortElement() as step:
                 self._elements[step.bind] = step
                 self._references.pop(step.bind, None)
-            case Connect() as step:
+            case s.Connect() as step:
                 self._connections[step.bind] = step
 
     def returned(self, number: int, value: Answered) -> None:
         """Step ``number`` came back with ``value``."""
         step = self._step(number)
-        if isinstance(step, GetPortElement) and isinstance(value, Reference):
+        if isinstance(step, s.GetPortElement) and isinstance(value, Reference):
             self._references[step.bind] = value
 
     def created(self, component: str, instance: int, during: int | None) -> None:
         """A body was made, on the thread on which step ``during`` is under way."""
         step = self._step(during) if during is not None else None
-        if isinstance(step, AddComponent) and step.component == component:
+        if isinstance(step, s.AddComponent) and step.component == component:
             self._homes[component, instance] = step.container
 
     def home(self, component: str, instance: int) -> str:
         """The container that most likely holds the body."""
         containers = self._adds.get(component, [])
-        guess = containers[min(instance, len(containers)) - 1] if containers else MANAGER
+        guess = containers[min(instance, len(containers)) - 1] if containers else s.MANAGER
         return self._homes.get((component, instance), guess)
 
     # steps
 
-    def _step(self, number: int) -> Step | None:
+    def _step(self, number: int) -> s.Step | None:
         return self._steps[number] if 0 <= number < len(self._steps) else None
 
     def invoked(self, number: int) -> int | None:
         """The value that an ``invoke`` step sends; None for other steps."""
         step = self._step(number)
-        return step.value if isinstance(step, Invoke) else None
+        return step.value if isinstance(step, s.Invoke) else None
 
     def reached(self, number: int) -> str | None:
         """The lane that an ``invoke`` step should reach, as far as known."""
         step = self._step(number)
-        if not isinstance(step, Invoke):
+        if not isinstance(step, s.Invoke):
             return None
         known = self._references.get(step.ref)
         if known is not None:
@@ -103,28 +91,28 @@ class Wording:
     def container(self, number: int) -> str:
         """The container that the step speaks to."""
         step = self._step(number)
-        if step is None or isinstance(step, RemoveContainer | CreateContainer | Destroy):
-            return MANAGER
-        return getattr(step, "container", MANAGER)
+        if step is None or isinstance(step, s.RemoveContainer | s.CreateContainer | s.Destroy):
+            return s.MANAGER
+        return getattr(step, "container", s.MANAGER)
 
     def step(self, number: int) -> str:
         """The operation with its arguments, for instance ``connect client.out_api → provider.in_api``."""
         step = self._step(number)
         if step is None:
             return f"step {number}"
-        return one_line(f"{operation(step)} {step.words(self._known_as)}".rstrip(), 90)
+        return one_line(f"{s.operation(step)} {step.words(self._known_as)}".rstrip(), 90)
 
     def operation(self, number: int) -> str:
         """The operation alone."""
         step = self._step(number)
-        return operation(step) if step is not None else ""
+        return s.operation(step) if step is not None else ""
 
     def _known_as(self, variable: str, kind: Kind) -> str:
         """References are known by the port element, connections by both of their ends, others by the variable."""
         made = self._connections.get(variable) if kind == "connection" else None
         if made is not None:
             return made.words(self._known_as)
-        element = self._elements.get(variable) if kind == "reference" and variable != NIL else None
+        element = self._elements.get(variable) if kind == "reference" and variable != s.NIL else None
         return variable if element is None else element.words()
 
     # callbacks and values

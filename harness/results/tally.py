@@ -9,23 +9,11 @@ import msgspec
 
 from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.models.core_models import Comparison
+from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import reading_length, shortest_first
 from ucm_cts.harness.results.incident_causes import DistinctIncidents
 from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure, waiver_for
-from ucm_cts.harness.results.values import (
-    FRAMEWORK_INCIDENTS,
-    Evidence,
-    Execution,
-    Incident,
-    IncidentReport,
-    Overall,
-    ReportedFinding,
-    RequirementResult,
-    TraceEvidence,
-    TransitionResult,
-    Verdict,
-)
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.verdicts import RowTally, Verdicts
@@ -45,21 +33,21 @@ class Tally:
     def __init__(self, distinct_incidents: bool = False) -> None:
         """Of ``distinct_incidents`` only one of each cause is kept, however many there are."""
         self.exercised: Counter[str] = Counter()
-        self.failures: dict[Cause, ReportedFinding] = {}
+        self.failures: dict[Cause, v.ReportedFinding] = {}
         self.rows: dict[str, RowTally] = {}
         self.lost: dict[str, str] = {}
-        self._incidents: list[IncidentReport] = []
+        self._incidents: list[v.IncidentReport] = []
         self._distinct = DistinctIncidents() if distinct_incidents else None
-        self._untried: dict[str, IncidentReport] = {}
+        self._untried: dict[str, v.IncidentReport] = {}
         self._left_out: dict[str, str] = {}
         self.scenarios = 0
         self.events = 0
         self.measures: Counter[str] = Counter()
         self.readings: dict[str, set[str]] = {}
-        self._settled: dict[str, tuple[Verdict, str]] = {}
+        self._settled: dict[str, tuple[v.Verdict, str]] = {}
         self._reasons: dict[str, str] = {}
 
-    def add(self, execution: Execution, verdicts: Verdicts, findings: Sequence[Finding]) -> None:
+    def add(self, execution: v.Execution, verdicts: Verdicts, findings: Sequence[Finding]) -> None:
         """Add one execution, the verdicts on it, and its findings in the scenario's names."""
         self.scenarios += 1
         self.events += len(execution.trace)
@@ -72,7 +60,7 @@ class Tally:
             total.violated += tally.violated
             total.readings |= tally.readings
         for finding in findings:
-            self.add_failure(finding, TraceEvidence(execution))
+            self.add_failure(finding, v.TraceEvidence(execution))
 
     def _observe(self, readings: Mapping[str, Iterable[str]]) -> None:
         for option, values in readings.items():
@@ -93,7 +81,7 @@ class Tally:
             elif result.status != "kept":
                 self.explain(result.requirement, f"models: {result.observed}")
 
-    def settle(self, requirement: str, verdict: Verdict, reason: str) -> None:
+    def settle(self, requirement: str, verdict: v.Verdict, reason: str) -> None:
         """Set the verdict of a requirement that no run decides, unless a finding breaks it."""
         self._settled.setdefault(requirement, (verdict, reason))
 
@@ -106,7 +94,7 @@ class Tally:
         self.exercised[finding.requirement] += 1
         self.add_failure(finding, None)
 
-    def mark_unstable(self, finding: Finding, evidence: Evidence | None, reason: str) -> None:
+    def mark_unstable(self, finding: Finding, evidence: v.Evidence | None, reason: str) -> None:
         """``finding`` is unstable: another run of what ``evidence`` holds did not show it.
 
         Other evidence of the same cause counts less than this, until it is confirmed.
@@ -114,12 +102,12 @@ class Tally:
         known = self.failures.get(cause_of(finding))
         if known is None or _repeatable(known.evidence) == _repeatable(evidence):
             occurrences = known.occurrences if known is not None else 1
-            self.failures[cause_of(finding)] = ReportedFinding(finding, evidence, occurrences, unstable=reason)
+            self.failures[cause_of(finding)] = v.ReportedFinding(finding, evidence, occurrences, unstable=reason)
 
-    def add_failure(self, finding: Finding, evidence: Evidence | None) -> None:
+    def add_failure(self, finding: Finding, evidence: v.Evidence | None) -> None:
         """Count ``finding`` once more, and keep the shorter evidence."""
         known = self.failures.get(cause_of(finding))
-        new = ReportedFinding(finding, evidence)
+        new = v.ReportedFinding(finding, evidence)
         if known is None or known.unstable:
             occurrences = known.occurrences + 1 if known is not None else 1
             self.failures[cause_of(finding)] = msgspec.structs.replace(new, occurrences=occurrences)
@@ -127,17 +115,17 @@ class Tally:
         best = min(known, new, key=reading_length)
         self.failures[cause_of(finding)] = msgspec.structs.replace(best, occurrences=known.occurrences + 1)
 
-    def replace(self, cause: Cause, finding: Finding, execution: Execution) -> None:
+    def replace(self, cause: Cause, finding: Finding, execution: v.Execution) -> None:
         """A shorter execution of the same cause has been found; it does not count as another occurrence."""
         known = self.failures[cause]
-        self.failures[cause] = msgspec.structs.replace(known, finding=finding, evidence=TraceEvidence(execution))
+        self.failures[cause] = msgspec.structs.replace(known, finding=finding, evidence=v.TraceEvidence(execution))
 
-    def add_incident(self, execution: Execution, requirements: Iterable[str]) -> None:
+    def add_incident(self, execution: v.Execution, requirements: Iterable[str]) -> None:
         """An execution that ended in an incident; ``requirements`` are those it meant to exercise."""
         incident = execution.incident
         assert incident is not None
         if incident.kind == "untried":
-            known = self._untried.get(incident.detail, IncidentReport(incident, execution, 0))
+            known = self._untried.get(incident.detail, v.IncidentReport(incident, execution, 0))
             self._untried[incident.detail] = msgspec.structs.replace(known, occurrences=known.occurrences + 1)
             for requirement in requirements:
                 self._left_out.setdefault(requirement, incident.detail)
@@ -148,30 +136,30 @@ class Tally:
         if self._distinct is not None:
             self._distinct.add(execution)
         elif not (not_run and any(i.incident == incident for i in self._incidents)):
-            self._incidents.append(IncidentReport(incident, execution))
-        if incident.kind not in FRAMEWORK_INCIDENTS:
+            self._incidents.append(v.IncidentReport(incident, execution))
+        if incident.kind not in v.FRAMEWORK_INCIDENTS:
             for requirement in requirements:
                 self.lost.setdefault(requirement, f"{incident.kind}: {incident.detail}")
             return
         finding = finding_of_incident(execution)
         if finding is not None:
             self.exercised[finding.requirement] += 1
-            self.add_failure(finding, TraceEvidence(execution))
+            self.add_failure(finding, v.TraceEvidence(execution))
 
     @property
-    def incidents(self) -> tuple[IncidentReport, ...]:
+    def incidents(self) -> tuple[v.IncidentReport, ...]:
         """All of them; scenarios that were not tried for the same reason are one."""
         left_out = (
-            msgspec.structs.replace(one, incident=Incident("untried", f"{one.occurrences} scenarios {reason}"))
+            msgspec.structs.replace(one, incident=v.Incident("untried", f"{one.occurrences} scenarios {reason}"))
             for reason, one in self._untried.items()
         )
         return (*(self._distinct.reports if self._distinct is not None else self._incidents), *left_out)
 
     def results(
         self, requirements: Sequence[Requirement], known_failures: Sequence[KnownFailure]
-    ) -> tuple[RequirementResult, ...]:
+    ) -> tuple[v.RequirementResult, ...]:
         """The verdict of each requirement of the profile, testable ones only."""
-        by_requirement: dict[str, list[ReportedFinding]] = {}
+        by_requirement: dict[str, list[v.ReportedFinding]] = {}
         for failure in self.failures.values():
             by_requirement.setdefault(failure.finding.requirement, []).append(failure)
         return tuple(
@@ -179,8 +167,8 @@ class Tally:
         )
 
     def _result(
-        self, requirement: Requirement, failures: list[ReportedFinding], known_failures: Sequence[KnownFailure]
-    ) -> RequirementResult:
+        self, requirement: Requirement, failures: list[v.ReportedFinding], known_failures: Sequence[KnownFailure]
+    ) -> v.RequirementResult:
         exercised = self.exercised[requirement.id]
         by_length = shortest_first(tuple(failures))
         waived = tuple(
@@ -189,9 +177,9 @@ class Tally:
             if not f.unstable
         )
         if waived:
-            return RequirementResult(requirement.id, requirement.clause, requirement.title, "fail", exercised, waived)
+            return v.RequirementResult(requirement.id, requirement.clause, requirement.title, "fail", exercised, waived)
         if by_length:
-            return RequirementResult(
+            return v.RequirementResult(
                 requirement.id,
                 requirement.clause,
                 requirement.title,
@@ -202,36 +190,36 @@ class Tally:
             )
         if requirement.id in self._settled:
             verdict, reason = self._settled[requirement.id]
-            return RequirementResult(
+            return v.RequirementResult(
                 requirement.id, requirement.clause, requirement.title, verdict, exercised, (), reason
             )
         if requirement.id in self.lost:
             reason = f"a scenario that was to exercise it was lost ({self.lost[requirement.id]})"
-            return RequirementResult(
+            return v.RequirementResult(
                 requirement.id, requirement.clause, requirement.title, "error", exercised, (), reason
             )
         if not exercised:
             reason = self._reasons.get(requirement.id, "its condition never arose in this run")
             if requirement.id in self._left_out:
                 reason += f"; scenarios that were to exercise it were {self._left_out[requirement.id]}"
-            return RequirementResult(
+            return v.RequirementResult(
                 requirement.id, requirement.clause, requirement.title, "inconclusive", 0, (), reason
             )
-        return RequirementResult(requirement.id, requirement.clause, requirement.title, "pass", exercised)
+        return v.RequirementResult(requirement.id, requirement.clause, requirement.title, "pass", exercised)
 
-    def transitions(self, table: LifeCycleTable) -> tuple[TransitionResult, ...]:
+    def transitions(self, table: LifeCycleTable) -> tuple[v.TransitionResult, ...]:
         """How each row of the table fared."""
         empty = RowTally()
         rows = [(row.id, self.rows.get(row.id, empty)) for row in table.rows]
-        return tuple(TransitionResult(i, t.exercised, t.violated, tuple(sorted(t.readings))) for i, t in rows)
+        return tuple(v.TransitionResult(i, t.exercised, t.violated, tuple(sorted(t.readings))) for i, t in rows)
 
 
-def _repeatable(evidence: Evidence | None) -> object:
+def _repeatable(evidence: v.Evidence | None) -> object:
     """What another run of ``evidence`` repeats."""
-    return evidence.execution if isinstance(evidence, TraceEvidence) else evidence
+    return evidence.execution if isinstance(evidence, v.TraceEvidence) else evidence
 
 
-def overall(results: Sequence[RequirementResult], incidents: Sequence[IncidentReport]) -> Overall:
+def overall(results: Sequence[v.RequirementResult], incidents: Sequence[v.IncidentReport]) -> v.Overall:
     """Not conformant if any requirement failed; conformant if all passed and nothing went wrong besides."""
     if any(r.verdict == "fail" for r in results):
         return "not conformant"

@@ -6,22 +6,7 @@ import struct
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 
-from ucm_cts.adapters.contract.data_types import (
-    Alias,
-    AnyType,
-    Array,
-    Boolean,
-    Char,
-    Datum,
-    Enumeration,
-    Float,
-    Integer,
-    String,
-    Structure,
-    Union,
-    integer_range,
-)
-from ucm_cts.adapters.contract.data_types import Sequence as SequenceType
+from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract.data_values import case_of
 from ucm_cts.harness.catalogue.requirements import load_interpretations
 
@@ -60,20 +45,20 @@ def largest_character(kind: str, readings: Readings) -> int:
     return 0xFFFF if reading_of("char32", readings) == "bmp" else 0x10FFFF
 
 
-def bounds(of: Integer, readings: Readings) -> tuple[int, int]:
+def bounds(of: d.Integer, readings: Readings) -> tuple[int, int]:
     """The least and the greatest integer that is sent."""
-    low, high = integer_range(of.kind)
+    low, high = d.integer_range(of.kind)
     return (0 if of.kind == "BYTE" and reading_of("byte", readings) == "unsigned" else low), high
 
 
-def lengths(of: SequenceType, readings: Readings, longest: int) -> tuple[int, int]:
+def lengths(of: d.Sequence, readings: Readings, longest: int) -> tuple[int, int]:
     """How few and how many elements are sent; ``longest`` is for unbounded ones."""
     if of.size < 0:
         return 0, longest
     return (of.size if reading_of("bounded-sequence", readings) == "full-only" else 0), of.size
 
 
-def corners(of: AnyType, readings: Readings = UNDECLARED) -> list[Datum]:
+def corners(of: d.AnyType, readings: Readings = UNDECLARED) -> list[d.Datum]:
     """Corner values of ``of``, the simplest first; at least one."""
     return _CORNERS[type(of)](of, readings)
 
@@ -83,11 +68,11 @@ def float_bits(kind: str, value: float) -> str:
     return struct.pack(">f" if kind == "FLOAT" else ">d", value).hex()
 
 
-def _of_alias(of: Alias, readings: Readings) -> list[Datum]:
+def _of_alias(of: d.Alias, readings: Readings) -> list[d.Datum]:
     return corners(of.of, readings)
 
 
-def _of_integer(of: Integer, readings: Readings) -> list[Datum]:
+def _of_integer(of: d.Integer, readings: Readings) -> list[d.Datum]:
     low, high = bounds(of, readings)
     powers = [2**bits for bits in (7, 8, 15, 16, 31, 32, 53, 63)]
     candidates = [
@@ -116,25 +101,25 @@ _FLOAT_CORNERS = {
 """Zeros, ones, a tenth, the least step above one, great integers, subnormals, the greatest, infinities, quiet NaNs."""
 
 
-def _of_float(of: Float, readings: Readings) -> list[Datum]:
+def _of_float(of: d.Float, readings: Readings) -> list[d.Datum]:
     return list(_FLOAT_CORNERS[of.kind].split())
 
 
-def _of_char(of: Char, readings: Readings) -> list[Datum]:
+def _of_char(of: d.Char, readings: Readings) -> list[d.Datum]:
     last = largest_character(of.kind, readings)
     candidates = (0x61, 0x41, 0x20, 0x0A, 0x22, 0x5C, 0, 1, 0x7F, 0x80, 0xE9, 0xFF, 0x100, 0x20AC, 0xD7FF, 0xE000)
     beyond = (0xFEFF, 0xFFFD, 0xFFFF, 0x10000, 0x1F600, 0x10FFFF)
     return [c for c in (*candidates, *beyond) if c <= last]
 
 
-def _of_boolean(of: Boolean, readings: Readings) -> list[Datum]:
+def _of_boolean(of: d.Boolean, readings: Readings) -> list[d.Datum]:
     return [False, True]
 
 
-def _of_string(of: String, readings: Readings) -> list[Datum]:
+def _of_string(of: d.String, readings: Readings) -> list[d.Datum]:
     last = largest_character(of.base, readings)
     size = of.size if of.size >= 0 else LONG_STRING
-    alphabet = [chr(c) for c in _of_char(Char(of.base), readings) if isinstance(c, int) and c > 0]
+    alphabet = [chr(c) for c in _of_char(d.Char(of.base), readings) if isinstance(c, int) and c > 0]
     shapes = [
         "",
         "a",
@@ -156,28 +141,28 @@ def _of_string(of: String, readings: Readings) -> list[Datum]:
     return list(dict.fromkeys(kept))
 
 
-def _of_enumeration(of: Enumeration, readings: Readings) -> list[Datum]:
+def _of_enumeration(of: d.Enumeration, readings: Readings) -> list[d.Datum]:
     return list(of.values)
 
 
-def _of_structure(of: Structure, readings: Readings) -> list[Datum]:
+def _of_structure(of: d.Structure, readings: Readings) -> list[d.Datum]:
     return list(_combined([corners(field, readings) for field in of.fields.values()]))
 
 
-def _combined(columns: Sequence[Sequence[Datum]]) -> list[list[Datum]]:
+def _combined(columns: Sequence[Sequence[d.Datum]]) -> list[list[d.Datum]]:
     """Rows with the values of each column, from the first to the last if there are too many; neighbours are seldom alike."""
     rows = min(max(map(len, columns)), _MOST_COMBINATIONS)
     return [[_spread(column, row, rows, place) for place, column in enumerate(columns)] for row in range(rows)]
 
 
-def _spread(values: Sequence[Datum], row: int, rows: int, place: int) -> Datum:
+def _spread(values: Sequence[d.Datum], row: int, rows: int, place: int) -> d.Datum:
     """The value of a row, when many values are spread over few rows; each place begins at another one."""
     index = row * (len(values) - 1) // (rows - 1) if len(values) > rows > 1 else row
     return values[(index + place) % len(values)]
 
 
-def _of_union(of: Union, readings: Readings) -> list[Datum]:
-    values: list[Datum] = []
+def _of_union(of: d.Union, readings: Readings) -> list[d.Datum]:
+    values: list[d.Datum] = []
     for enumerator in of.selector.values:
         case = case_of(of, enumerator)
         if case is not None:
@@ -186,21 +171,21 @@ def _of_union(of: Union, readings: Readings) -> list[Datum]:
     return values
 
 
-def _of_array(of: Array, readings: Readings) -> list[Datum]:
+def _of_array(of: d.Array, readings: Readings) -> list[d.Datum]:
     return [_array(of.sizes, _dealer(corners(of.of, readings), start)) for start in range(3)]
 
 
-def _array(sizes: tuple[int, ...], element: Callable[[], Datum]) -> list[Datum]:
+def _array(sizes: tuple[int, ...], element: Callable[[], d.Datum]) -> list[d.Datum]:
     if len(sizes) == 1:
         return [element() for _ in range(sizes[0])]
     return [_array(sizes[1:], element) for _ in range(sizes[0])]
 
 
-def _dealer(values: Sequence[Datum], start: int) -> Callable[[], Datum]:
+def _dealer(values: Sequence[d.Datum], start: int) -> Callable[[], d.Datum]:
     """Gives the values one by one, again and again, beginning somewhere."""
     turn = start * 5 - 1
 
-    def deal() -> Datum:
+    def deal() -> d.Datum:
         nonlocal turn
         turn += 1
         return values[turn % len(values)]
@@ -208,26 +193,26 @@ def _dealer(values: Sequence[Datum], start: int) -> Callable[[], Datum]:
     return deal
 
 
-def _of_sequence(of: SequenceType, readings: Readings) -> list[Datum]:
+def _of_sequence(of: d.Sequence, readings: Readings) -> list[d.Datum]:
     least, most = lengths(of, readings, LONG_SEQUENCE)
     elements = corners(of.of, readings)
     some = (_OCTET,) if of.size < 0 else (most // 2, most - 1)
     wanted = sorted({n for n in (least, 1, 2, *some, most) if least <= n <= most})
-    if of.size < 0 and isinstance(of.of, Structure | Union | Array | SequenceType):
+    if of.size < 0 and isinstance(of.of, d.Structure | d.Union | d.Array | d.Sequence):
         wanted = [n for n in wanted if n <= 2] + [5]
     return [_array((length,), _dealer(elements, length)) for length in wanted]
 
 
-_CORNERS: dict[type, Callable[..., list[Datum]]] = {
-    Alias: _of_alias,
-    Integer: _of_integer,
-    Float: _of_float,
-    Char: _of_char,
-    Boolean: _of_boolean,
-    String: _of_string,
-    Enumeration: _of_enumeration,
-    Structure: _of_structure,
-    Union: _of_union,
-    Array: _of_array,
-    SequenceType: _of_sequence,
+_CORNERS: dict[type, Callable[..., list[d.Datum]]] = {
+    d.Alias: _of_alias,
+    d.Integer: _of_integer,
+    d.Float: _of_float,
+    d.Char: _of_char,
+    d.Boolean: _of_boolean,
+    d.String: _of_string,
+    d.Enumeration: _of_enumeration,
+    d.Structure: _of_structure,
+    d.Union: _of_union,
+    d.Array: _of_array,
+    d.Sequence: _of_sequence,
 }

@@ -13,16 +13,8 @@ from dataclasses import dataclass
 
 import msgspec
 
+from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import (
-    AnyType,
-    Datum,
-    Interface,
-    Method,
-    Parameter,
-    Structure,
-    message_interface,
-)
 from ucm_cts.adapters.contract.data_values import SCALARS, kind_name, parts, spell
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Scenario, Step
 from ucm_cts.harness.purposes.connections import PROVIDER, REQUIRER, provided_end, required_end
@@ -47,8 +39,8 @@ class Load:
     """Values of one type that a scenario is to have carried."""
 
     name: str
-    of: AnyType
-    values: tuple[Datum, ...]
+    of: d.AnyType
+    values: tuple[d.Datum, ...]
 
 
 def data_purposes(readings: Readings = UNDECLARED) -> list[TestPurpose]:
@@ -82,12 +74,12 @@ def _scenarios(
     )
 
 
-def _telling(load: Load) -> Datum:
+def _telling(load: Load) -> d.Datum:
     """A value that is hardly like that of another type, even when it was altered."""
     return draw(load.of, 1, f"the message of {load.name}")[0]
 
 
-def _some(of: AnyType, values: tuple[Datum, ...]) -> tuple[Datum, ...]:
+def _some(of: d.AnyType, values: tuple[d.Datum, ...]) -> tuple[d.Datum, ...]:
     """A selection of the values of a composed type, from the first to the last: each value takes many messages."""
     if isinstance(of, SCALARS) or len(values) <= _MESSAGES:
         return values
@@ -97,7 +89,7 @@ def _some(of: AnyType, values: tuple[Datum, ...]) -> tuple[Datum, ...]:
 def with_parts(loads: Iterable[Load]) -> list[Load]:
     """``loads``, preceded by the parts of their values, the smallest first."""
     wholes = list(loads)
-    found: dict[bytes, tuple[AnyType, dict[bytes, Datum]]] = {}
+    found: dict[bytes, tuple[d.AnyType, dict[bytes, d.Datum]]] = {}
     for load in wholes:
         for value in load.values:
             inner = list(parts(load.of, value))[1:]
@@ -113,20 +105,20 @@ def with_parts(loads: Iterable[Load]) -> list[Load]:
     return [*smaller, *wholes]
 
 
-def service_interface(of: AnyType) -> Interface:
+def service_interface(of: d.AnyType) -> d.Interface:
     """Carries values of ``of`` as arguments and as results; ``carry`` is to give its three arguments back."""
-    return Interface(
+    return d.Interface(
         {
-            "take": Method((Parameter("value", "IN", of),)),
-            "give": Method((Parameter("value", "OUT", of), Parameter("result", "RETURN", of))),
-            "change": Method((Parameter("value", "INOUT", of),)),
-            "carry": Method(
+            "take": d.Method((d.Parameter("value", "IN", of),)),
+            "give": d.Method((d.Parameter("value", "OUT", of), d.Parameter("result", "RETURN", of))),
+            "change": d.Method((d.Parameter("value", "INOUT", of),)),
+            "carry": d.Method(
                 (
-                    Parameter("first", "IN", of),
-                    Parameter("second", "IN", of),
-                    Parameter("third", "INOUT", of),
-                    Parameter("fourth", "OUT", of),
-                    Parameter("result", "RETURN", of),
+                    d.Parameter("first", "IN", of),
+                    d.Parameter("second", "IN", of),
+                    d.Parameter("third", "INOUT", of),
+                    d.Parameter("fourth", "OUT", of),
+                    d.Parameter("result", "RETURN", of),
                 )
             ),
         }
@@ -164,7 +156,7 @@ def messages(loads: Sequence[Load], pause: int = 0) -> Scenario:
     """
     planned: list[_Planned] = []
     for load in loads:
-        numbered = Structure("numbered", {"number": ULONG, "value": load.of})
+        numbered = d.Structure("numbered", {"number": ULONG, "value": load.of})
         values = [[number, value] for number, value in enumerate(load.values, 1000 * (len(planned) + 1))]
         planned.append(_emitter_and_receiver(load.name, numbered, values))
         planned.append(_emitter_and_receiver(f"{load.name} alone", load.of, load.values[-1:]))
@@ -176,18 +168,18 @@ def _hurried(planned: _Planned) -> _Planned:
     return name, interface, pushes, answers[1:], 0
 
 
-def _emitter_and_receiver(name: str, of: AnyType, values: Sequence[Datum]) -> _Planned:
+def _emitter_and_receiver(name: str, of: d.AnyType, values: Sequence[d.Datum]) -> _Planned:
     pushes = tuple(s.CallMethod(_REQUIRED, s.PUSH, (value,)) for value in values)
     return (
         name,
-        message_interface(of),
+        d.message_interface(of),
         pushes,
         (s.HoldAtGate(f"{name} arrived"), s.Answer(s.PUSH, ("ok",))),
         len(values),
     )
 
 
-_Planned = tuple[str, Interface, tuple[Action, ...], tuple[Action, ...], int]
+_Planned = tuple[str, d.Interface, tuple[Action, ...], tuple[Action, ...], int]
 """Name, interface, what the caller does, how the other end answers, and how many messages are to be waited for."""
 
 
@@ -238,7 +230,7 @@ def _attributes(readings: Readings) -> TestPurpose:
 
 def _attribute_scenarios(seed: int | None, readings: Readings = UNDECLARED) -> tuple[tuple[str, Scenario], ...]:
     """Several components of each type's corner values, and all types side by side."""
-    given: dict[str, list[Datum]] = {}
+    given: dict[str, list[d.Datum]] = {}
     for sort in CATALOGUE:
         for name, of in sort.types.items():
             drawn = draw(of, DRAWN, f"attribute {sort.sort}/{name} of {seed}", readings) if seed is not None else []

@@ -10,31 +10,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ucm_cts.adapters.contract.data_types import (
-    Alias,
-    AnyType,
-    Array,
-    Boolean,
-    Char,
-    Datum,
-    Enumeration,
-    Float,
-    Integer,
-    Sequence,
-    String,
-    Structure,
-    Union,
-)
+from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract.data_values import case_of, parts
-from ucm_cts.harness.purposes.data.corner_values import (
-    UNDECLARED,
-    Readings,
-    bounds,
-    corners,
-    float_bits,
-    largest_character,
-    lengths,
-)
+from ucm_cts.harness.purposes.data import corner_values as corner
 
 if TYPE_CHECKING:
     from hypothesis import strategies as st
@@ -54,12 +32,14 @@ class _Source:
     """The source of values: the chooser, the readings, and the lengths of strings and sequences."""
 
     choose: Choose
-    readings: Readings
+    readings: corner.Readings
     longest_string: int = _USUAL_STRING
     longest_sequence: int = _USUAL_SEQUENCE
 
 
-def values(of: AnyType, readings: Readings = UNDECLARED, around: Datum | None = None) -> st.SearchStrategy[Datum]:
+def values(
+    of: d.AnyType, readings: corner.Readings = corner.UNDECLARED, around: d.Datum | None = None
+) -> st.SearchStrategy[d.Datum]:
     """All values of ``of`` within the readings; corner values come often.
 
     Where smaller ones than a value ``around`` are looked for, strings and sequences get as long as in it, and corner values,
@@ -72,7 +52,7 @@ def values(of: AnyType, readings: Readings = UNDECLARED, around: Datum | None = 
     longest_sequence = max((len(value) for value in inside if isinstance(value, list)), default=0)
 
     @st.composite
-    def drawn(draw: st.DrawFn) -> Datum:
+    def drawn(draw: st.DrawFn) -> d.Datum:
         source = _Source(
             lambda low, high: draw(st.integers(low, high)),
             readings,
@@ -81,10 +61,10 @@ def values(of: AnyType, readings: Readings = UNDECLARED, around: Datum | None = 
         )
         return _value(of, source)
 
-    return drawn() if around is not None else st.one_of(drawn(), st.sampled_from(corners(of, readings)))
+    return drawn() if around is not None else st.one_of(drawn(), st.sampled_from(corner.corners(of, readings)))
 
 
-def draw(of: AnyType, number: int, seed: str, readings: Readings = UNDECLARED) -> list[Datum]:
+def draw(of: d.AnyType, number: int, seed: str, readings: corner.Readings = corner.UNDECLARED) -> list[d.Datum]:
     """So many values of ``of``, the same for the same seed."""
     chance = random.Random(seed)
 
@@ -97,26 +77,26 @@ def draw(of: AnyType, number: int, seed: str, readings: Readings = UNDECLARED) -
     return [_value(of, _Source(choose, readings)) for _ in range(number)]
 
 
-def _value(of: AnyType, source: _Source) -> Datum:
+def _value(of: d.AnyType, source: _Source) -> d.Datum:
     """One value of ``of``."""
     return _DRAWN[type(of)](of, source)
 
 
-def _of_alias(of: Alias, source: _Source) -> Datum:
+def _of_alias(of: d.Alias, source: _Source) -> d.Datum:
     return _value(of.of, source)
 
 
-def _of_integer(of: Integer, source: _Source) -> Datum:
-    return source.choose(*bounds(of, source.readings))
+def _of_integer(of: d.Integer, source: _Source) -> d.Datum:
+    return source.choose(*corner.bounds(of, source.readings))
 
 
-def _of_float(of: Float, source: _Source) -> Datum:
+def _of_float(of: d.Float, source: _Source) -> d.Datum:
     choose = source.choose
     sort = choose(0, 3)
     if sort == 0:
-        return float_bits(of.kind, float(choose(-1000, 1000)))
+        return corner.float_bits(of.kind, float(choose(-1000, 1000)))
     if sort == 1:
-        return float_bits(of.kind, choose(-(2**20), 2**20) / 1024)
+        return corner.float_bits(of.kind, choose(-(2**20), 2**20) / 1024)
     digits, mantissa = (8, 23) if of.kind == "FLOAT" else (16, 52)
     sign = choose(0, 1) << (digits * 4 - 1)
     greatest = (1 << (digits * 4 - 1 - mantissa)) - 1
@@ -127,7 +107,7 @@ def _of_float(of: Float, source: _Source) -> Datum:
     return f"{sign | rest:0{digits}x}"
 
 
-def _of_char(of: Char, source: _Source) -> Datum:
+def _of_char(of: d.Char, source: _Source) -> d.Datum:
     return _character(of.kind, source, 0)
 
 
@@ -136,37 +116,37 @@ def _character(kind: str, source: _Source, least: int) -> int:
     sort = source.choose(0, 2)
     if sort == 0:
         return ord(_FIRST_CHARACTERS[source.choose(0, len(_FIRST_CHARACTERS) - 1)])
-    largest = largest_character(kind, source.readings)
+    largest = corner.largest_character(kind, source.readings)
     point = source.choose(least, min(largest, 0x7F if sort == 1 else largest))
     return point if point not in _SURROGATES else point - len(_SURROGATES)
 
 
-def _of_boolean(of: Boolean, source: _Source) -> Datum:
+def _of_boolean(of: d.Boolean, source: _Source) -> d.Datum:
     return source.choose(0, 1) == 1
 
 
-def _of_string(of: String, source: _Source) -> Datum:
+def _of_string(of: d.String, source: _Source) -> d.Datum:
     longest = source.longest_string
     length = source.choose(0, longest if of.size < 0 else min(of.size, longest))
     return "".join(chr(_character(of.base, source, 1)) for _ in range(length))
 
 
-def _of_enumeration(of: Enumeration, source: _Source) -> Datum:
+def _of_enumeration(of: d.Enumeration, source: _Source) -> d.Datum:
     return list(of.values)[source.choose(0, len(of.values) - 1)]
 
 
-def _of_structure(of: Structure, source: _Source) -> Datum:
+def _of_structure(of: d.Structure, source: _Source) -> d.Datum:
     return [_value(field, source) for field in of.fields.values()]
 
 
-def _of_union(of: Union, source: _Source) -> Datum:
+def _of_union(of: d.Union, source: _Source) -> d.Datum:
     covered = [(enumerator, case) for enumerator in of.selector.values if (case := case_of(of, enumerator))]
     enumerator, case = covered[source.choose(0, len(covered) - 1)]
     return [enumerator, _value(case.of, source)]
 
 
-def _of_array(of: Array, source: _Source) -> Datum:
-    def dimension(sizes: tuple[int, ...]) -> Datum:
+def _of_array(of: d.Array, source: _Source) -> d.Datum:
+    def dimension(sizes: tuple[int, ...]) -> d.Datum:
         if not sizes:
             return _value(of.of, source)
         return [dimension(sizes[1:]) for _ in range(sizes[0])]
@@ -174,23 +154,23 @@ def _of_array(of: Array, source: _Source) -> Datum:
     return dimension(of.sizes)
 
 
-def _of_sequence(of: Sequence, source: _Source) -> Datum:
+def _of_sequence(of: d.Sequence, source: _Source) -> d.Datum:
     longest = source.longest_sequence
-    least, most = lengths(of, source.readings, longest)
+    least, most = corner.lengths(of, source.readings, longest)
     length = source.choose(least, max(least, min(most, longest)))
     return [_value(of.of, source) for _ in range(length)]
 
 
-_DRAWN: dict[type, Callable[[Any, _Source], Datum]] = {
-    Alias: _of_alias,
-    Integer: _of_integer,
-    Float: _of_float,
-    Char: _of_char,
-    Boolean: _of_boolean,
-    String: _of_string,
-    Enumeration: _of_enumeration,
-    Structure: _of_structure,
-    Union: _of_union,
-    Array: _of_array,
-    Sequence: _of_sequence,
+_DRAWN: dict[type, Callable[[Any, _Source], d.Datum]] = {
+    d.Alias: _of_alias,
+    d.Integer: _of_integer,
+    d.Float: _of_float,
+    d.Char: _of_char,
+    d.Boolean: _of_boolean,
+    d.String: _of_string,
+    d.Enumeration: _of_enumeration,
+    d.Structure: _of_structure,
+    d.Union: _of_union,
+    d.Array: _of_array,
+    d.Sequence: _of_sequence,
 }

@@ -9,20 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import ContainerCall, Scenario
-from ucm_cts.adapters.contract.trace import (
-    Call,
-    Create,
-    Dependency,
-    Enter,
-    Event,
-    Exit,
-    Raise,
-    Reference,
-    Return,
-    Skip,
-    Trace,
-)
 from ucm_cts.harness.purposes.systematic.faults import Fault, Subject
 from ucm_cts.harness.purposes.systematic.machine import LISTS, Observation, Word
 from ucm_cts.harness.purposes.systematic.settings import Setting
@@ -31,7 +19,7 @@ from ucm_cts.harness.purposes.systematic.wording import scenario_of
 RIGHT = Fault("none", {})
 
 
-def simulate(setting: Setting, subject: Subject, fault: Fault, word: Word) -> tuple[Scenario, Trace]:
+def simulate(setting: Setting, subject: Subject, fault: Fault, word: Word) -> tuple[Scenario, t.Trace]:
     """The scenario of ``word``, and the trace that the implementation with ``fault`` leaves."""
     scenario = scenario_of(setting, subject.machine, word)
     framework = _Framework(scenario)
@@ -68,11 +56,11 @@ class _Framework:
 
     def __init__(self, scenario: Scenario) -> None:
         self.scenario = scenario
-        self.events: list[Event] = []
+        self.events: list[t.Event] = []
         self.made: dict[str, int] = {}
         self.ids: dict[str, int] = {}
-        self.found: dict[str, Reference] = {}
-        self.connected: dict[str, dict[str, Reference]] = {}
+        self.found: dict[str, t.Reference] = {}
+        self.connected: dict[str, dict[str, t.Reference]] = {}
         self.latest = 0
 
     def put(self, kind: type[Any], **fields: Any) -> None:
@@ -83,7 +71,7 @@ class _Framework:
         """Step ``number`` goes as ``seen``."""
         step = self.scenario.steps[number]
         assert isinstance(step, s.ContainerCall)
-        self.put(Call, step=number)
+        self.put(t.Call, step=number)
         answer, *listed = seen.answer.split()
         callbacks = dict(seen.callbacks)
         adds = isinstance(step, s.AddComponent) and step.component in self.scenario.components
@@ -93,27 +81,27 @@ class _Framework:
             and (answer == "return" or "on_init" in callbacks.get(step.component, ()))
         ):
             self.made[step.component] = self.made.get(step.component, 0) + 1
-            self.put(Create, component=step.component, instance=self.made[step.component])
+            self.put(t.Create, component=step.component, instance=self.made[step.component])
         for name in sorted(callbacks, reverse=not isinstance(step, s.Start)):
             for hook in callbacks[name]:
                 self.enter(name, hook, step)
         if answer in ("return", LISTS):
-            self.put(Return, step=number, value=self.result(step, listed))
+            self.put(t.Return, step=number, value=self.result(step, listed))
         else:
-            self.put(Raise, step=number, error=answer)
+            self.put(t.Raise, step=number, error=answer)
 
     def enter(self, name: str, hook: str, step: ContainerCall) -> None:
         instance = self.made.get(name, 1)
         links = self.connected.setdefault(name, {})
         more: dict[str, Any] = {}
         if hook == "on_startup":
-            more["dependencies"] = tuple(Dependency(port=port, references=(to,)) for port, to in links.items())
+            more["dependencies"] = tuple(t.Dependency(port=port, references=(to,)) for port, to in links.items())
         elif hook == "on_connect" and isinstance(step, s.Connect):
             more = {"port": step.port, "reference": self.found.get(step.to)}
         elif hook in ("on_connect", "on_disconnect"):
             more["port"] = next(iter(self.scenario.components[name].requires), "")
-        self.put(Enter, component=name, instance=instance, hook=hook, **more)
-        self.put(Exit, component=name, instance=instance, hook=hook)
+        self.put(t.Enter, component=name, instance=instance, hook=hook, **more)
+        self.put(t.Exit, component=name, instance=instance, hook=hook)
         if hook == "on_disconnect":
             links.clear()
 
@@ -128,7 +116,7 @@ class _Framework:
                     self.connected.setdefault(step.id, {})[step.port] = self.found[step.to]
                 return self.new_id(step.bind)
             case s.GetPortElement():
-                return Reference(step.id, self.made.get(step.id, 1), step.port)
+                return t.Reference(step.id, self.made.get(step.id, 1), step.port)
             case s.GetComponents():
                 return tuple(self.ids.get(name, 0) for name in listed)
         return None
@@ -143,11 +131,11 @@ class _Framework:
         step, before = self.scenario.steps[number], self.events[-1]
         assert isinstance(step, s.GetPortElement)
         if step.id not in self.ids:
-            self.put(Skip, step=number, variable=step.id)
+            self.put(t.Skip, step=number, variable=step.id)
             return
-        self.put(Call, step=number)
-        if isinstance(before, Return):
-            self.found[step.bind] = Reference(step.id, self.made.get(step.id, 1), step.port)
-            self.put(Return, step=number, value=self.found[step.bind])
+        self.put(t.Call, step=number)
+        if isinstance(before, t.Return):
+            self.found[step.bind] = t.Reference(step.id, self.made.get(step.id, 1), step.port)
+            self.put(t.Return, step=number, value=self.found[step.bind])
         else:
-            self.put(Raise, step=number, error="NOT_FOUND")
+            self.put(t.Raise, step=number, error="NOT_FOUND")
