@@ -118,11 +118,15 @@ class Alias(DataType, frozen=True, tag="alias"):
 AnyType = Integer | Float | Char | Boolean | String | Enumeration | Structure | Union | Array | Sequence | Alias
 
 
+Direction = Literal["IN", "OUT", "INOUT", "RETURN"]
+"""Which way the value of a parameter goes; RETURN is the result."""
+
+
 class Parameter(Value, frozen=True):
-    """A parameter of a method; RETURN is the result."""
+    """A parameter of a method."""
 
     name: str
-    direction: Literal["IN", "OUT", "INOUT", "RETURN"]
+    direction: Direction
     of: AnyType
 
 

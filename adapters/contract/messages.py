@@ -9,13 +9,14 @@ each event as it happens, before the trace message; the harness asks for that wh
 from __future__ import annotations
 
 import functools
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 import msgspec
 
-from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.contract.trace import Event
-from ucm_cts.adapters.contract.value import Int64, Value
+from ucm_cts.adapters.contract.data_types import AnyType, Datum, Direction
+from ucm_cts.adapters.contract.scenario import Action, Hook, Scenario, Step
+from ucm_cts.adapters.contract.trace import Event, MaybeReference
+from ucm_cts.adapters.contract.value import Int32, Int64, Value
 
 PROTOCOL = 1
 
@@ -105,18 +106,52 @@ def refusal(line: bytes, reason: str) -> Refused:
         return Refused(reason)
 
 
+_NAMED: dict[str, Any] = {
+    "to_host": ToHost,
+    "from_host": FromHost,
+    "Step": Step,
+    "Action": Action,
+    "Event": Event,
+    "AnyType": AnyType,
+    "Datum": Datum,
+    "MaybeReference": MaybeReference,
+    "Hook": Hook,
+    "Direction": Direction,
+    "Int32": Int32,
+    "Int64": Int64,
+}
+"""Types that are no classes and have a definition of their own in the schema."""
+
+
 def protocol_schema() -> dict[str, Any]:
     """JSON Schema of both directions, for adapters in other languages."""
-    (to_host, from_host), definitions = msgspec.json.schema_components(
-        [ToHost, FromHost], ref_template="#/$defs/{name}"
-    )
+    schemas, definitions = msgspec.json.schema_components(list(_NAMED.values()), ref_template="#/$defs/{name}")
+    named = dict(zip(_NAMED, schemas, strict=True))
+    definitions = {name: _with_names(schema, named, True) for name, schema in (named | definitions).items()}
+    for name in ("Hook", "Direction"):
+        definitions[name]["enum"] = list(get_args(_NAMED[name]))  # in the order of declaration
+    definitions["Declaration"]["properties"]["plan"]["propertyNames"] = {"$ref": "#/$defs/Hook"}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"UCM-CTS wire protocol, version {PROTOCOL}",
         "description": "One message a line. A host reads to_host and writes from_host.",
         "anyOf": [{"$ref": "#/$defs/to_host"}, {"$ref": "#/$defs/from_host"}],
-        "$defs": {"to_host": to_host, "from_host": from_host, **definitions},
+        "$defs": definitions,
     }
+
+
+def _with_names(schema: Any, named: dict[str, Any], is_definition: bool = False) -> Any:
+    """``schema`` with a reference wherever it repeats one of the ``named`` schemas."""
+    if isinstance(schema, list):
+        return [_with_names(one, named) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    default = {"default": schema["default"]} if "default" in schema else {}
+    bare = {name: value for name, value in schema.items() if name != "default"}
+    for name, repeated in named.items():
+        if bare == repeated and not is_definition:
+            return {"$ref": f"#/$defs/{name}", **default}
+    return {name: _with_names(value, named) for name, value in schema.items()}
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "ucm_cts/data_types.hpp"
-#include "ucm_cts/json_text.hpp"
 
 namespace ucm_cts {
 
@@ -30,14 +29,6 @@ inline bool are_data(const Data& values) {
         }
     }
     return true;
-}
-
-inline std::string json_of(const Datum& value) {
-    return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-inline void append_data(std::string& out, const Data& values) {
-    json::append_array(out, values, [](std::string& text, const Datum& value) { text += json_of(value); });
 }
 
 /// Puts something else in every place of `values`, as the owner of a buffer may.

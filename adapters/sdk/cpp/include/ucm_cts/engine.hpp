@@ -38,14 +38,15 @@ class Engine : public std::enable_shared_from_this<Engine> {
 
     /// Runs all steps, appends the events to `trace` as a JSON array, and returns the names of the threads that are stuck.
     std::vector<std::string> run(std::string& trace) {
-        for (std::size_t number = 0; number < scenario_->steps.size(); ++number) {
-            const Step& step = scenario_->steps[number];
+        std::int64_t number = 0;
+        for (const Step& step : scenario_->steps) {
             if (step.has_thread) {
                 const std::shared_ptr<Engine> self = shared_from_this();
                 workers_.queue(step.thread, [self, number] { self->perform(number); });
             } else {
                 perform(number);
             }
+            ++number;
         }
         stage_->gates.open_all();
         const std::vector<std::string> stuck = workers_.finish();
@@ -70,54 +71,54 @@ class Engine : public std::enable_shared_from_this<Engine> {
     std::vector<Implementation> implementations() const {
         std::vector<Implementation> all;
         all.reserve(scenario_->components.size());
-        for (const Declaration& declaration : scenario_->components) {
+        for (const Component& component : scenario_->components) {
+            const Declaration& declaration = component.second;
             std::vector<std::string> attributes;
             for (const auto& attribute : declaration.attributes) {
                 attributes.push_back(attribute.first);
             }
-            const Declaration* const what = &declaration;
+            const Component* const what = &component;
             const std::shared_ptr<Stage> stage = stage_;
             const std::shared_ptr<const Scenario> scenario = scenario_;
             const std::shared_ptr<Cast> cast = cast_;
-            all.push_back(Implementation{declaration.name, declaration.provided, declaration.required,
+            Interfaces interfaces;
+            for (const auto& port : declaration.ports) {
+                interfaces[port.first] = scenario_->interfaces.at(port.second);
+            }
+            all.push_back(Implementation{component.first, declaration.provided, declaration.required,
                                          std::move(attributes), declaration.connectable, declaration.fragment,
                                          [what, stage, scenario, cast] { return make(*what, stage, scenario, *cast); },
-                                         declaration.policies, declaration.interfaces});
+                                         declaration.policies, std::move(interfaces)});
         }
         return all;
     }
 
-    static std::shared_ptr<Body> make(const Declaration& declaration, const std::shared_ptr<Stage>& stage,
+    static std::shared_ptr<Body> make(const Component& component, const std::shared_ptr<Stage>& stage,
                                       const std::shared_ptr<const Scenario>& scenario, Cast& cast) {
         std::lock_guard<std::mutex> lock(cast.mutex);
-        const int instance = ++cast.instances[declaration.name];
-        const std::shared_ptr<Probe> probe = std::make_shared<Probe>(stage, scenario, declaration, instance);
+        const int instance = ++cast.instances[component.first];
+        const std::shared_ptr<Probe> probe = std::make_shared<Probe>(stage, scenario, component, instance);
         cast.probes.push_back(probe);
         return std::make_shared<ProbeBody>(probe);
     }
 
-    void perform(std::size_t number) {
+    void perform(std::int64_t number) {
         const Step& step = scenario_->steps[number];
-        switch (step.operation) {
+        switch (step.kind) {
             case Operation::open:
-                stage_->gates.open(step.subject, [this, &step] {
-                    stage_->recorder.record("opened", [&step](std::string& out) {
-                        json::append_name(out, "gate");
-                        json::append_text(out, step.subject);
-                    });
-                });
+                stage_->gates.open(step.gate, [this, &step] { stage_->recorder.record(events::Opened(step.gate)); });
                 return;
             case Operation::reach:
-                check_patience(number, stage_->gates.reach(step.subject, step.value, step.count));
+                check_patience(number, stage_->gates.reach(step.gate, step.more, step.total));
                 return;
             case Operation::settle:
-                settle(step.subject);
+                settle(step.worker);
                 return;
             case Operation::join:
-                check_patience(number, workers_.join(step.subject));
+                check_patience(number, workers_.join(step.worker));
                 return;
             case Operation::pause:
-                pause(number, step.value);
+                pause(number, step.milliseconds);
                 return;
             case Operation::await_messages:
                 await_messages(number, step);
@@ -130,32 +131,23 @@ class Engine : public std::enable_shared_from_this<Engine> {
         }
     }
 
-    void pause(std::size_t number, std::int32_t milliseconds) {
+    void pause(std::int64_t number, std::int32_t milliseconds) {
         std::this_thread::sleep_for(std::chrono::milliseconds(std::max(milliseconds, 0)));
-        stage_->recorder.record("paused", [number](std::string& out) {
-            const auto calendar = std::chrono::system_clock::now().time_since_epoch();
-            append_step(out, number);
-            append_number(out, "calendar", std::chrono::duration_cast<std::chrono::nanoseconds>(calendar).count());
-        });
+        const auto calendar = std::chrono::system_clock::now().time_since_epoch();
+        stage_->recorder.record(
+            events::Paused(number, std::chrono::duration_cast<std::chrono::nanoseconds>(calendar).count()));
     }
 
-    void await_messages(std::size_t number, const Step& step) {
+    void await_messages(std::int64_t number, const Step& step) {
         const MessageCount::Numbers counted = stage_->messages.of(step.component, step.instance)
                                                   ->wait(step.count, std::chrono::steady_clock::now() + stage_->patience);
-        stage_->recorder.record("counted", [number, &step, &counted](std::string& out) {
-            append_step(out, number);
-            json::append_name(out, "component");
-            json::append_text(out, step.component);
-            append_number(out, "instance", step.instance);
-            append_number(out, "received", counted.received);
-            append_number(out, "distinct", counted.distinct);
-            append_number(out, "disordered", counted.disordered);
-            append_number(out, "least", counted.least);
-            append_number(out, "greatest", counted.greatest);
-        });
+        stage_->recorder.record(events::Counted(number, step.component, step.instance, counted.received,
+                                                counted.distinct, counted.disordered)
+                                    .least(counted.least)
+                                    .greatest(counted.greatest));
     }
 
-    void stress(std::size_t number, const Step& step) {
+    void stress(std::int64_t number, const Step& step) {
         std::vector<Reference> references;
         if (!operations_.references(number, step.refs, references)) {
             return;
@@ -166,35 +158,25 @@ class Engine : public std::enable_shared_from_this<Engine> {
             workers.push_back("stress " + std::to_string(workers.size()));
             workers_.queue(workers.back(), task);
         }
-        storm->conduct(std::chrono::milliseconds(std::max(step.value, 0)), stage_->patience);
+        storm->conduct(std::chrono::milliseconds(std::max(step.milliseconds, 0)), stage_->patience);
         for (const std::string& worker : workers) {
             workers_.join(worker);
         }
         const Stress::Numbers found = storm->end();
-        stage_->recorder.record("stressed", [number, &found](std::string& out) {
-            append_step(out, number);
-            append_number(out, "calls", found.calls);
-            append_number(out, "overlaps", found.overlaps);
-            append_number(out, "control_calls", found.control_calls);
-            append_number(out, "control_overlaps", found.control_overlaps);
-            append_number(out, "failed", found.failed);
-        });
+        stage_->recorder.record(events::Stressed(number, found.calls, found.overlaps, found.control_calls,
+                                                 found.control_overlaps)
+                                    .failed(found.failed));
     }
 
     void settle(const std::string& worker) {
         const char* const where =
             workers_.settle(worker, [this](std::thread::id thread) { return stage_->gates.holds(thread); });
-        stage_->recorder.record("settled", [&worker, where](std::string& out) {
-            json::append_name(out, "worker");
-            json::append_text(out, worker);
-            json::append_name(out, "where");
-            json::append_text(out, where);
-        });
+        stage_->recorder.record(events::Settled(worker, where));
     }
 
-    void check_patience(std::size_t number, bool in_time) {
+    void check_patience(std::int64_t number, bool in_time) {
         if (!in_time) {
-            stage_->recorder.record("timeout", [number](std::string& out) { append_step(out, number); });
+            stage_->recorder.record(events::Timeout(number));
         }
     }
 

@@ -78,7 +78,7 @@ class LineReader {
         }
         ssize_t got;
         do {
-            got = read(fd_, buffer_.data() + end_, CHUNK);
+            got = ::read(fd_, buffer_.data() + end_, CHUNK);
         } while (got < 0 && errno == EINTR);
         end_ += got > 0 ? static_cast<std::size_t>(got) : 0;
         return got > 0;

@@ -5,12 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "ucm_cts/words.hpp"
 
 namespace ucm_cts {
 
@@ -148,21 +153,15 @@ class Value {
         return std::string(document_->text(node().text), node().size);
     }
 
-    /// Does the value equal the string `other`?
-    bool is(const char* other) const {
-        return kind() == Kind::string && equal(document_->text(node().text), node().size, other);
-    }
-
-    /// A string that is one of `known`.
-    template <std::size_t N>
-    std::string choice(const char* const (&known)[N]) const {
-        const std::string word = text();
-        for (const char* const one : known) {
-            if (word == one) {
-                return word;
+    /// Which of `known` the string is.
+    std::size_t word(const Words& known, const char* problem = "Invalid enum value") const {
+        const std::string given = text();
+        for (std::size_t n = 0; n < known.size; ++n) {
+            if (given == known.begin[n]) {
+                return n;
             }
         }
-        fail("Invalid enum value '" + word + "'");
+        fail(problem + (" '" + given) + "'");
     }
 
     bool boolean() const {
@@ -280,79 +279,134 @@ class Value {
     std::size_t position_;
 };
 
+// Each `read(value, into)` reads a value of one type; those of the messages are generated.
+
+inline void read(const Value& value, bool& into) { into = value.boolean(); }
+inline void read(const Value& value, std::int32_t& into) { into = value.integer32(); }
+inline void read(const Value& value, std::int64_t& into) { into = value.integer(); }
+inline void read(const Value& value, std::string& into) { into = value.text(); }
+inline void read(const Value& value, std::string& into, const Words& known) { into = known.begin[value.word(known)]; }
+
+inline void read(const Value& value, nlohmann::json& into) {
+    const Kind kind = value.kind();
+    if (kind == Kind::null || kind == Kind::floating || kind == Kind::object) {
+        value.fail(std::string("Expected `bool | int | str | array`, got `") + name_of(kind) + "`");
+    }
+    into = value.tree();
+}
+
+template <class Enumeration>
+typename std::enable_if<std::is_enum<Enumeration>::value>::type read(const Value& value, Enumeration& into,
+                                                                     const char* problem = "Invalid enum value") {
+    into = static_cast<Enumeration>(value.word(words_of(into), problem));
+}
+
+/// Reads with a function of the type's own.
+template <class T>
+void read(const Value& value, T& into, void (*read_it)(const Value&, T&)) {
+    read_it(value, into);
+}
+
+template <class T>
+void read(const Value& value, std::shared_ptr<const T>& into) {
+    const std::shared_ptr<T> made = std::make_shared<T>();
+    read(value, *made);
+    into = made;
+}
+
+template <class T>
+void read(const Value& value, std::vector<T>& into) {
+    into.clear();
+    value.for_each_element([&into](const Value& element) {
+        into.emplace_back();
+        read(element, into.back());
+    });
+}
+
+template <class T, void (*read_one)(const Value&, T&)>
+void read_each(const Value& value, std::vector<T>& into) {
+    into.clear();
+    value.for_each_element([&into](const Value& element) {
+        into.emplace_back();
+        read_one(element, into.back());
+    });
+}
+
+template <class T>
+void read(const Value& value, std::vector<std::pair<std::string, T>>& into) {
+    into.clear();
+    value.for_each_member([&into](const Value& member) {
+        into.emplace_back(member.key(), T());
+        read(member, into.back().second);
+    });
+}
+
+/// Integers of any size, by name.
+inline void read_integers(const Value& value, std::vector<std::pair<std::string, nlohmann::json>>& into) {
+    into.clear();
+    value.for_each_member([&into](const Value& member) {
+        into.emplace_back(member.key(), member.kind() == Kind::too_large ? member.tree() : nlohmann::json(member.integer()));
+    });
+}
+
+inline void read_key(const Value& member, std::string& into) { into = member.key(); }
+
+template <class Enumeration>
+void read_key(const Value& member, Enumeration& into) {
+    const Words known = words_of(into);
+    for (std::size_t n = 0; n < known.size; ++n) {
+        if (member.has_key(known.begin[n])) {
+            into = static_cast<Enumeration>(n);
+            return;
+        }
+    }
+    member.fail("Invalid enum value '" + member.key() + "'");
+}
+
+/// Of members of the same name the last one counts.
+template <class Key, class T>
+void read(const Value& value, std::map<Key, T>& into) {
+    into.clear();
+    value.for_each_member([&into](const Value& member) {
+        Key key;
+        read_key(member, key);
+        T read_now;
+        read(member, read_now);
+        into[key] = std::move(read_now);
+    });
+}
+
 /// The members of one object, each to be asked for by name; `end` complains of those that nobody asked for.
 class Fields {
   public:
     explicit Fields(const Value& object) : object_(object) { object.expect(Kind::object, "object"); }
 
-    /// Calls `read(value)` if the member is there; of members of the same name the last one counts.
-    template <class Read>
-    bool optional(const char* name, Read read) {
-        std::size_t at = object_.index_ + 1;
-        std::size_t found = 0;
-        for (std::size_t n = 0; n < object_.node().size; ++n) {
-            if (Value(*object_.document_, at, &object_, Value::IS_MEMBER).has_key(name)) {
-                found = at;
-                ++taken_;
-            }
-            at = object_.document_->node(at).next;
+    /// Reads the member if it is there, `how` as the functions `read` take it. Was it?
+    template <class T, class... How>
+    bool optional(const char* name, T& into, How... how) {
+        const std::size_t found = find(name);
+        if (found != 0) {
+            read(member(found), into, how...);
         }
-        known_[asked_++] = name;
-        if (found == 0) {
-            return false;
-        }
-        read(Value(*object_.document_, found, &object_, Value::IS_MEMBER));
-        return true;
+        return found != 0;
     }
 
-    template <class Read>
-    void required(const char* name, Read read) {
-        if (!optional(name, read)) {
+    template <class T, class... How>
+    void required(const char* name, T& into, How... how) {
+        if (!optional(name, into, how...)) {
             object_.fail(std::string("Object missing required field `") + name + "`");
         }
     }
 
-    void text(const char* name, std::string& into) {
-        required(name, [&into](const Value& value) { into = value.text(); });
-    }
-
-    void optional_text(const char* name, std::string& into) {
-        optional(name, [&into](const Value& value) { into = value.text(); });
-    }
-
-    void integer32(const char* name, std::int32_t& into) {
-        required(name, [&into](const Value& value) { into = value.integer32(); });
-    }
-
-    void optional_integer32(const char* name, std::int32_t& into) {
-        optional(name, [&into](const Value& value) { into = value.integer32(); });
-    }
-
-    void integer(const char* name, std::int64_t& into) {
-        required(name, [&into](const Value& value) { into = value.integer(); });
-    }
-
-    void optional_integer(const char* name, std::int64_t& into) {
-        optional(name, [&into](const Value& value) { into = value.integer(); });
-    }
-
-    void optional_boolean(const char* name, bool& into) {
-        optional(name, [&into](const Value& value) { into = value.boolean(); });
-    }
-
-    /// One that may be null, which leaves `into` as it is.
-    void optional_nullable_text(const char* name, std::string& into) {
-        optional(name, [&into](const Value& value) {
-            if (value.kind() != Kind::null) {
-                into = value.text();
-            }
-        });
-    }
-
-    /// One of the words in `known`.
-    template <std::size_t N>
-    void choice(const char* name, const char* const (&known)[N], std::string& into) {
-        required(name, [&into, &known](const Value& value) { into = value.choice(known); });
+    /// Reads the member if it is there and not null. Was it?
+    template <class T>
+    bool nullable(const char* name, T& into) {
+        const std::size_t found = find(name);
+        const bool given = found != 0 && member(found).kind() != Kind::null;
+        if (given) {
+            read(member(found), into);
+        }
+        return given;
     }
 
     /// To be called when all members that the protocol knows have been asked for.
@@ -371,6 +425,23 @@ class Fields {
     }
 
   private:
+    // where the member stands, or 0; of members of the same name the last one counts
+    std::size_t find(const char* name) {
+        std::size_t at = object_.index_ + 1;
+        std::size_t found = 0;
+        for (std::size_t n = 0; n < object_.node().size; ++n) {
+            if (member(at).has_key(name)) {
+                found = at;
+                ++taken_;
+            }
+            at = object_.document_->node(at).next;
+        }
+        known_[asked_++] = name;
+        return found;
+    }
+
+    Value member(std::size_t at) const { return Value(*object_.document_, at, &object_, Value::IS_MEMBER); }
+
     const Value& object_;
     std::size_t taken_ = 0;
     std::size_t asked_ = 0;

@@ -4,14 +4,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <map>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace ucm_cts {
 namespace json {
 
-inline void append_integer(std::string& out, std::int64_t value) {
+inline void append(std::string& out, std::int64_t value) {
     char digits[20];
     char* const end = digits + sizeof digits;
     char* begin = end;
@@ -28,13 +31,17 @@ inline void append_integer(std::string& out, std::int64_t value) {
     out.append(begin, static_cast<std::size_t>(end - begin));
 }
 
+/// Bytes in strings that are not UTF-8 become U+FFFD.
+inline std::string json_of(const nlohmann::json& value) {
+    return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 /// Appends `text` as a JSON string. Bytes that are not UTF-8 become U+FFFD.
 inline void append_text(std::string& out, const char* text, std::size_t size) {
     for (std::size_t n = 0; n < size; ++n) {
         const unsigned char byte = static_cast<unsigned char>(text[n]);
         if (byte < 0x20 || byte >= 0x7f || byte == '"' || byte == '\\') {
-            out += nlohmann::json(std::string(text, size))
-                       .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+            out += json_of(std::string(text, size));
             return;
         }
     }
@@ -43,7 +50,12 @@ inline void append_text(std::string& out, const char* text, std::size_t size) {
     out += '"';
 }
 
-inline void append_text(std::string& out, const std::string& text) { append_text(out, text.data(), text.size()); }
+inline void append(std::string& out, std::int32_t value) { append(out, static_cast<std::int64_t>(value)); }
+inline void append(std::string& out, bool value) { out += value ? "true" : "false"; }
+inline void append(std::string& out, const char* text) { append_text(out, text, std::strlen(text)); }
+inline void append(std::string& out, const std::string& text) { append_text(out, text.data(), text.size()); }
+
+inline void append(std::string& out, const nlohmann::json& value) { out += json_of(value); }
 
 /// Appends `,"name":` after which the value follows.
 inline void append_name(std::string& out, const char* name) {
@@ -52,19 +64,34 @@ inline void append_name(std::string& out, const char* name) {
     out += "\":";
 }
 
-/// Appends `[...]` with `append_one(out, element)` for each element.
-template <class Elements, class AppendOne>
-void append_array(std::string& out, const Elements& elements, AppendOne append_one) {
+template <class T>
+void append(std::string& out, const std::vector<T>& elements) {
     out += '[';
     bool first = true;
-    for (const auto& element : elements) {
+    for (const T& element : elements) {
         if (!first) {
             out += ',';
         }
         first = false;
-        append_one(out, element);
+        append(out, element);
     }
     out += ']';
+}
+
+template <class T>
+void append(std::string& out, const std::map<std::string, T>& members) {
+    out += '{';
+    bool first = true;
+    for (const auto& member : members) {
+        if (!first) {
+            out += ',';
+        }
+        first = false;
+        append(out, member.first);
+        out += ':';
+        append(out, member.second);
+    }
+    out += '}';
 }
 
 /// The first `most` characters of `text`, counted as Unicode characters.

@@ -12,9 +12,9 @@
 
 #include "ucm_cts/adapter.hpp"
 #include "ucm_cts/engine.hpp"
+#include "ucm_cts/generated/events.hpp"
+#include "ucm_cts/generated/messages_reading.hpp"
 #include "ucm_cts/json.hpp"
-#include "ucm_cts/json_text.hpp"
-#include "ucm_cts/scenario_reading.hpp"
 
 namespace ucm_cts {
 
@@ -44,10 +44,13 @@ class Answerer {
             document_.parse(message, size);
             const json::Value value(document_);
             std::string type;
-            json::Fields(value).text("type", type);
+            json::Fields fields(value);
+            fields.required("type", type);
             if (type == "hello") {
                 hello(value);
             } else if (type == "run") {
+                fields.required("id", id_);
+                has_id_ = true;
                 run(value);
             } else {
                 throw ProtocolError("Invalid value '" + type + "' - at `$.type`");
@@ -65,27 +68,15 @@ class Answerer {
 
   private:
     void hello(const json::Value& message) {
-        std::int64_t protocol = 0;
-        std::string type;
-        json::Fields fields(message);
-        fields.text("type", type);
-        fields.required("protocol", [&protocol](const json::Value& value) { protocol = value.integer(); });
-        fields.end();
-        if (protocol != PROTOCOL) {
-            throw ProtocolError("the harness speaks protocol " + std::to_string(protocol) + ", this host speaks " +
-                                std::to_string(PROTOCOL));
+        Hello spoken;
+        read(message, spoken);
+        if (spoken.protocol != PROTOCOL) {
+            throw ProtocolError("the harness speaks protocol " + std::to_string(spoken.protocol) +
+                                ", this host speaks " + std::to_string(PROTOCOL));
         }
         try {
             const std::string names = make_adapter_()->port_element_name();
-            out_ += "{\"type\":\"welcome\",\"protocol\":";
-            json::append_integer(out_, PROTOCOL);
-            json::append_name(out_, "product");
-            json::append_text(out_, product_.name);
-            json::append_name(out_, "version");
-            json::append_text(out_, product_.version);
-            json::append_name(out_, "port_element_name");
-            json::append_text(out_, names);
-            out_ += '}';
+            out_ = events::Welcome(PROTOCOL, product_.name, product_.version).port_element_name(names).line();
         } catch (const std::exception& error) {
             refuse(std::string("the adapter could not be made: ") + error.what());
         } catch (...) {
@@ -94,33 +85,21 @@ class Answerer {
     }
 
     void run(const json::Value& message) {
-        std::string type;
-        bool stream = false;
-        const std::shared_ptr<Scenario> scenario = std::make_shared<Scenario>();
-        json::Fields fields(message);
-        fields.text("type", type);
-        fields.required("id", [this](const json::Value& value) {
-            id_ = value.integer();
-            has_id_ = true;
-        });
-        fields.required("scenario", [&scenario](const json::Value& value) { *scenario = read_scenario(value); });
-        fields.optional("stream", [&stream](const json::Value& value) { stream = value.boolean(); });
-        fields.end();
-        const std::shared_ptr<Engine> engine = set_up(scenario, stream);
+        const std::shared_ptr<Run> asked = std::make_shared<Run>();
+        read(message, *asked);
+        detail::check(asked->scenario);
+        const std::shared_ptr<Engine> engine = set_up({asked, &asked->scenario}, asked->stream);
         if (!engine) {
             return;
         }
-        out_ += "{\"type\":\"trace\",\"id\":";
-        json::append_integer(out_, id_);
-        json::append_name(out_, "events");
-        const std::vector<std::string> names = engine->run(out_);
-        if (!names.empty()) {
-            stuck_ = true;
-            json::append_name(out_, "stuck");
-            json::append_array(out_, names,
-                               [](std::string& out, const std::string& name) { json::append_text(out, name); });
+        trace_.clear();
+        const std::vector<std::string> names = engine->run(trace_);
+        stuck_ = !names.empty();
+        events::Traced traced(id_, json::Written{trace_});
+        if (stuck_) {
+            traced.stuck(names);
         }
-        out_ += '}';
+        out_ = traced.line();
         const std::string complaint = engine->complaint();
         if (!complaint.empty()) {
             refuse("the adapter broke its contract: " + complaint);
@@ -128,7 +107,7 @@ class Answerer {
     }
 
     // Null, and the answer says why, if the adapter cannot set up its framework.
-    std::shared_ptr<Engine> set_up(const std::shared_ptr<Scenario>& scenario, bool stream) {
+    std::shared_ptr<Engine> set_up(const std::shared_ptr<const Scenario>& scenario, bool stream) {
         try {
             return std::make_shared<Engine>(make_adapter_(), scenario, stream && emit_ ? streaming() : Recorder::Sink());
         } catch (const std::exception& error) {
@@ -143,23 +122,16 @@ class Answerer {
         const Emit emit = emit_;
         const std::int64_t id = id_;
         return [emit, id](const std::string& event) {
-            std::string line = "{\"type\":\"event\",\"id\":";
-            json::append_integer(line, id);
-            json::append_name(line, "event");
-            line += event;
-            line += "}\n";
-            emit(line);
+            emit(events::Happened(id, json::Written{event}).line() + '\n');
         };
     }
 
     void refuse(const std::string& reason) {
-        out_ = "{\"type\":\"refused\",\"reason\":";
-        json::append_text(out_, reason);
+        events::Refused refused(reason);
         if (has_id_) {
-            json::append_name(out_, "id");
-            json::append_integer(out_, id_);
+            refused.id(id_);
         }
-        out_ += '}';
+        out_ = refused.line();
     }
 
     const Product product_;
@@ -167,6 +139,7 @@ class Answerer {
     const Emit emit_;
     json::Document document_;
     std::string out_;
+    std::string trace_;
     std::int64_t id_ = 0;
     bool has_id_ = false;
     bool stuck_ = false;

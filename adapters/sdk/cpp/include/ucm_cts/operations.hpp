@@ -26,15 +26,6 @@
 
 namespace ucm_cts {
 
-inline void append_number(std::string& out, const char* name, std::int64_t value) {
-    json::append_name(out, name);
-    json::append_integer(out, value);
-}
-
-inline void append_step(std::string& out, std::size_t number) {
-    append_number(out, "step", static_cast<std::int64_t>(number));
-}
-
 /// Looks up what a step needs, has the adapter do it, and records call and outcome. Steps of several threads come at once.
 class Operations {
   public:
@@ -46,7 +37,7 @@ class Operations {
           manager_(std::move(manager)),
           variables_(manager_) {}
 
-    void perform(std::size_t number, const Step& step) {
+    void perform(std::int64_t number, const Step& step) {
         Arguments arguments;
         if (resolve(number, step, arguments)) {
             call(number, step, arguments);
@@ -54,7 +45,7 @@ class Operations {
     }
 
     /// The references of these names that are not null; false, and `skip` is recorded, if one was never bound.
-    bool references(std::size_t number, const std::vector<std::string>& names, std::vector<Reference>& found) {
+    bool references(std::int64_t number, const std::vector<std::string>& names, std::vector<Reference>& found) {
         for (const std::string& name : names) {
             Reference reference;
             if (!variables_.reference(name, reference)) {
@@ -80,28 +71,29 @@ class Operations {
     };
 
     // Looks up what the step needs, in the order of its arguments; records `skip` for the first that is not there.
-    bool resolve(std::size_t number, const Step& step, Arguments& arguments) {
-        if (is_about_a_link(step.operation) && !variables_.link(step.to, arguments.link)) {
-            return skip(number, step.to);
+    bool resolve(std::int64_t number, const Step& step, Arguments& arguments) {
+        if (is_about_a_link(step.kind) && !variables_.link(step.link, arguments.link)) {
+            return skip(number, step.link);
         }
-        if (!variables_.container(step.container, arguments.container)) {
+        if (step.kind != Operation::remove_container && !variables_.container(step.container, arguments.container)) {
             return skip(number, step.container);
         }
-        switch (step.operation) {
+        switch (step.kind) {
             case Operation::attach:
             case Operation::detach:
             case Operation::remove_component:
             case Operation::get_port_element:
+                return variables_.id(step.id, arguments.id) || skip(number, step.id);
             case Operation::disconnect:
-                return variables_.id(step.subject, arguments.id) || skip(number, step.subject);
+                return variables_.id(step.connection, arguments.id) || skip(number, step.connection);
             case Operation::connect:
-                return (variables_.id(step.subject, arguments.id) || skip(number, step.subject)) &&
+                return (variables_.id(step.id, arguments.id) || skip(number, step.id)) &&
                        (variables_.reference(step.to, arguments.reference) || skip(number, step.to));
             case Operation::remove_container:
-                return variables_.container(step.subject, arguments.sub_container) || skip(number, step.subject);
+                return variables_.container(step.container, arguments.sub_container) || skip(number, step.container);
             case Operation::invoke:  // nothing can be called through a null reference
-                return (variables_.reference(step.subject, arguments.reference) && arguments.reference) ||
-                       skip(number, step.subject);
+                return (variables_.reference(step.ref, arguments.reference) && arguments.reference) ||
+                       skip(number, step.ref);
             default:
                 return true;
         }
@@ -112,21 +104,17 @@ class Operations {
                operation == Operation::mend_link;
     }
 
-    bool skip(std::size_t number, const std::string& variable) {
-        stage_->recorder.record("skip", [number, &variable](std::string& out) {
-            append_step(out, number);
-            json::append_name(out, "variable");
-            json::append_text(out, variable);
-        });
+    bool skip(std::int64_t number, const std::string& variable) {
+        stage_->recorder.record(events::Skip(number, variable));
         return false;
     }
 
-    void call(std::size_t number, const Step& step, const Arguments& arguments) {
-        stage_->recorder.record("call", [number](std::string& out) { append_step(out, number); });
+    void call(std::int64_t number, const Step& step, const Arguments& arguments) {
+        stage_->recorder.record(events::Call(number));
         try {
             operate(number, step, arguments);
         } catch (const NotOffered&) {
-            skip(number, name_of(step.operation));
+            skip(number, word_of(step.kind));
         } catch (const NotFound& error) {
             raised(number, "NOT_FOUND", error.what());
         } catch (const BadParameter& error) {
@@ -153,14 +141,14 @@ class Operations {
         return name;
     }
 
-    void operate(std::size_t number, const Step& step, const Arguments& with) {
-        switch (step.operation) {
+    void operate(std::int64_t number, const Step& step, const Arguments& with) {
+        switch (step.kind) {
             case Operation::add_component: {
-                const Declaration* const declaration = scenario_->find(step.component);
+                const Declaration* const declaration = declared(step.component);
                 const Id id = adapter_->add_component(
                     with.container, step.component, declaration != nullptr ? declaration->attributes : Attributes());
-                variables_.bind_id(step.bind, id);
-                returned(number, [id](std::string& out) { json::append_integer(out, id); });
+                variables_.bind_id(step.bind.empty() ? step.component : step.bind, id);
+                returned(number, id);
                 break;
             }
             case Operation::remove_component:
@@ -170,13 +158,13 @@ class Operations {
             case Operation::get_port_element: {
                 const Reference reference = adapter_->get_port_element(with.container, with.id, step.port);
                 variables_.bind_reference(step.bind, reference);
-                returned(number, [&reference](std::string& out) { append_reference(out, reference); });
+                returned(number, reference);
                 break;
             }
             case Operation::connect: {
                 const Id id = adapter_->connect(with.container, with.id, step.port, with.reference);
                 variables_.bind_id(step.bind, id);
-                returned(number, [id](std::string& out) { json::append_integer(out, id); });
+                returned(number, id);
                 break;
             }
             case Operation::disconnect:
@@ -194,7 +182,7 @@ class Operations {
             case Operation::get_components: {
                 const std::vector<Id> ids = adapter_->get_components(with.container);
                 variables_.saw(ids);
-                returned(number, [&ids](std::string& out) { json::append_array(out, ids, json::append_integer); });
+                returned(number, ids);
                 break;
             }
             case Operation::create_container:
@@ -212,15 +200,15 @@ class Operations {
                 break;
             case Operation::invoke: {
                 const std::int32_t result = with.reference->exchange(step.value);
-                returned(number, [result](std::string& out) { json::append_integer(out, result); });
+                returned(number, result);
                 break;
             }
             case Operation::link:
-                variables_.bind_link(step.bind, adapter_->link(manager_, step.word, step.interface));
+                variables_.bind_link(step.bind, adapter_->link(manager_, step.connector, scenario_->interfaces.at(step.interface)));
                 returned(number);
                 break;
             case Operation::attach:
-                adapter_->attach(with.link, step.word, with.container, with.id, step.port);
+                adapter_->attach(with.link, step.role, with.container, with.id, step.port);
                 returned(number);
                 break;
             case Operation::detach:
@@ -228,7 +216,7 @@ class Operations {
                 returned(number);
                 break;
             case Operation::break_link:
-                adapter_->break_link(with.link, step.word);
+                adapter_->break_link(with.link, step.where);
                 returned(number);
                 break;
             case Operation::mend_link:
@@ -236,7 +224,7 @@ class Operations {
                 returned(number);
                 break;
             case Operation::read_log:
-                read(number, read_log(step.value));
+                stage_->recorder.record(events::Return(number).records(read_log(step.records)));
                 break;
             case Operation::open:
             case Operation::reach:
@@ -261,42 +249,26 @@ class Operations {
         }
     }
 
-    void read(std::size_t number, const std::vector<LogRecord>& records) {
-        stage_->recorder.record("return", [number, &records](std::string& out) {
-            append_step(out, number);
-            json::append_name(out, "records");
-            json::append_array(out, records, [](std::string& text, const LogRecord& record) {
-                text += "{\"severity\":";
-                json::append_text(text, record.severity);
-                json::append_name(text, "message");
-                json::append_text(text, record.message);
-                text += '}';
-            });
-        });
+    // Null for a component that the scenario does not declare.
+    const Declaration* declared(const std::string& name) const {
+        for (const Component& component : scenario_->components) {
+            if (component.first == name) {
+                return &component.second;
+            }
+        }
+        return nullptr;
     }
 
-    void returned(std::size_t number) {
-        stage_->recorder.record("return", [number](std::string& out) { append_step(out, number); });
+    void returned(std::int64_t number) { stage_->recorder.record(events::Return(number)); }
+
+    template <class Value>
+    void returned(std::int64_t number, const Value& value) {
+        stage_->recorder.record(events::Return(number).value(value));
     }
 
-    template <class AppendValue>
-    void returned(std::size_t number, AppendValue append_value) {
-        stage_->recorder.record("return", [number, &append_value](std::string& out) {
-            append_step(out, number);
-            json::append_name(out, "value");
-            append_value(out);
-        });
-    }
-
-    void raised(std::size_t number, const char* error, const char* detail) {
+    void raised(std::int64_t number, const char* error, const char* detail) {
         const std::string text = json::shortened(detail != nullptr ? detail : "", 200);
-        stage_->recorder.record("raise", [number, error, &text](std::string& out) {
-            append_step(out, number);
-            json::append_name(out, "error");
-            json::append_text(out, error);
-            json::append_name(out, "detail");
-            json::append_text(out, text);
-        });
+        stage_->recorder.record(events::Raise(number, error).detail(text));
     }
 
     const std::shared_ptr<Adapter> adapter_;

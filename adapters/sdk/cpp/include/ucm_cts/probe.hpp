@@ -23,47 +23,48 @@ namespace ucm_cts {
 /// What a probe leaves a hook with when its plan says `raise`: no interface declares it.
 class ProbeFailure : public std::runtime_error {
   public:
-    explicit ProbeFailure(Hook hook) : std::runtime_error(std::string("the probe fails in ") + name_of(hook)) {}
+    explicit ProbeFailure(Hook hook) : std::runtime_error(std::string("the probe fails in ") + word_of(hook)) {}
 };
 
 /// What all faces of one body, itself and its port elements, have in common.
 class Probe {
   public:
-    Probe(std::shared_ptr<Stage> stage, std::shared_ptr<const Scenario> scenario, const Declaration& declaration,
+    Probe(std::shared_ptr<Stage> stage, std::shared_ptr<const Scenario> scenario, const Component& component,
           int instance)
-        : stage_(std::move(stage)), scenario_(std::move(scenario)), declaration_(declaration), instance_(instance) {
-        json::append_name(whose_, "component");
-        json::append_text(whose_, declaration_.name);
-        json::append_name(whose_, "instance");
-        json::append_integer(whose_, instance_);
+        : stage_(std::move(stage)), scenario_(std::move(scenario)), component_(component), instance_(instance) {
         for (const Action& action : plan_of(Hook::method)) {
             if (action.kind == Action::Kind::count) {
-                messages_ = stage_->messages.of(declaration_.name, instance_);
+                messages_ = stage_->messages.of(name(), instance_);
             }
         }
-        stage_->recorder.record("create", [this](std::string& out) { out += whose_; });
+        record(events::Create(name(), instance_));
     }
 
-    const Declaration& declaration() const { return declaration_; }
+    const std::string& name() const { return component_.first; }
+    const Declaration& declaration() const { return component_.second; }
     int instance() const { return instance_; }
 
     /// Has the scenario ended? Then the probe is silent and has no plan.
     bool over() const { return stage_->recorder.closed(); }
 
-    /// Records the entry with the arguments that `append_arguments(text)` appends, performs the plan, records the exit.
-    template <class AppendArguments>
-    void visit(Hook hook, AppendArguments append_arguments) {
+    /// The probe is entered at `hook`.
+    events::Enter entry(Hook hook) const { return events::Enter(name(), instance_, hook); }
+
+    /// Records `entry`, performs the plan of `hook`, records the exit.
+    void visit(Hook hook, const events::Enter& entry) {
         if (over()) {
             return;
         }
-        enter(hook, append_arguments);
+        record(entry);
         perform(hook, nullptr);
-        leave(hook, [](std::string&) {});
+        record(exit(hook));
     }
+
+    void visit(Hook hook) { visit(hook, entry(hook)); }
 
     void run() {
         if (!is_stressed()) {
-            visit(Hook::run, [](std::string&) {});
+            visit(Hook::run);
         }
     }
 
@@ -72,17 +73,9 @@ class Probe {
         if (is_stressed() || over()) {
             return result;
         }
-        enter(Hook::exchange, [&port, value](std::string& out) {
-            json::append_name(out, "port");
-            json::append_text(out, port);
-            json::append_name(out, "value");
-            json::append_integer(out, value);
-        });
+        record(entry(Hook::exchange).port(port).value(value));
         perform(Hook::exchange, &result);
-        leave(Hook::exchange, [result](std::string& out) {
-            json::append_name(out, "value");
-            json::append_integer(out, result);
-        });
+        record(exit(Hook::exchange).value(result));
         return result;
     }
 
@@ -99,10 +92,7 @@ class Probe {
             count(method, arguments);
             return Data{"ok"};
         }
-        enter(Hook::method, [&port, &method, &arguments](std::string& out) {
-            append_port(out, port);
-            append_method(out, method, arguments);
-        });
+        record(entry(Hook::method).port(port).method(method).arguments(arguments));
         perform(Hook::method, nullptr);
         return answer(method, arguments);
     }
@@ -128,7 +118,11 @@ class Probe {
     }
 
   private:
-    const std::vector<Action>& plan_of(Hook hook) const { return declaration_.plan[static_cast<std::size_t>(hook)]; }
+    const std::vector<Action>& plan_of(Hook hook) const {
+        static const std::vector<Action> nothing;
+        const auto found = declaration().plan.find(hook);
+        return found == declaration().plan.end() ? nothing : found->second;
+    }
 
     // Under stress: counts who is met here, and tells that there is nothing else to do.
     bool is_stressed() {
@@ -142,7 +136,7 @@ class Probe {
 
     void complain(const std::string& problem, const Data& data) {
         std::string text = problem;
-        append_data(text, data);
+        json::append(text, data);
         stage_->complain(json::shortened(text, 200));
     }
 
@@ -162,49 +156,31 @@ class Probe {
                 planned = &action;
             }
         }
-        const Data results = planned == nullptr ? Data() : planned->echoes ? arguments : planned->data;
-        const bool is_exception = planned != nullptr && planned->is_exception;
-        leave(Hook::method, [&results, planned, is_exception](std::string& out) {
-            append_results(out, results);
-            if (is_exception) {
-                append_exception(out, planned->exception);
-            }
-        });
+        const Data results = planned == nullptr ? Data() : !planned->has_results ? arguments : planned->results;
+        const bool is_exception = planned != nullptr && planned->has_exception;
+        events::Exit left = exit(Hook::method);
+        left.results(results);
+        if (is_exception) {
+            left.exception(planned->exception);
+        }
+        record(left);
         if (is_exception) {
             throw DeclaredException(planned->exception, results);
         }
         return results;
     }
 
-    template <class AppendArguments>
-    void enter(Hook hook, AppendArguments append_arguments) {
-        event("enter", [hook, &append_arguments](std::string& out) {
-            append_hook(out, hook);
-            append_arguments(out);
-        });
-    }
+    void record(const Event& event) { stage_->recorder.record(event); }
 
-    template <class AppendResult>
-    void leave(Hook hook, AppendResult append_result) {
-        event("exit", [hook, &append_result](std::string& out) {
-            append_hook(out, hook);
-            append_result(out);
-        });
-    }
-
-    template <class AppendFields>
-    void event(const char* kind, AppendFields append_fields) {
-        stage_->recorder.record(kind, [this, &append_fields](std::string& out) {
-            out += whose_;
-            append_fields(out);
-        });
-    }
+    events::Exit exit(Hook hook) const { return events::Exit(name(), instance_, hook); }
+    events::Request request(const std::string& port) const { return events::Request(name(), instance_, port); }
+    events::Reply reply(const std::string& port) const { return events::Reply(name(), instance_, port); }
 
     void perform(Hook hook, std::int32_t* result) {
         for (const Action& action : plan_of(hook)) {
             switch (action.kind) {
                 case Action::Kind::raise:
-                    leave(hook, append_raised);
+                    record(exit(hook).raised(true));
                     throw ProbeFailure(hook);
                 case Action::Kind::return_value:
                     if (result != nullptr) {
@@ -212,21 +188,21 @@ class Probe {
                     }
                     break;
                 case Action::Kind::call:
-                    call(action.name, action.value);
+                    call(action.port, action.value);
                     break;
                 case Action::Kind::hold:
-                    hold(action.name);
+                    hold(action.gate);
                     break;
                 case Action::Kind::siblings:
                     query_siblings();
                     break;
                 case Action::Kind::call_method:
-                    for (const Reference& reference : references(action.name)) {
+                    for (const Reference& reference : references(action.port)) {
                         call_method(action, *reference);
                     }
                     break;
                 case Action::Kind::burst:
-                    for (const Reference& reference : references(action.name)) {
+                    for (const Reference& reference : references(action.port)) {
                         push(action, *reference);
                     }
                     break;
@@ -239,58 +215,37 @@ class Probe {
 
     void call(const std::string& port, std::int32_t value) {
         for (const Reference& reference : references(port)) {
-            event("request", [&port, value](std::string& out) {
-                append_port(out, port);
-                json::append_name(out, "value");
-                json::append_integer(out, value);
-            });
+            record(request(port).value(value));
             try {
-                const std::int32_t answer = reference->exchange(value);
-                event("reply", [&port, answer](std::string& out) {
-                    append_port(out, port);
-                    json::append_name(out, "value");
-                    json::append_integer(out, answer);
-                });
+                record(reply(port).value(reference->exchange(value)));
             } catch (...) {
-                event("reply", [&port](std::string& out) {
-                    append_port(out, port);
-                    append_raised(out);
-                });
+                record(reply(port).raised(true));
             }
         }
     }
 
     void call_method(const Action& action, PortElement& callee) {
-        const std::shared_ptr<Data> arguments = buffer(action.data);
-        event("request", [&action](std::string& out) {
-            append_port(out, action.name);
-            append_method(out, action.method, action.data);
-        });
+        const std::shared_ptr<Data> arguments = buffer(action.arguments);
+        record(request(action.port).method(action.method).arguments(action.arguments));
+        events::Reply replied = reply(action.port);
         try {
-            const Data results = callee.call(action.method, *arguments);
-            reply(action, results, [](std::string&) {});
+            replied.results(sound(action, callee.call(action.method, *arguments)));
         } catch (const DeclaredException& error) {
-            reply(action, error.fields, [&error](std::string& out) { append_exception(out, error.name); });
+            replied.results(sound(action, error.fields)).exception(error.name);
         } catch (...) {
-            event("reply", [&action](std::string& out) {
-                append_port(out, action.name);
-                append_raised(out);
-            });
+            replied.raised(true);
         }
+        record(replied);
         overwrite(*arguments);
     }
 
-    template <class AppendException>
-    void reply(const Action& action, const Data& results, AppendException append) {
-        const bool sound = are_data(results);
-        if (!sound) {
-            complain(action.method + " gave to a probe what are no values: ", results);
+    // `results` if they are values, none if not.
+    Data sound(const Action& action, const Data& results) {
+        if (are_data(results)) {
+            return results;
         }
-        event("reply", [&action, &results, &append, sound](std::string& out) {
-            append_port(out, action.name);
-            append_results(out, sound ? results : Data());
-            append(out);
-        });
+        complain(action.method + " gave to a probe what are no values: ", results);
+        return Data();
     }
 
     // One buffer for all messages: an emitter overwrites a message with the next one.
@@ -303,22 +258,14 @@ class Probe {
             std::string code;
             try {
                 const Data results = callee.call(PUSH, message);
-                code = results.empty() ? "" : results[0].is_string() ? results[0].get<std::string>() : json_of(results[0]);
+                code = results.empty() ? "" : results[0].is_string() ? results[0].get<std::string>() : json::json_of(results[0]);
             } catch (...) {
                 code = "raised";
             }
             ++answers[code];
         }
         overwrite(message);
-        event("pushed", [&action, &answers](std::string& out) {
-            append_port(out, action.name);
-            json::append_name(out, "first");
-            json::append_integer(out, action.first);
-            json::append_name(out, "count");
-            json::append_integer(out, action.count);
-            json::append_name(out, "answers");
-            out += json_of(answers);
-        });
+        record(events::Pushed(name(), instance_, action.port, action.first, action.count, answers));
     }
 
     // What a caller sends is its own, which it overwrites when the call is over. It stays where it is, so that a framework
@@ -343,12 +290,7 @@ class Probe {
     }
 
     void hold(const std::string& gate) {
-        stage_->gates.hold(gate, [this, &gate] {
-            event("held", [&gate](std::string& out) {
-                json::append_name(out, "gate");
-                json::append_text(out, gate);
-            });
-        });
+        stage_->gates.hold(gate, [this, &gate] { record(events::Held(name(), instance_, gate)); });
     }
 
     void query_siblings() {
@@ -361,52 +303,16 @@ class Probe {
             if (!container) {
                 throw std::logic_error("no container interface was given");
             }
-            const std::vector<Id> ids = container->get_components();
-            event("siblings", [&ids](std::string& out) {
-                json::append_name(out, "ids");
-                json::append_array(out, ids, json::append_integer);
-            });
+            record(events::Siblings(name(), instance_).ids(container->get_components()));
         } catch (...) {
-            event("siblings", append_raised);
+            record(events::Siblings(name(), instance_).raised(true));
         }
     }
 
-    static void append_hook(std::string& out, Hook hook) {
-        json::append_name(out, "hook");
-        out += '"';
-        out += name_of(hook);
-        out += '"';
-    }
-
-    static void append_port(std::string& out, const std::string& port) {
-        json::append_name(out, "port");
-        json::append_text(out, port);
-    }
-
-    static void append_method(std::string& out, const std::string& method, const Data& arguments) {
-        json::append_name(out, "method");
-        json::append_text(out, method);
-        json::append_name(out, "arguments");
-        append_data(out, arguments);
-    }
-
-    static void append_results(std::string& out, const Data& results) {
-        json::append_name(out, "results");
-        append_data(out, results);
-    }
-
-    static void append_exception(std::string& out, const std::string& name) {
-        json::append_name(out, "exception");
-        json::append_text(out, name);
-    }
-
-    static void append_raised(std::string& out) { out += ",\"raised\":true"; }
-
     const std::shared_ptr<Stage> stage_;
-    const std::shared_ptr<const Scenario> scenario_;  // keeps declaration_ alive
-    const Declaration& declaration_;
+    const std::shared_ptr<const Scenario> scenario_;  // keeps component_ alive
+    const Component& component_;
     const int instance_;
-    std::string whose_;
     Occupancy occupancy_;
     std::shared_ptr<MessageCount> messages_;  // if the plan says so
     std::mutex mutex_;

@@ -16,7 +16,7 @@ namespace ucm_cts {
 class ProbePort final : public PortElement {
   public:
     ProbePort(std::shared_ptr<Probe> probe, const std::string& port)
-        : probe_(std::move(probe)), identity_(Identity{probe_->declaration().name, probe_->instance(), port}) {}
+        : probe_(std::move(probe)), identity_(Identity{probe_->name(), probe_->instance(), port}) {}
 
     std::int32_t exchange(std::int32_t value) override { return probe_->exchange(identity_.port, value); }
     Data call(const std::string& method, const Data& arguments) override {
@@ -55,63 +55,35 @@ class ProbeBody final : public Body {
     void set_attribute(const std::string& name, const std::string& value) override { attributes_[name] = value; }
 
     void on_init() override {
-        probe_->visit(Hook::on_init, [this](std::string& out) {
-            json::append_name(out, "attributes");
-            char separator = '{';
-            for (const auto& attribute : attributes_) {
-                out += separator;
-                json::append_text(out, attribute.first);
-                out += ':';
-                json::append_text(out, attribute.second);
-                separator = ',';
-            }
-            out += attributes_.empty() ? "{}" : "}";
-        });
+        probe_->visit(Hook::on_init, probe_->entry(Hook::on_init).attributes(attributes_));
     }
 
     void on_startup(const std::vector<PortConnection>& dependencies) override {
         probe_->keep(dependencies);
-        probe_->visit(Hook::on_startup, [&dependencies](std::string& out) {
-            json::append_name(out, "dependencies");
-            json::append_array(out, dependencies, [](std::string& text, const PortConnection& connection) {
-                text += "{\"port\":";
-                json::append_text(text, connection.from_port);
-                json::append_name(text, "references");
-                json::append_array(text, connection.to_port, append_reference);
-                text += '}';
-            });
-        });
+        probe_->visit(Hook::on_startup, probe_->entry(Hook::on_startup).dependencies(dependencies));
     }
 
     void on_shutdown() override {
         const Forgetting forgetting = {*probe_};
-        probe_->visit(Hook::on_shutdown, [](std::string&) {});
+        probe_->visit(Hook::on_shutdown);
     }
 
     void on_remove() override {
-        probe_->visit(Hook::on_remove, [](std::string&) {});
+        probe_->visit(Hook::on_remove);
         probe_->keep(std::shared_ptr<ContainerInterface>());
     }
 
     void on_connect(const std::string& port_name, const Reference& required) override {
-        probe_->visit(Hook::on_connect, [&port_name, &required](std::string& out) {
-            json::append_name(out, "port");
-            json::append_text(out, port_name);
-            json::append_name(out, "reference");
-            append_reference(out, required);
-        });
+        probe_->visit(Hook::on_connect, probe_->entry(Hook::on_connect).port(port_name).reference(required));
     }
 
     void on_disconnect(const std::string& port_name) override {
-        probe_->visit(Hook::on_disconnect, [&port_name](std::string& out) {
-            json::append_name(out, "port");
-            json::append_text(out, port_name);
-        });
+        probe_->visit(Hook::on_disconnect, probe_->entry(Hook::on_disconnect).port(port_name));
     }
 
     void set_container_interface(const std::shared_ptr<ContainerInterface>& container) override {
         probe_->keep(container);
-        probe_->visit(Hook::set_container_interface, [](std::string&) {});
+        probe_->visit(Hook::set_container_interface);
     }
 
     Reference get_portElement(const std::string& provided) override {

@@ -12,6 +12,7 @@
 #include "ucm_cts/adapter.hpp"
 #include "ucm_cts/counting.hpp"
 #include "ucm_cts/gates.hpp"
+#include "ucm_cts/generated/events.hpp"
 #include "ucm_cts/trace.hpp"
 
 namespace ucm_cts {
@@ -49,22 +50,6 @@ class Stage {
     std::mutex mutex_;
     std::string complaint_;
 };
-
-/// Appends a reference as it stands in a trace: whose it is, `"opaque"`, or null.
-inline void append_reference(std::string& out, const Reference& reference) {
-    const Identity* const identity = reference ? reference->identity() : nullptr;
-    if (identity == nullptr) {
-        out += reference ? "\"opaque\"" : "null";
-        return;
-    }
-    out += "{\"component\":";
-    json::append_text(out, identity->component);
-    json::append_name(out, "instance");
-    json::append_integer(out, identity->instance);
-    json::append_name(out, "port");
-    json::append_text(out, identity->port);
-    out += '}';
-}
 
 }  // namespace ucm_cts
 

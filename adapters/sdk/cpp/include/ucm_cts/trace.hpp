@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "ucm_cts/json_text.hpp"
+#include "ucm_cts/writing.hpp"
 
 namespace ucm_cts {
 
@@ -31,10 +31,8 @@ class Recorder {
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    /// Records one event; `append_fields(text)` appends what follows the fields that all events have.
-    /// Does nothing once the trace has been taken.
-    template <class AppendFields>
-    void record(const char* kind, AppendFields append_fields) {
+    /// Records one event. Does nothing once the trace has been taken.
+    void record(const Event& event) {
         if (closed()) {
             return;
         }
@@ -52,14 +50,14 @@ class Recorder {
         own.marks.push_back(Mark{number, begin});
         std::string& out = own.text;
         out += "{\"kind\":\"";
-        out += kind;
+        out += event.kind();
         out += "\",\"n\":";
-        json::append_integer(out, number);
+        json::append(out, number);
         out += ",\"t\":";
-        json::append_integer(out, now());
+        json::append(out, now());
         out += ",\"thread\":";
-        json::append_integer(out, own.thread);
-        append_fields(out);
+        json::append(out, own.thread);
+        out += event.text();
         out += '}';
         if (sink_) {
             sink_(out.substr(begin));

@@ -1,0 +1,324 @@
+// made by python -m ucm_cts.adapters.contract.generating from protocol.schema.json: do not edit
+#ifndef UCM_CTS_GENERATED_MESSAGES_HPP
+#define UCM_CTS_GENERATED_MESSAGES_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "ucm_cts/words.hpp"
+
+namespace ucm_cts {
+
+/// A value as it travels.
+typedef nlohmann::json Datum;
+typedef std::vector<Datum> Data;
+
+struct DataType;
+typedef std::shared_ptr<const DataType> SharedType;
+
+struct Interface;
+typedef std::shared_ptr<const Interface> SharedInterface;
+
+/// Harness to host, first: the protocol version the harness speaks.
+struct Hello {
+    std::int64_t protocol = 0;
+};
+
+enum class ActionKind {
+    raise, return_value, call, hold, siblings, call_method, answer, burst, count
+};
+
+inline Words words_of(ActionKind) {
+    static const char* const words[] = {
+        "raise", "return", "call", "hold", "siblings", "call_method", "answer", "burst", "count"
+    };
+    return Words{words, 9};
+}
+
+/// One of 9 kinds of objects; each member says which kinds have it.
+struct Action {
+    typedef ActionKind Kind;
+    Kind kind = Kind::raise;
+
+    /// Of return, call.
+    std::int32_t value = 0;
+
+    /// Of call, call_method, burst.
+    std::string port;
+
+    /// Of hold.
+    std::string gate;
+
+    /// Of call_method, answer.
+    std::string method;
+
+    /// Of call_method.
+    std::vector<Datum> arguments;
+
+    /// Of answer.
+    std::vector<Datum> results;
+    bool has_results = false;
+
+    /// Of answer.
+    std::string exception;
+    bool has_exception = false;
+
+    /// Of answer.
+    bool overwrite = false;
+
+    /// Of burst.
+    std::int64_t first = 0;
+
+    /// Of burst.
+    std::int64_t count = 0;
+};
+
+enum class Hook {
+    on_init, on_startup, on_shutdown, on_remove, on_connect, on_disconnect, set_container_interface, exchange, run,
+    method
+};
+
+inline Words words_of(Hook) {
+    static const char* const words[] = {
+        "on_init", "on_startup", "on_shutdown", "on_remove", "on_connect", "on_disconnect", "set_container_interface",
+        "exchange", "run", "method"
+    };
+    return Words{words, 10};
+}
+
+/// A technical policy of a component implementation (9.5.4.3): its `definition` and, of some, the `port` element.
+///
+/// `element` is the name under which the component gets the port element that it requires by the policy
+/// (`REQUIRED_ELEMENTS`): the policy instance and the element.
+struct Policy {
+    std::string definition;
+    std::string port;
+    std::map<std::string, std::string> parameters;
+    std::string element;
+};
+
+/// One component implementation the framework shall be able to instantiate: a probe body and its plan.
+///
+/// `provides` and `requires` list port element names; `attributes` maps attribute names to configured values;
+/// `connectable` bodies implement Connectable (11.2.1.3), `fragment` bodies FragmentObject (11.2.1.4). `policies` are
+/// its technical policies. `plan` lists, per hook, the actions the probe performs each time it is entered there.
+/// `ports` names the interface of each port element that has one. No port element twice.
+struct Declaration {
+    std::vector<std::string> provided;
+    std::vector<std::string> required;
+    std::map<std::string, std::string> attributes;
+    bool connectable = false;
+    bool fragment = false;
+    std::map<Hook, std::vector<Action>> plan;
+    std::vector<Policy> policies;
+    std::map<std::string, std::string> ports;
+};
+
+enum class StepKind {
+    add_component, remove_component, get_port_element, connect, disconnect, start, stop, get_components,
+    create_container, remove_container, destroy, invoke, open, reach, settle, join, link, attach, detach, break_link,
+    mend_link, read_log, pause, await_messages, stress
+};
+
+inline Words words_of(StepKind) {
+    static const char* const words[] = {
+        "add_component", "remove_component", "get_port_element", "connect", "disconnect", "start", "stop",
+        "get_components", "create_container", "remove_container", "destroy", "invoke", "open", "reach", "settle",
+        "join", "link", "attach", "detach", "break", "mend", "read_log", "pause", "await_messages", "stress"
+    };
+    return Words{words, 25};
+}
+
+/// One of 25 kinds of objects; each member says which kinds have it.
+struct Step {
+    typedef StepKind Kind;
+    Kind kind = Kind::add_component;
+
+    /// Of add_component, await_messages.
+    std::string component;
+
+    /// Of add_component, remove_component, get_port_element, connect, disconnect, start, stop, get_components,
+    /// remove_container, attach, detach.
+    std::string container = "manager";
+
+    /// Of add_component, get_port_element, connect, create_container, link.
+    std::string bind;
+
+    /// Of all.
+    std::string thread;
+    bool has_thread = false;
+
+    /// Of remove_component, get_port_element, connect, attach, detach.
+    std::string id;
+
+    /// Of get_port_element, connect, attach, detach.
+    std::string port;
+
+    /// Of connect.
+    std::string to;
+
+    /// Of disconnect.
+    std::string connection;
+
+    /// Of invoke.
+    std::string ref;
+
+    /// Of invoke.
+    std::int32_t value = 0;
+
+    /// Of open, reach.
+    std::string gate;
+
+    /// Of reach.
+    std::int32_t more = 0;
+
+    /// Of reach.
+    std::int32_t total = 0;
+
+    /// Of settle, join.
+    std::string worker;
+
+    /// Of link.
+    std::string connector;
+
+    /// Of link.
+    std::string interface;
+
+    /// Of attach, detach, break, mend.
+    std::string link;
+
+    /// Of attach.
+    std::string role;
+
+    /// Of break.
+    std::string where = "transport";
+
+    /// Of read_log.
+    std::int32_t records = 0;
+
+    /// Of pause, stress.
+    std::int32_t milliseconds = 100;
+
+    /// Of await_messages.
+    std::int64_t count = 0;
+
+    /// Of await_messages.
+    std::int64_t instance = 1;
+
+    /// Of stress.
+    std::vector<std::string> refs;
+};
+
+enum class Direction {
+    in, out, inout, result
+};
+
+inline Words words_of(Direction) {
+    static const char* const words[] = {
+        "IN", "OUT", "INOUT", "RETURN"
+    };
+    return Words{words, 4};
+}
+
+/// One alternative: active for the `selectors`, or as `default` for every enumerator no other case names.
+struct UnionCase {
+    std::string name;
+    SharedType of;
+    std::vector<std::string> selectors;
+    bool is_default = false;
+};
+
+enum class DataTypeKind {
+    integer, floating, character, boolean, string, enumeration, structure, union_type, array, sequence, alias
+};
+
+inline Words words_of(DataTypeKind) {
+    static const char* const words[] = {
+        "integer", "float", "char", "boolean", "string", "enumeration", "structure", "union", "array", "sequence",
+        "alias"
+    };
+    return Words{words, 11};
+}
+
+/// One of 11 kinds of objects; each member says which kinds have it.
+struct DataType {
+    typedef DataTypeKind Kind;
+    Kind kind = Kind::integer;
+
+    /// Of integer, float, char, string, enumeration.
+    std::string base;
+
+    /// Of string, sequence.
+    std::int64_t size = -1;
+
+    /// Of enumeration, structure, union, alias.
+    std::string name;
+
+    /// Of enumeration.
+    std::vector<std::pair<std::string, Datum>> enumerators;
+
+    /// Of structure.
+    std::vector<std::pair<std::string, SharedType>> fields;
+
+    /// Of union, array, sequence, alias.
+    SharedType of;
+
+    /// Of union.
+    std::vector<UnionCase> cases;
+
+    /// Of array.
+    std::vector<std::int64_t> sizes;
+};
+
+/// A parameter of a method.
+struct Parameter {
+    std::string name;
+    Direction direction = Direction();
+    SharedType of;
+};
+
+/// Parameters in order, and the exceptions it may raise.
+struct Method {
+    std::vector<Parameter> parameters;
+    std::vector<SharedType> raises;
+
+    /// What the caller sends: IN and INOUT.
+    std::vector<Parameter> arguments() const;
+
+    /// What comes back: OUT, INOUT and RETURN, in the order of declaration.
+    std::vector<Parameter> results() const;
+};
+
+/// Methods by name, its own and those of the interfaces it inherits (9.2.7.2), whose names are `inherited`.
+struct Interface {
+    std::map<std::string, Method> methods;
+    std::vector<std::string> inherited;
+};
+
+/// Component declarations by name, steps in order, `patience`: milliseconds a wait step may take, and `interfaces` by
+/// name. Workers in `may_stay` need not come back; no host is told so.
+struct Scenario {
+    std::vector<std::pair<std::string, Declaration>> components;
+    std::vector<Step> steps;
+    std::int64_t patience = 2000;
+    std::map<std::string, SharedInterface> interfaces;
+    std::vector<std::string> may_stay;
+};
+
+/// Harness to host: run `scenario` on a fresh runtime; `id` comes back in the answer.
+struct Run {
+    std::int64_t id = 0;
+    Scenario scenario;
+    bool stream = false;
+};
+
+}  // namespace ucm_cts
+
+#endif
