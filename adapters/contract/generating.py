@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import json
 import textwrap
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, Literal
 
 import jinja2
+
+from ucm_cts.adapters.contract.schema_types import Field, Protocol, Type, Union, with_parts
 
 SCHEMA = Path(__file__).with_name("protocol.schema.json")
 SDK = Path(__file__).parents[1] / "sdk"
@@ -25,164 +25,8 @@ FILES = {
     CPP / "messages_reading.hpp": "messages_reading.hpp.jinja",
     CPP / "events.hpp": "events.hpp.jinja",
     JAVA / "Messages.java": "Messages.java.jinja",
-    JAVA / "Events.java": "Events.java.jinja",
 }
 """The generated files, each with its template."""
-
-
-@dataclass(frozen=True)
-class Type:
-    """The type of a field, or of what a list or map contains.
-
-    ``name``: the definition of a ``struct``, ``union`` or ``enum``.
-    ``of``: what a ``list`` or ``map`` contains, and the types a value ``any`` may have.
-    ``words``: the strings that a value ``words`` may be.
-    """
-
-    kind: Literal[
-        "text", "boolean", "int32", "int64", "integer", "words", "datum", "list", "map", "struct", "union", "enum", "any"
-    ]
-    name: str = ""
-    of: tuple[Type, ...] = ()
-    words: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Field:
-    """A field of a definition; one with ``default`` may be left out.
-
-    ``nullable``: null is a value of the field, and its default.
-    ``keys``: the enumeration that the keys of a map belong to.
-    """
-
-    owner: str
-    name: str
-    type: Type
-    required: bool
-    nullable: bool
-    default: Any
-    keys: str
-
-
-@dataclass(frozen=True)
-class Struct:
-    """An object of the protocol. ``tag`` is what its tag field says, of one that belongs to a union."""
-
-    name: str
-    doc: str
-    tag: str
-    fields: tuple[Field, ...]
-
-
-@dataclass(frozen=True)
-class Union:
-    """One of several objects; the field ``tag_field`` says which."""
-
-    name: str
-    tag_field: str
-    alternatives: tuple[Struct, ...]
-
-    @property
-    def common(self) -> tuple[Field, ...]:
-        """The fields that all alternatives have."""
-        first, *others = ({f.name: f for f in one.fields} for one in self.alternatives)
-        return tuple(f for name, f in first.items() if all(name in other for other in others))
-
-    @property
-    def cases(self) -> list[tuple[list[Struct], list[Field]]]:
-        """The alternatives by the fields that they have beside the common ones."""
-        common = {f.name for f in self.common}
-        cases: dict[tuple[Any, ...], tuple[list[Struct], list[Field]]] = {}
-        for one in self.alternatives:
-            own = [f for f in one.fields if f.name not in common]
-            key = tuple((f.name, f.type, f.required, f.nullable, str(f.default)) for f in own)
-            cases.setdefault(key, ([], own))[0].append(one)
-        return list(cases.values())
-
-
-class Protocol:
-    """The definitions of the schema. A ``run`` message and what is in it a host reads, the other definitions it writes."""
-
-    def __init__(self, schema: dict[str, Any]) -> None:
-        self._definitions = schema["$defs"]
-        self.unions = {name: self._union(name) for name, d in self._definitions.items() if "discriminator" in d}
-        self.enums = {name: d["enum"] for name, d in self._definitions.items() if "enum" in d}
-        tagged = {one.name: union.name for union in self.unions.values() for one in union.alternatives}
-        self.union_of = {name: union for name, union in tagged.items() if union not in ("to_host", "from_host")}
-        self.structs = {name: self._struct(name) for name, d in self._definitions.items() if d.get("type") == "object"}
-
-    def read_by_hosts(self, *without: str) -> list[str]:
-        """Names of the definitions in messages to hosts, each after those that it contains."""
-        found: list[str] = []
-        self._collect("to_host", found, [])
-        return [name for name in found if name not in without]
-
-    def _collect(self, name: str, found: list[str], open_: list[str]) -> None:
-        if name in found or name in open_ or not name:
-            return
-        open_.append(name)
-        structs = self.unions[name].alternatives if name in self.unions else [self.structs[name]] if name in self.structs else ()
-        for struct in structs:
-            for field in struct.fields:
-                for type_ in _with_parts(field.type):
-                    self._collect(self.union_of.get(type_.name, type_.name), found, open_)
-                self._collect(field.keys, found, open_)
-            if name == "to_host":
-                self._collect(struct.name, found, open_)
-        open_.pop()
-        found.append(name)
-
-    def _union(self, name: str) -> Union:
-        tags = self._definitions[name]["discriminator"]
-        structs = tuple(self._struct(_target(ref)) for ref in tags["mapping"].values())
-        return Union(name, tags["propertyName"], structs)
-
-    def _struct(self, name: str) -> Struct:
-        definition = self._definitions[name]
-        properties: dict[str, Any] = definition["properties"]
-        tags = {n: p["enum"][0] for n, p in properties.items() if len(p.get("enum", ())) == 1}
-        fields = tuple(
-            self._field(name, n, p, n in definition["required"]) for n, p in properties.items() if n not in tags
-        )
-        return Struct(name, definition.get("description", ""), next(iter(tags.values()), ""), fields)
-
-    def _field(self, owner: str, name: str, schema: dict[str, Any], required: bool) -> Field:
-        choices = [one for one in schema.get("anyOf", [schema]) if one.get("type") != "null"]
-        type_ = self._type(choices[0]) if len(choices) == 1 else Type("any", of=tuple(map(self._type, choices)))
-        keys = _target(schema.get("propertyNames", {}).get("$ref", ""))
-        return Field(owner, name, type_, required, len(choices) < len(schema.get("anyOf", [0])), schema.get("default"), keys)
-
-    def _type(self, schema: dict[str, Any]) -> Type:
-        if "$ref" in schema:
-            return self._reference(_target(schema["$ref"]))
-        if "enum" in schema:
-            return Type("words", words=tuple(schema["enum"]))
-        match schema["type"]:
-            case "array":
-                return Type("list", of=(self._type(schema["items"]),))
-            case "object":
-                return Type("map", of=(self._type(schema["additionalProperties"]),))
-            case "string":
-                return Type("text")
-            case kind:
-                return Type(kind)
-
-    def _reference(self, name: str) -> Type:
-        definition = self._definitions[name]
-        if name in ("Int32", "Int64", "Datum"):
-            return Type(name.lower())  # type: ignore[arg-type]
-        kind: Any = "union" if "anyOf" in definition else "enum" if "enum" in definition else "struct"
-        return Type(kind, name)
-
-
-def _target(reference: str) -> str:
-    return reference.rpartition("/")[2]
-
-
-def _with_parts(type_: Type) -> Iterator[Type]:
-    yield type_
-    for part in type_.of:
-        yield from _with_parts(part)
 
 
 # C++
@@ -288,16 +132,12 @@ class Cpp:
         return field.nullable and field.owner not in _EMPTY_IS_NULL
 
     def members(self, union: Union) -> list[tuple[Field, list[str]]]:
-        """The members of the class of a union: a field that stands for it, and the tags of the alternatives that have it."""
-        found: dict[str, tuple[Field, list[str]]] = {}
-        for one in union.alternatives:
-            for field in one.fields:
-                known, tags = found.setdefault(self.member(field), (field, []))
-                assert self.type(known) == self.type(field), f"{field.owner}.{field.name} has two types"
-                if known.default is None and field.default is not None:
-                    found[self.member(field)] = (field, tags)
-                tags.append(one.tag)
-        return list(found.values())
+        """As ``Union.members``, by the names in C++, where a member has one type."""
+        found = union.members(self.member)
+        types = {self.member(field): self.type(field) for field, _ in found}
+        for field in (f for one in union.alternatives for f in one.fields):
+            assert self.type(field) == types[self.member(field)], f"{field.owner}.{field.name} has another type"
+        return found
 
     def read(self, field: Field) -> str:
         """The statement that reads the field from ``fields`` into ``into``."""
@@ -322,7 +162,7 @@ class Cpp:
         return [self._argument(field.type)]
 
     def _argument(self, type_: Type) -> str:
-        if "Event" in {part.name or self._protocol.union_of.get(part.name, "") for part in _with_parts(type_)}:
+        if "Event" in {part.name or self._protocol.union_of.get(part.name, "") for part in with_parts(type_)}:
             return "const json::Written&"
         spelled = {"MaybeReference": "Reference", "Dependency": "PortConnection"}
         of = type_.of[0] if type_.of else type_
@@ -331,7 +171,13 @@ class Cpp:
             name = f"std::vector<{name}>"
         elif type_.kind == "map":
             name = f"std::map<std::string, {name}>"
-        return name if type_.kind in ("boolean", "int32", "int64") else "Hook" if type_.name == "Hook" else f"const {name}&"
+        return (
+            name
+            if type_.kind in ("boolean", "int32", "int64")
+            else "Hook"
+            if type_.name == "Hook"
+            else f"const {name}&"
+        )
 
 
 # Java
@@ -342,7 +188,8 @@ def _camel(name: str) -> str:
     return first + "".join(word.capitalize() for word in others)
 
 
-_JAVA_KEYWORDS = ("default", "interface")
+_TAKEN_IN_JAVA = ("default", "interface", "fields")
+"""Keywords, and a method of ``Node``."""
 
 
 class Java:
@@ -353,7 +200,7 @@ class Java:
 
     def name(self, field: Field) -> str:
         """The method that gives, or sets, the field."""
-        return f"{_camel(field.name)}{'_' if field.name in _JAVA_KEYWORDS else ''}"
+        return f"{_camel(field.name)}{'_' if field.name in _TAKEN_IN_JAVA else ''}"
 
     def type(self, type_: Type, boxed: bool = False) -> str:
         """The type of a value."""
@@ -372,6 +219,19 @@ class Java:
                 return f"Map<String, {self.type(type_.of[0], True)}>"
         return self._protocol.union_of.get(type_.name, type_.name)
 
+    def members(self, union: Union) -> list[tuple[Field, list[str]]]:
+        """As ``Union.members``, by the names of the schema."""
+        return union.members(lambda field: field.name)
+
+    def summary(self, tags: Iterable[str]) -> str:
+        """The comment that says which kinds of objects have a field."""
+        line = f"        /** Of {', '.join(tags)}. */"
+        return (
+            line
+            if len(line) <= 120
+            else comment(line[4:-4].strip(" *"), "         * ").join(("        /**\n", "\n         */"))
+        )
+
     def shape(self, field: Field) -> str:
         """The shape of the field's value."""
         type_ = field.type
@@ -389,7 +249,8 @@ class Java:
             case "integer":
                 return "ANY_INTEGER"
             case "words":
-                return f"choice({', '.join(json.dumps(word) for word in type_.words)})"
+                words = comment(", ".join(map(json.dumps, type_.words)), " " * 28)
+                return f"choice({words.strip() if len(words) < 80 else chr(10) + words})"
             case "list":
                 return f"list({self._shape(type_.of[0])})"
             case "map":
@@ -430,18 +291,17 @@ def comment(text: str, start: str, width: int = 120) -> str:
     return "\n".join((start + line).rstrip() for line in lines)
 
 
-def first_sentence(text: str) -> str:
-    """The first sentence of ``text``, for Java's summaries."""
-    return " ".join(text.replace("``", "").split("\n\n")[0].split()).partition(". ")[0].rstrip(".:") + "."
-
-
 def rendered(template: str, folders: Sequence[Path] = ()) -> str:
     """The text that ``template`` gives for the committed schema; the template may stand in one of ``folders``."""
     loader = jinja2.FileSystemLoader([Path(__file__).parent / "templates", *folders])
     environment = jinja2.Environment(
-        loader=loader, trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined
+        loader=loader,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        undefined=jinja2.StrictUndefined,
     )
-    environment.filters.update(comment=comment, first_sentence=first_sentence)
+    environment.filters["comment"] = comment
     protocol = Protocol(json.loads(SCHEMA.read_text()))
     return environment.get_template(template).render(
         made_by="made by python -m ucm_cts.adapters.contract.generating from protocol.schema.json: do not edit",

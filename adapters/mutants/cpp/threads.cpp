@@ -101,7 +101,7 @@ class OneBuffer final : public Inbox {
     }
 
   private:
-    const std::shared_ptr<Bytes> buffer_ = std::make_shared<Bytes>(SIZE);
+    const std::shared_ptr<Bytes> buffer_ = std::make_shared<Bytes>(static_cast<std::size_t>(SIZE));
     static const std::size_t SIZE = 4;
 };
 const bool d = breaks<OneBuffer>("messages_share_a_buffer", {"R-10.1.6.1-05"},

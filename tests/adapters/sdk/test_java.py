@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -14,15 +15,19 @@ import msgspec
 import pytest
 from command_line import report_of, ucm_cts
 from cpp_builds import PAIR, Host, connect, events, found, talk
+from cpp_builds import run as run_program
 from folders import ROOT, SUPPORT
 from habits import HABITS, check
 from java_builds import GUIDE, JavaBuilds, java
+from protocol_samples import Samples
 from wrong_messages import check_refusals, mutated_lines
 
 from ucm_cts.adapters.contract import data_types as d
+from ucm_cts.adapters.contract import generating
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
+from ucm_cts.adapters.contract.schema_types import Protocol
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.execution.integrity import contradiction
@@ -335,6 +340,15 @@ def test_julia_adapter_says_what_it_lacks(tmp_path: Path) -> None:
 def test_julia_adapter_stays_thin() -> None:
     files = [*(ROOT / "adapters" / "integrations" / "julia").rglob("*.java")]
     assert 0 < sum(len(file.read_text().splitlines()) for file in files) <= 300
+
+
+def test_every_message_survives_java(java: JavaBuilds) -> None:
+    protocol = Protocol(json.loads(generating.SCHEMA.read_text()))
+    samples = Samples(protocol)
+    sent = [samples.message("to_host", one.name) for one in protocol.unions["to_host"].alternatives]
+    lines = "".join(json.dumps(one) + "\n" for one in sent)
+    done = run_program(["java", "-cp", "classes:lib/*", "org.ucmcts.RoundTrip"], cwd=java.folder, input=lines)
+    assert [json.loads(line) for line in done.stdout.splitlines()] == sent
 
 
 def test_java_is_formatted_alike() -> None:

@@ -197,12 +197,12 @@ struct Sums {
 void stress(const Subject& subject, std::chrono::milliseconds duration, Sums& sums) {
     const std::shared_ptr<ucm_cts::Scenario> scenario = std::make_shared<ucm_cts::Scenario>();
     scenario->components.resize(1);
-    scenario->components[0].provided = {"p", "q"};
+    scenario->components[0].second.provided = {"p", "q"};
     const std::shared_ptr<ucm_cts::Stage> stage = std::make_shared<ucm_cts::Stage>(ucm_cts::Recorder::Sink(), 2000);
     ucm_cts::ProbeBody body(std::make_shared<ucm_cts::Probe>(stage, scenario, scenario->components[0], 1));
     const std::shared_ptr<Guard> guard = subject.make();
     std::vector<Reference> references;
-    for (const std::string& port : scenario->components[0].provided) {
+    for (const std::string& port : scenario->components[0].second.provided) {
         references.push_back(std::make_shared<Guarded>(body.get_portElement(port), guard));
     }
     const std::shared_ptr<ucm_cts::Stress> storm = std::make_shared<ucm_cts::Stress>(stage, references);

@@ -204,7 +204,8 @@ class Operations {
                 break;
             }
             case Operation::link:
-                variables_.bind_link(step.bind, adapter_->link(manager_, step.connector, scenario_->interfaces.at(step.interface)));
+                variables_.bind_link(step.bind, adapter_->link(manager_, step.connector,
+                                                               scenario_->interfaces.at(step.interface)));
                 returned(number);
                 break;
             case Operation::attach:

@@ -258,7 +258,8 @@ class Probe {
             std::string code;
             try {
                 const Data results = callee.call(PUSH, message);
-                code = results.empty() ? "" : results[0].is_string() ? results[0].get<std::string>() : json::json_of(results[0]);
+                code = results.empty() ? "" : results[0].is_string() ? results[0].get<std::string>()
+                                                                     : json::json_of(results[0]);
             } catch (...) {
                 code = "raised";
             }

@@ -4,7 +4,19 @@ import java.util.List;
 import java.util.Map;
 
 /** A JSON object of the protocol whose fields have been checked; what was left out has its default. */
-public record Node(Map<String, Object> fields) {
+public class Node {
+    private final Map<String, Object> fields;
+
+    /** The object that has {@code fields}. */
+    public Node(Map<String, Object> fields) {
+        this.fields = fields;
+    }
+
+    /** All fields by name. */
+    public Map<String, Object> fields() {
+        return fields;
+    }
+
     /** The field {@code name}, or null. */
     public Object get(String name) {
         return fields.get(name);
@@ -45,8 +57,12 @@ public record Node(Map<String, Object> fields) {
         return list(name).stream().map(Node.class::cast).toList();
     }
 
-    @SuppressWarnings("unchecked") // Shape lets nothing else through
     static List<Object> listOf(Object value) {
-        return (List<Object>) value;
+        return as(value);
+    }
+
+    @SuppressWarnings("unchecked") // Shape lets nothing else through
+    static <T> T as(Object value) {
+        return (T) value;
     }
 }

@@ -8,6 +8,7 @@ import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Set;
+import java.util.function.Function;
 
 /**
  * What a JSON value has to look like. Reading one gives it back with objects as {@link Node} and defaults filled in.
@@ -102,8 +103,8 @@ interface Shape {
         return new Field(name, shape, false, preset);
     }
 
-    /** An object with these fields and no others. */
-    static Shape object(Field... fields) {
+    /** An object with these fields and no others; {@code make} gives the object that has them. */
+    static Shape object(Function<Map<String, Object>, ? extends Node> make, Field... fields) {
         Set<String> known = Set.copyOf(Arrays.stream(fields).map(Field::name).toList());
         return (value, place) -> {
             expect(value, Map.class, "object", place);
@@ -123,7 +124,7 @@ interface Shape {
                     read.put(field.name(), field.preset());
                 }
             }
-            return new Node(read);
+            return make.apply(read);
         };
     }
 
@@ -133,12 +134,12 @@ interface Shape {
     record Kind(String tag, Field... fields) {}
 
     /** An object whose field {@code name} says which of {@code kinds} it is. */
-    static Shape tagged(String name, Kind... kinds) {
+    static Shape tagged(String name, Function<Map<String, Object>, ? extends Node> make, Kind... kinds) {
         Map<String, Shape> shapes = new HashMap<>();
         for (Kind kind : kinds) {
             Field[] fields = Arrays.copyOf(kind.fields(), kind.fields().length + 1);
             fields[kind.fields().length] = needs(name, TEXT);
-            shapes.put(kind.tag(), object(fields));
+            shapes.put(kind.tag(), object(make, fields));
         }
         return (value, place) -> {
             expect(value, Map.class, "object", place);
