@@ -16,7 +16,7 @@ from ucm_cts.harness.toolchains.corpus.selection import questions
 from ucm_cts.harness.toolchains.cpp import applicability
 from ucm_cts.harness.toolchains.cpp.comparing import compare as compare_cpp
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Layout, can_be_run
-from ucm_cts.harness.toolchains.cpp.probes.running import CHECKS, GENERATED
+from ucm_cts.harness.toolchains.cpp.probes.check import CHECKS, GENERATED
 from ucm_cts.harness.toolchains.differences import Comparison
 from ucm_cts.harness.toolchains.generation import Generation, mapping_models
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS as IDL_CHECKS

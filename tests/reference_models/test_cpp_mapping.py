@@ -11,7 +11,7 @@ from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.catalogue.requirements import SUITE, load_interpretations, load_requirements
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.toolchains.cpp.applicability import not_applicable, stand_for
-from ucm_cts.harness.toolchains.cpp.probes.running import CHECKS
+from ucm_cts.harness.toolchains.cpp.probes.check import CHECKS
 from ucm_cts.reference_models.mapping.cpp import claims
 from ucm_cts.reference_models.mapping.cpp.claims import Claim
 from ucm_cts.reference_models.mapping.cpp.classes import Named

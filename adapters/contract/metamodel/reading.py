@@ -7,26 +7,21 @@ that an element in canonical spelling is built by one call; all others take the 
 
 from __future__ import annotations
 
-import functools
-import re
 from collections.abc import Callable, Mapping
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 from xml.parsers import expat
 
 import msgspec
 
 from ucm_cts.adapters.contract.metamodel.common import Element
-from ucm_cts.adapters.contract.metamodel.contracts import StringType
+from ucm_cts.adapters.contract.metamodel.entries import OUTERMOST, Converter, Entry
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.metamodel.spelling import (
     IGNORED,
     OTHER_WORDS,
-    SHORT_STRINGS,
     SPELLINGS,
     TAGS,
     TRUTHS,
-    Spelling,
-    contained,
     containers,
 )
 
@@ -97,91 +92,7 @@ class _Stop(Exception):
         self.kind: Kind = kind
 
 
-class _Numbers(dict[str, int]):
-    """What numerals mean; those that were met are remembered. Raises ``ValueError``."""
-
-    def __missing__(self, text: str) -> int:
-        if not _NUMBER.fullmatch(text):
-            raise ValueError(text)
-        number = int(text)
-        if len(self) < _REMEMBERED:
-            self[text] = number
-        return number
-
-
-_NUMBER = re.compile(r"[+-]?[0-9]{1,20}")
-_REMEMBERED = 10_000
-_NUMBERS = _Numbers()
-
-Converter = Callable[[str], object]
-
-
-class _Entry(NamedTuple):
-    """A class at one place: ``field`` of what is around it takes it, ``inside`` is what may stand in it, by tag.
-
-    An element with ``given`` attributes, counting its line, has all that are required; -1 if that does not say so.
-    """
-
-    spelling: Spelling
-    tag: str
-    field: str
-    build: Callable[..., Element]
-    fields: frozenset[str]
-    required: frozenset[str]
-    given: int
-    converters: tuple[tuple[str, Converter], ...]
-    inside: dict[str, _Entry]
-
-
-_Frame = tuple[_Entry, dict[str, Any], dict[str, list[Element]], dict[str, _Entry]]
-
-
-def _string_of(chars: str, **values: Any) -> StringType:
-    return StringType(char_base=chars, **values)
-
-
-def _entries() -> dict[str, _Entry]:
-    """What may be outermost."""
-    insides: dict[type[Element], dict[str, _Entry]] = {cls: {} for cls in SPELLINGS}
-    for outer, inside in insides.items():
-        for inner, field in contained(outer).items():
-            inside.update(_spelled(inner, field, insides))
-    root = dict(_spelled(Model, "model", insides))
-    for module in MODULES:
-        root.update(_spelled(module, "modules", insides))
-    return root
-
-
-def _spelled(cls: type[Element], field: str, insides: Mapping[type[Element], dict[str, _Entry]]) -> dict[str, _Entry]:
-    spelling = SPELLINGS[cls]
-    converters: list[tuple[str, Converter]] = [(f, words.__getitem__) for f, words in spelling.literals.items()]
-    converters += [(f, _NUMBERS.__getitem__) for f in spelling.numbers]
-    converters += [(f, TRUTHS.__getitem__) for f in spelling.truths]
-    entry = _Entry(
-        spelling=spelling,
-        tag=spelling.tag,
-        field=field,
-        build=cls,
-        fields=frozenset(spelling.attributes.values()) | spelling.contained.keys(),
-        required=spelling.required,
-        given=len(spelling.required) + 1 if len(spelling.required) == len(spelling.attributes) else -1,
-        converters=tuple(converters),
-        inside=insides[cls],
-    )
-    found = {tag: entry._replace(tag=tag) for tag in (spelling.tag, *spelling.other_tags)}
-    if cls is StringType:
-        for tag, chars in SHORT_STRINGS.items():
-            found[tag] = entry._replace(
-                tag=tag,
-                build=functools.partial(_string_of, chars),
-                fields=entry.fields - {"char_base"},
-                required=entry.required - {"char_base"},
-                given=-1,
-            )
-    return found
-
-
-_OUTERMOST = _entries()
+_Frame = tuple[Entry, dict[str, Any], dict[str, list[Element]], dict[str, Entry]]
 
 _HIDDEN = "\0"
 _FIELDS = {field for cls in SPELLINGS for field in cls.__struct_fields__}
@@ -209,7 +120,7 @@ class _Reader:
         self.has_text = False
         self._texts = 0
         self._namespace = ""
-        self._inside = _OUTERMOST
+        self._inside = OUTERMOST
         self._children: dict[str, list[Element]] = {}
         self._stack: list[_Frame] = []
         self._skipped = 0
@@ -265,7 +176,7 @@ class _Reader:
     def _handlers(self) -> tuple[Callable[[str, dict[str, Any]], None], Callable[[str], None]]:
         """What is called at the beginning and the end of each element; closures, because they are called so often."""
         parser, stack = self._parser, self._stack
-        inside = _OUTERMOST
+        inside = OUTERMOST
         children: dict[str, list[Element]] | None = self._children
 
         def start(tag: str, values: dict[str, Any]) -> None:
@@ -347,7 +258,7 @@ class _Reader:
 
     # what is not in canonical spelling
 
-    def _entry(self, tag: str, inside: dict[str, _Entry]) -> _Entry | None:
+    def _entry(self, tag: str, inside: dict[str, Entry]) -> Entry | None:
         """What an element is whose tag may not stand here as it is, if it is anything; otherwise that is a problem."""
         namespace, between, local = tag.rpartition(_BETWEEN)
         if not self._stack and between:
@@ -367,7 +278,7 @@ class _Reader:
             self._problem("misplaced element", shown, message, spelling.clause)
         return None
 
-    def _mended(self, entry: _Entry, values: dict[str, Any], children: Mapping[str, list[Element]] | None) -> Element:
+    def _mended(self, entry: Entry, values: dict[str, Any], children: Mapping[str, list[Element]] | None) -> Element:
         """The element that ``values`` make once other spellings are replaced and what does not fit is left out and told."""
         fitting = {key: value for key, value in values.items() if key in entry.fields}
         fitting |= {field: tuple(held) for field, held in (children or {}).items()}
@@ -384,7 +295,7 @@ class _Reader:
                 self._convert(entry, field, convert, fitting)
         return entry.build(**fitting)
 
-    def _other(self, entry: _Entry, attribute: str, value: str, fitting: dict[str, Any]) -> None:
+    def _other(self, entry: Entry, attribute: str, value: str, fitting: dict[str, Any]) -> None:
         """Take an attribute in another spelling for the field that it means, or tell that it means nothing."""
         spelling = entry.spelling
         field = spelling.other_attributes.get(attribute)
@@ -398,7 +309,7 @@ class _Reader:
         message = f"{entry.tag}{_called(fitting)} has an attribute {attribute[:80]}; it may have {known or 'none'}"
         self._problem("unknown attribute", entry.tag, message, spelling.clause, fitting["line"])
 
-    def _convert(self, entry: _Entry, field: str, convert: Converter, fitting: dict[str, Any]) -> None:
+    def _convert(self, entry: Entry, field: str, convert: Converter, fitting: dict[str, Any]) -> None:
         """Replace the text of a field by what it means; leave the field out if it means nothing."""
         text = fitting.pop(field)
         try:

@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.harness.catalogue.requirements import SUITE, load_requirements
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.statement.applicability import why_not
-from ucm_cts.harness.toolchains.cpp.probes.running import GENERATED, HEADERS, rule_of
+from ucm_cts.harness.toolchains.cpp.probes.check import GENERATED, HEADERS, rule_of
 from ucm_cts.reference_models.mapping.cpp.expected import Standard
 from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 

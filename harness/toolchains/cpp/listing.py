@@ -18,8 +18,8 @@ from ucm_cts.harness.toolchains.cpp import lister
 from ucm_cts.harness.toolchains.cpp.compiling import STANDARDS, Compiler, Headers, run
 from ucm_cts.harness.toolchains.cpp.disguise import Disguise
 from ucm_cts.harness.toolchains.cpp.lister import ASKED, Answers, Question, Request
-from ucm_cts.harness.toolchains.cpp.probes.checks import class_text, class_words, connection_declared
 from ucm_cts.harness.toolchains.cpp.probes.prelude import SHARED, SHARED_POINTERS, names_in, prelude, taken_first
+from ucm_cts.harness.toolchains.cpp.probes.text import class_text, class_words, connection_declared
 from ucm_cts.harness.toolchains.differences import Difference
 from ucm_cts.reference_models.mapping.cpp import claims
 from ucm_cts.reference_models.mapping.cpp.classes import Class, Connected

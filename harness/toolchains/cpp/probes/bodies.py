@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ucm_cts.harness.toolchains.cpp.probes.checks import class_text, connection_text
 from ucm_cts.harness.toolchains.cpp.probes.overloads import found_function, ways_to_startup
+from ucm_cts.harness.toolchains.cpp.probes.text import class_text, connection_text
 from ucm_cts.reference_models.mapping.cpp.claims import Implemented, Runs
 from ucm_cts.reference_models.mapping.cpp.classes import Abstract, Connected, Method, Returned
 

@@ -26,9 +26,19 @@ from ucm_cts.harness.toolchains.cpp.compiling import (
     run,
 )
 from ucm_cts.harness.toolchains.cpp.linking import Linked, linked
-from ucm_cts.harness.toolchains.cpp.listing import LISTED, RULE, Listed, listed
+from ucm_cts.harness.toolchains.cpp.listing import LISTED, Listed, listed
 from ucm_cts.harness.toolchains.cpp.probes.bodies import implementation, implemented, runs
-from ucm_cts.harness.toolchains.cpp.probes.checks import Text, connection_declared, connection_missing, render
+from ucm_cts.harness.toolchains.cpp.probes.check import (
+    HEADERS,
+    Check,
+    calls,
+    inside,
+    needed_support,
+    outside,
+    results,
+    rule_of,
+)
+from ucm_cts.harness.toolchains.cpp.probes.checks import render
 from ucm_cts.harness.toolchains.cpp.probes.keywords import keyword_of, redefined
 from ucm_cts.harness.toolchains.cpp.probes.needs import lacks, line_of
 from ucm_cts.harness.toolchains.cpp.probes.prelude import (
@@ -41,51 +51,14 @@ from ucm_cts.harness.toolchains.cpp.probes.prelude import (
     prelude,
     taken_first,
 )
+from ucm_cts.harness.toolchains.cpp.probes.text import Text
 from ucm_cts.harness.toolchains.differences import Comparison, Difference
 from ucm_cts.reference_models.mapping.cpp import claims
-from ucm_cts.reference_models.mapping.cpp.expected import Expected, ExpectedCpp
-
-CHECKS = {
-    "cpp_probes": "A probe, compiled and run against the headers, finds each declaration to be what the mapping says.",
-    "cpp_headers": "Each header compiles alone and twice, and all together, as the standard of the profile, and redefines no keyword.",
-    "cpp_body": "Classes that implement the abstract classes, with all that they inherit, compile, link and are called.",
-    "cpp_unexpected": "libclang finds nothing in the headers that the mapping excludes and no probe could see.",
-    "cpp_generated": "The tool chain writes files for each legal model.",
-}
-"""What the rules do."""
-
-GENERATED = ("R-13-05", "cpp_generated")
-"""The requirement that files can be had of legal models at all, and its rule."""
-
-HEADERS = {"cpp11": "R-13-04", "cpp03": "R-13.10-01"}
-"""The requirement that headers compile."""
+from ucm_cts.reference_models.mapping.cpp.expected import ExpectedCpp
 
 _ROUNDS = 4
 _THREADS = 2
-_RESULT = re.compile(r"(begin|kept|broken|over|end) (\d+) ?(.*)")
 _NOT = re.compile(r"holds<false>|holds<\(?false")
-
-
-def rule_of(claim: claims.Claim) -> str:
-    """The rule that looks at ``claim``."""
-    if isinstance(claim, claims.Implemented | claims.Runs):
-        return "cpp_body"
-    return RULE if isinstance(claim, LISTED) else "cpp_probes"
-
-
-@dataclass(frozen=True)
-class Check:
-    """A claim with its probe; ``number`` tells it from others of its translation unit."""
-
-    number: int
-    expected: Expected
-    text: Text
-    rule: str
-
-    @property
-    def tag(self) -> str:
-        """What diagnostics call it instead of a file."""
-        return f"{self.expected.requirement}#{self.number}"
 
 
 @dataclass
@@ -203,7 +176,7 @@ class _Comparing:
             )
             if not compiled.errors and not compiled.problem:
                 ended = run([str(made)], folder, self._compiler)
-                if self._ran(ended, _results(made.with_suffix(".results"), token), left):
+                if self._ran(ended, results(made.with_suffix(".results"), token), left):
                     return
                 continue
             if not self._sort(compiled):
@@ -281,7 +254,7 @@ class _Comparing:
         lines = [taken_first(), *self._headers.all_included]
         probes = self._probes(left, modern)
         began = f'if (!::ucts::began("{results}", "{token}")) {{ return 3; }}'
-        main = ['#line 1 "running#0"', "int main() {", began, *_calls(left), "return ::ucts::ended(); }", ""]
+        main = ['#line 1 "running#0"', "int main() {", began, *calls(left), "return ::ucts::ended(); }", ""]
         lines += ['#line 1 "prelude#0"', prelude(modern, names_in(probes)), probes, *main]
         return "\n".join(lines).replace("<::", "< ::")  # <: is [ in C++03
 
@@ -290,14 +263,14 @@ class _Comparing:
         for name, text in self._support(modern).items():
             if name not in self._seen.support:
                 lines += [f'#line 1 "support#{name}"', text]
-        lines += [text for check in self._checks for text in _outside(check, check in left)]
+        lines += [text for check in self._checks for text in outside(check, check in left)]
         broken = self._broken_keys()
         needed = {check.text.key for check in left}
         wanted = self._with_references(needed)
         for abstract in self._expected.abstract:
             if abstract.key in wanted and abstract.key not in broken:
                 lines += [f'#line 1 "body#{abstract.key}"', implementation(abstract).replace("\n", " ")]
-        lines += [text for check in left for text in _inside(check)]
+        lines += [text for check in left for text in inside(check)]
         return "\n".join(lines)
 
     def _with_references(self, keys: set[str]) -> set[str]:
@@ -311,7 +284,7 @@ class _Comparing:
         """What probes need of class templates that C++03 leaves to the framework, each only if something needs it."""
         if modern:
             return {"shared_ptr": SHARED % SHARED_POINTERS["cpp11"], "array": ARRAY}
-        needed = {_needs(c.expected.claim) for c in self._checks}
+        needed = {needed_support(c.expected.claim) for c in self._checks}
         shared = SHARED % SHARED_POINTERS["cpp03"]
         every = {"shared_ptr": shared, "array": UCM_ARRAY, "safe_enum": SAFE_ENUM}
         return {name: text for name, text in every.items() if name in needed}
@@ -410,47 +383,6 @@ class _Comparing:
             if line:
                 return header, line
         return "", 0
-
-
-def _needs(claim: claims.Claim) -> str:
-    match claim:
-        case claims.ArrayOf() | claims.Sizes():
-            return "array"
-        case claims.SafeEnum() | claims.SafeEnumInner():
-            return "safe_enum"
-        case claims.ConnectionTo() | claims.ReturnsReference() | claims.ConnectionShape():
-            return "shared_ptr"
-    return ""
-
-
-def _outside(check: Check, is_left: bool) -> Iterator[str]:
-    claim = check.expected.claim
-    if isinstance(claim, claims.DeclaresConnection):
-        declared = connection_declared if is_left else connection_missing
-        yield f'#line 1 "{check.tag}"'
-        yield declared(claim.owner, claim.connection)
-
-
-def _inside(check: Check) -> Iterator[str]:
-    yield f'#line 1 "{check.tag}"'
-    body = "using ::ucts::operator==; " if "==" in check.text.declared + check.text.run else ""
-    body += check.text.declared
-    if check.text.run:
-        body += f" inline void run_it() {{ {check.text.run} }}"
-    yield f"namespace ucts_check_{check.number} {{ {body} }}"
-
-
-def _calls(checks: Iterable[Check]) -> Iterator[str]:
-    return (f"::ucts::run({c.number}, &ucts_check_{c.number}::run_it);" for c in checks if c.text.run)
-
-
-def _results(path: Path, token: str) -> Iterator[tuple[str, int, str]]:
-    """What the program said in lines that begin with the ``token`` that it was given, and only those: headers may print, too."""
-    text = path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
-    for line in text.split("\n"):
-        match = _RESULT.fullmatch(line.removeprefix(f"{token} ")) if line.startswith(f"{token} ") else None
-        if match is not None:
-            yield match[1], int(match[2]), match[3]
 
 
 def _told_by(error: Error) -> str:
