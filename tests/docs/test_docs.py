@@ -306,6 +306,7 @@ def test_toolchain_guide(here: Path) -> None:
     assert described == fields - {"folder", "source", "tags", "attributes", "literals"}
 
 
+@pytest.mark.slow
 def test_python_guide(here: Path) -> None:
     write_files("docs/adapter-python.md")
     assert "ucm-cts run my_adapter:BeansAdapter" in commands("ucm-cts run")
@@ -398,6 +399,7 @@ def test_cpp_guide_step_by_step() -> None:
     subprocess.run([sys.executable, "-c", alias + textwrap.dedent(code) + check], check=True)
 
 
+@pytest.mark.slow
 def test_example_of_profile_core_serves(here: Path) -> None:
     write_files("docs/adapter-python.md")
     write_files("docs/profile-core.md")

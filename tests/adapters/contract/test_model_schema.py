@@ -40,6 +40,7 @@ def test_models_of_the_mappings_fit(path: Path) -> None:
     assert judged(path.read_text()) == (True, True, True)
 
 
+@pytest.mark.slow
 def test_all_agree_about_the_models_of_the_suite() -> None:
     disagreeing = [question.name for question in questions() if len(set(judged(question.text))) > 1]
     assert disagreeing == []

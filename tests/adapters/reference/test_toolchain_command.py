@@ -20,7 +20,7 @@ def models(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def told(where: Path, *arguments: str, module: str = "toolchain") -> tuple[int, str, str]:
+def told(where: Path, *arguments: str, module: str = "reference.toolchain") -> tuple[int, str, str]:
     command = [sys.executable, "-m", f"ucm_cts.adapters.{module}", *arguments]
     done = subprocess.run(command, cwd=where, capture_output=True, text=True, check=False)
     assert "Traceback" not in done.stderr
@@ -68,7 +68,7 @@ def test_wrong_use_is_told_in_words(models: Path, arguments: list[str], problem:
 
 def test_a_mutant_is_a_program_like_the_reference(models: Path) -> None:
     name = "without_structures_have_fields"
-    assert told(models, name, "check", "broken.xml", module="derived_toolchain") == (0, "", "")
-    status, _, err = told(models, "no_such_mutant", "check", "broken.xml", module="derived_toolchain")
+    assert told(models, name, "check", "broken.xml", module="mutants.toolchain") == (0, "", "")
+    status, _, err = told(models, "no_such_mutant", "check", "broken.xml", module="mutants.toolchain")
     assert status == 2
     assert err.startswith("no tool chain is called 'no_such_mutant'")

@@ -55,6 +55,7 @@ def test_what_is_changed_breaks_its_requirement_alone(declaration: Declaration) 
         assert absent in (set(), inside), mutation.what
 
 
+@pytest.mark.slow
 def test_every_requirement_can_be_broken() -> None:
     outcomes = [results for requirement in DECLARATIONS for _, results in spoilt_results(requirement)]
     broken = {r for results in outcomes for r, result in results.items() if result.status == "broken"}

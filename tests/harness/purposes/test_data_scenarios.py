@@ -66,6 +66,7 @@ def failures(name: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPa
         return [f for r in campaign.report().requirements for f in r.findings]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "words", "smallest"),
     [

@@ -121,6 +121,7 @@ HOSTILE = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", HOSTILE, ids=range(len(HOSTILE)))
 def test_hostile_directives_are_refused_in_one_line(text: str) -> None:
     with pytest.raises(NotIdl) as refused:

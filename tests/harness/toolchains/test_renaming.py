@@ -34,6 +34,7 @@ PRINTED = Dialect(
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("renaming", [Renaming(7), Renaming(7, PRINTED)], ids=["names", "names and spelling"])
 def test_a_renamed_model_gets_the_answer_of_the_plain_one(renaming: Renaming) -> None:
     for plain, other in zip(ASKED, renamed(ASKED, renaming), strict=True):
@@ -78,7 +79,7 @@ def test_strings_and_delegations_are_written_in_either_printed_way() -> None:
         '<PortDelegation port="p"><ConnectionEnd name="e" part="a" port="q"/></PortDelegation>'
         '<PortDelegation port="p"><ConnectionEnd part="a"/><ConnectionEnd part="b"/></PortDelegation></Model>'
     )
-    other = Renaming(None, Dialect(short_strings=True, delegation_attributes=True)).of(text)
+    other = Renaming(None, Dialect(short_strings=True, delegation_attributes=True)).apply(text)
     assert other == (
         '<Model><String32 name="s" maxSize="4"/><StringType name="t" charBase="C"/>'
         '<PortDelegation port="p" internalPart="a" internalPort="q"/>'
