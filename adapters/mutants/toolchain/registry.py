@@ -118,7 +118,7 @@ _MODULES = {
         "types",
         "values",
     ),
-    "mappings": ("cpp_classes", "cpp_data", "cpp_values", "idl", "parameters"),
+    "mappings": ("cpp", "idl", "parameters"),
     "variants": ("components", "cpp", "data", "idl", "interactions", "ports"),
 }
 """By the folder: the modules that register mutants or variants."""

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TypeVar
+
+import msgspec
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.adapters.mutants.toolchain.registry import Derive, breaks, named
 from ucm_cts.adapters.reference.toolchain.program import Program
 
@@ -20,6 +25,11 @@ STANDARD = "ucm.idl"
 """The file that holds what clause 12 prints."""
 
 GUARD = "\n#endif\n"
+
+Replacement = str | Callable[[re.Match[str]], str]
+
+Edits = Mapping[str, Replacement]
+"""Patterns, and what stands for each match; one is replaced after the other."""
 
 
 def rewritten(program: Program, rewrite: Callable[[Files], Files], task: str = "idl") -> Program:
@@ -37,12 +47,21 @@ def rewriting(rewrite: Callable[[Files], Files], task: str = "idl") -> Derive:
     return functools.wraps(rewrite)(lambda program: rewritten(program, rewrite, task))
 
 
-Replacement = str | Callable[[re.Match[str]], str]
+def substituted(text: str, edits: Edits, flags: int = 0) -> str:
+    """``text`` with what stands for each match of the patterns of ``edits``, one after the other."""
+    for pattern, replacement in edits.items():
+        text = re.sub(pattern, replacement, text, flags=flags)
+    return text
 
 
 def replaced(pattern: str, replacement: Replacement, file: str = MODEL) -> Derive:
-    """In ``file``, ``replacement`` stands for each match of ``pattern``."""
-    return lambda program: rewritten(program, lambda files: {**files, file: re.sub(pattern, replacement, files[file])})
+    """In ``file`` of IDL, ``replacement`` stands for each match of ``pattern``."""
+    return replacing({pattern: replacement}, file)
+
+
+def replacing(edits: Edits, file: str = MODEL) -> Derive:
+    """Makes ``edits`` in ``file`` of IDL."""
+    return lambda program: rewritten(program, lambda files: {**files, file: substituted(files[file], edits)})
 
 
 def appended(text: str) -> Derive:
@@ -50,39 +69,18 @@ def appended(text: str) -> Derive:
     return replaced(f"{GUARD}$", lambda _: f"\n{text}\n{GUARD}")
 
 
-def replace_each(
-    table: Mapping[str, tuple[str, str, str]],
-    file: str = MODEL,
-    also: Mapping[str, tuple[str, ...]] = {},
-    declares: Mapping[str, tuple[str, ...]] = {},
-) -> None:
-    """Make each row of ``table`` a mutant: the requirement that it breaks, a pattern in ``file``, and what stands there instead.
-
-    ``also`` and ``declares`` are by the mutant's name.
-    """
-    for name, (requirement, pattern, replacement) in table.items():
-        register = breaks(requirement, task="idl", also=also.get(name, ()), declares=declares.get(name, ()))
-        register(named(replaced(pattern, replacement, file), name))
-
-
 BOTH = ("cpp11", "cpp03")
 CPP11 = ("cpp11",)
 CPP03 = ("cpp03",)
 
-Edits = Mapping[str, str]
-"""Patterns, over lines, and what stands for each match in every file; one is replaced after the other."""
-
 
 def edited(task: str, edits: Edits) -> Derive:
-    """Makes ``edits`` in what ``task`` generates."""
-
-    def rewrite(files: Files) -> Files:
-        changed = dict(files)
-        for pattern, replacement in edits.items():
-            changed = {name: re.sub(pattern, replacement, text, flags=re.DOTALL) for name, text in changed.items()}
-        return changed
-
-    return lambda program: rewritten(program, rewrite, task)
+    """Makes ``edits`` in every file of C++ that ``task`` generates."""
+    return lambda program: rewritten(
+        program,
+        lambda files: {name: substituted(text, edits, re.DOTALL) for name, text in files.items()},
+        task,
+    )
 
 
 def sentence(name: str) -> str:
@@ -90,18 +88,25 @@ def sentence(name: str) -> str:
     return f"{name.replace('_', ' ').capitalize()}."
 
 
-@dataclass(frozen=True)
-class Wrong:
+class Wrong(Value, frozen=True):
     """``edits`` break each requirement of ``breaks`` for the standards of ``tasks``; the same defect breaks those of ``also`` besides.
 
-    ``declares`` are the readings that the tool chain claims.
+    ``declares`` are the readings that the tool chain claims. A variant breaks nothing.
     """
 
-    breaks: str
-    edits: Edits
+    edits: dict[str, str]
+    breaks: str = ""
     also: str = ""
-    tasks: Sequence[str] = BOTH
+    tasks: tuple[str, ...] = BOTH
     declares: tuple[str, ...] = ()
+
+
+Shape = TypeVar("Shape")
+
+
+def table(path: str, shape: type[Shape]) -> Shape:
+    """The table in the file ``path`` beside this module."""
+    return msgspec.yaml.decode((Path(__file__).parent / path).read_bytes(), type=shape)
 
 
 SHOWN_BY: dict[str, str] = {}

@@ -3,98 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 
 from ucm_cts.adapters.mutants.toolchain.registry import named, variant
-from ucm_cts.adapters.mutants.toolchain.rewriting import BOTH, Edits, Files, edited, rewriting, sentence
+from ucm_cts.adapters.mutants.toolchain.rewriting import BOTH, Files, Wrong, edited, rewriting, sentence, table
 from ucm_cts.adapters.reference.toolchain.cpp.support import SUPPORT_FILE
-
-
-@dataclass(frozen=True)
-class Freedom:
-    """``edits`` are made in everything that is generated; ``declares`` is what a vendor may claim then."""
-
-    edits: Edits
-    tasks: Sequence[str] = BOTH
-    declares: tuple[str, ...] = ()
-
-
-_SHARED = r"::(?:std|ucm)::shared_ptr< \S+ >"
-
-FREEDOMS: Mapping[str, Freedom] = {
-    "enumerations_with_scope": Freedom({r"enum (\w+) :": r"enum class \1 :"}, ("cpp11",), ("cpp-enum=enum-class",)),
-    "enumerations_of_32_bits": Freedom(
-        {r"enum (\w+) : u\w+": r"enum \1 : uint32_t", r"(safe_enum< \w+_def), u\w+ >": r"\1, uint32_t >"}
-    ),
-    "bytes_with_sign": Freedom({r"typedef uint8_t byte_t;": "typedef int8_t byte_t;"}),
-    "interfaces_by_constant_reference": Freedom(
-        {rf"(\(|, )({_SHARED}) (\w+)(?=[,)])": r"\1const \2& \3"},
-        declares=("cpp-interface-parameters=const-reference",),
-    ),
-    "bare_names_of_interfaces": Freedom({r"class (Abstract_(\w+));": r"class \1;\ntypedef \1 \2;"}),
-    "helpers_besides": Freedom(
-        {
-            r"(    virtual ~Abstract_\w+\(\) \{\}\n)": r'\1    static const char* helper_name() { return ""; }\n    virtual bool helper_is_there() { return true; }\n',
-            r"(    bool operator==\()": r"    void helper_reset() {}\n\1",
-        }
-    ),
-    "ancestors_not_virtual": Freedom({r"public virtual ": "public "}),
-    "connections_in_the_class": Freedom(
-        {r"((?:typedef ::ucm::PortConnection<[^\n]*\n)+)(class Abstract_\w+ \{\n  public:\n)": r"\2\1"}
-    ),
-    "connections_in_another_order": Freedom(
-        {r"on_startup\((const \w+& \w+), (const \w+& \w+)\)": r"on_startup(\2, \1)"}
-    ),
-    "enumerations_by_constant_reference": Freedom(
-        {r"void (level|chosen)\((::interfaces::level_t) (?=value|given)": r"void \1(const \2& "}
-    ),
-    "mutators_by_value": Freedom({r"virtual void remark\(const (::interfaces::text_t)&": r"virtual void remark(\1"}),
-    "mutators_by_moving_besides": Freedom(
-        {
-            r"(    virtual void remark\(const (::interfaces::text_t)& value\) = 0;\n)": r"\1    void remark(\2&& value) { remark(static_cast<const \2&>(value)); }\n"
-        },
-        ("cpp11",),
-    ),
-    "overloads_of_operations": Freedom(
-        {
-            r"(    virtual ::interfaces::(text_t) textual\([^\n]*\n)": r"\1    ::interfaces::\2 textual(const char* given) { return textual(::interfaces::\2(given)); }\n",
-            r"(    virtual ::interfaces::record_t structured\([^\n]*\n)": r"\1    template <class T> int structured(const T*, int&, int) { return 0; }\n",
-        }
-    ),
-    "overloads_of_startup": Freedom(
-        {
-            r"(    virtual void on_startup\((const left_out_Connection&) left_out, [^\n]*\n)": r"\1    void on_startup(\2) {}\n    void on_startup(const char*, int) {}\n",
-            r"(    virtual void on_startup\((const Watch_clock_api_Connection&) [^\n]*\n)": r"\1    static void on_startup(\2, int) {}\n",
-        }
-    ),
-    "accessors_for_constants": Freedom(
-        {r"(virtual \S+ (?:name|age|serial|level|weight|remark)\(\)) = 0": r"\1 const = 0"}
-    ),
-    "functions_defined_by_a_sister": Freedom(
-        {
-            r"class Abstract_unrelated \{\n  public:\n": (
-                "struct Identified {\n    virtual ~Identified() {}\n    virtual int identity() = 0;\n};\n"
-                "struct Numbered : virtual Identified {\n    virtual int identity() { return 1; }\n};\n"
-                "class Abstract_unrelated : public virtual Identified, public Numbered {\n  public:\n"
-            )
-        }
-    ),
-    "sizes_without_sign": Freedom(
-        {r"template <class T, ::std::size_t N>": "template <class T, unsigned N>"}, ("cpp03",)
-    ),
-    "sizes_with_sign": Freedom(
-        {r"template <class T, ::std::size_t N>": "template <class T, int N>", r"index >= N": "index >= size_type(N)"},
-        ("cpp03",),
-    ),
-    "elements_are_named_by_typedef": Freedom(
-        {
-            r"class PortElementObject \{\n  public:\n    virtual ~PortElementObject\(\) \{\}\n\};\n": "class Element {\n  public:\n    virtual ~Element() {}\n};\ntypedef Element PortElementObject;\n"
-        }
-    ),
-    "enumerators_have_synonyms": Freedom({r"circle = 30\n": "circle = 30,\n        round = 30\n"}),
-    "elements_are_abstract_by_name": Freedom({r"\bPortElementObject\b": "Abstract_PortElementObject"}),
-}
 
 
 def _framework(files: Files) -> Files:
@@ -216,7 +129,7 @@ REWRITTEN: Mapping[str, tuple[Callable[[Files], Files], tuple[str, ...]]] = {
     "bounded_vectors": (_bounded_vectors, ()),
 }
 
-for _says, _freedom in FREEDOMS.items():
+for _says, _freedom in table("variants/cpp.yaml", dict[str, Wrong]).items():
     for _task in _freedom.tasks:
         _derive = named(edited(_task, _freedom.edits), f"{_says}_{_task}", sentence(_says))
         variant(task=_task, declares=_freedom.declares)(_derive)

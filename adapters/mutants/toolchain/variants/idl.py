@@ -19,81 +19,24 @@ from ucm_cts.adapters.mutants.toolchain.rewriting import (
     Replacement,
     appended,
     replaced,
+    replacing,
     rewriting,
     rewritten,
+    table,
 )
 from ucm_cts.adapters.reference.toolchain.program import Program
-
-RELAXED: dict[str, tuple[str, Replacement]] = {
-    "positional_annotations": (r"\((max|typeid|val)=", "("),
-    "annotations_as_in_the_examples": (r"@(u)?int8\b", lambda m: "@Uint8" if m[1] else "@Int8"),
-    "footprint_as_in_the_example": (r"@MemoryFootprint", "@MemoryFootPrint"),
-    "annotations_in_front_of_types": (r"@(u?int8) typedef octet", r"typedef @\1 octet"),
-    "range_annotations": (r"(@IndexType\(typeid=\"octet\"\))", r'@Range(min="0", max="64") \1'),
-    "needless_index_types_left_out": (r'@IndexType\(typeid="unsigned long"\)\n', "\n"),
-    "index_types_by_other_names": (r'typeid="unsigned short"', 'typeid="uint16"'),
-    "values_in_hexadecimal": (r'@DefaultValue\(val="(\d+)"\)', lambda m: f'@DefaultValue(val="0x{int(m[1]):X}")'),
-    "values_by_the_annotation_of_idl": (r'@DefaultValue\(val="(-?\d+)"\)', r"@value(\1)"),
-    "values_by_position_where_that_is_enough": (
-        r'(enum \w+ \{\n) *@DefaultValue\(val="0"\)\n( *\w+,\n) *@DefaultValue\(val="1"\)\n( *\w+\n *\})',
-        r"\1\2\3",
-    ),
-    "relative_names": (r"(?<=[ (<])::(?!\w+ )(?=\w+::)", ""),
-    "comments": (r"\n( *)(struct|interface|typedef)", r"\n\1// a comment; { } /* @int8 */\n\1/* another\n one */ \2"),
-    "pragmas": (r"\nmodule ", '\n#pragma prefix "example.org"\nmodule '),
-    "carriage_returns": (r"\n", "\r\n"),
-    "one_line": (r"\n(?!#)(?<!#endif)(?<!idl\"\n) +", " "),
-    "primitive_types_written_out": (r"::interfaces::long_t (?=\w+[;,)])", "long "),
-    "typedef_of_a_sequence_of_the_basic_type": (r"sequence<::data_types::double_t", "sequence<double"),
-    "fields_joined": (r"( *::data_types::double_t x);\n *::data_types::double_t y;", r"\1, y;"),
-    "names_escaped": (r"(typedef \w+ |struct |interface )(?=[a-z]\w*_t\b)", r"\1_"),
-    "constants_computed": (r"= 64;", "= (1 << 6);"),
-    "decimal_constants": (r"0xFF00", "65280"),
-    "shorter_real_numbers": (r"3\.14159", "3.14159E+0"),
-    "strings_in_pieces": (r'"good morning"', '"good " "morning"'),
-    "modules_opened_again": (
-        r"(?m)^(module \w+ \{)((?:\n(?!\}).*)*?)(\n    typedef wchar wide_char_t;\n)",
-        r"\1\2\n};\n\1\3",
-    ),
-    "parameters_with_one_capital": (r"MESSAGE_TYPE_T", "Message_type_t"),
-    "other_attributes_besides": (r"(interface unrelated \{\n)", r"\1/* nothing */\n"),
-    "helpful_typedefs": (r"(\n *)(interface unrelated \{)", r"\1typedef sequence<octet> bytes_t;\1\2"),
-    "default_values_left_out": (r'@DefaultValue\(val="(?:[^"\\]|\\.)*"\) (?=readonly|attribute)', ""),
-    "default_values_by_the_annotation_of_idl": (r'@DefaultValue\(val="0x10"\)', "@default(16)"),
-    "default_values_without_quotes": (r'val="\\"Jack\\""', 'val="Jack"'),
-    "another_character_for_hyphens": (r"\b(with|signed|two|self|last|run|how)_(?=[a-z])", r"\1_x_"),
-    "unsigned_long_as_the_table_prints_it": (r"typedef unsigned long long ", "typedef unsigned long "),
-    "bool_as_the_table_prints_it": (r"typedef boolean ", "typedef bool "),
-    "policy_getters_after_definitions": (r"get_tp_Drive_", "get_tp_self_executing_"),
-    "policy_getters_as_in_the_example": (r"get_tp_(Drive|Night|Day_Duty|Meter)_", r"get_tp_My\1_"),
-    "policies_provided_without_base": (r"(interface execution_intf) : ::PortElementObject", r"\1"),
-    "attributes_of_interfaces_left_out": (r"(interface painter \{\n)(?: *.*attribute .*\n)+", r"\1"),
-    "attributes_of_interfaces_are_operations": (
-        r"(interface painter \{\n) *.*attribute (\S+) colour;\n *.*attribute (\S+) width;\n",
-        r"\1\2 get_colour();\n\3 width();\nvoid set_width(in \3 value);\n",
-    ),
-    "parameters_called_otherwise": (r"\b(in|out|inout) (\S+) (?=\w+[,)])", r"\1 \2 the_"),
-    "ancestors_without_operations": (
-        r"(\n *)interface unrelated \{",
-        r"\1interface thing {};\1interface unrelated : thing, ::PortElementObject {",
-    ),
-    "operations_in_an_ancestor": (
-        r"(\n *)interface unrelated \{((?:\n.*)*?\n *\};)",
-        r"\1interface unrelated_operations {\2\1interface unrelated : unrelated_operations {};",
-    ),
-    "cases_out_of_order": (r"( *case ::data_types::triangle:\n.*\n)( *case ::data_types::square:\n.*\n)", r"\2\1"),
-    "default_spelt_out": (r"default:", "case ::idl_types::red: case ::idl_types::black:"),
-    "default_alone": (r"case ::idl_types::below:\n *default:", "default:"),
-}
-"""By the variant's name: a pattern in the model's file, and what stands there instead."""
 
 
 def _variant(name: str, derive: Derive, *declares: str) -> None:
     variant(task="idl", declares=declares)(named(derive, name))
 
 
-for _name, (_pattern, _replacement) in RELAXED.items():
-    _variant(_name, replaced(_pattern, _replacement))
+for _name, _edits in table("variants/idl.yaml", dict[str, dict[str, str]]).items():
+    _variant(_name, replacing(_edits))
+_variant(
+    "values_in_hexadecimal",
+    replaced(r'@DefaultValue\(val="(\d+)"\)', lambda m: f'@DefaultValue(val="0x{int(m[1]):X}")'),
+)
 
 DEFINITIONS = {"Drive": "self_executing", "Day_Duty": "self_running", "Night": "stoppable", "Meter": "sampled"}
 """The policy definitions, as IDL spells them, by the policies that use them."""

@@ -1,0 +1,37 @@
+"""Tool chains that generate wrong C++, one thing each: edits of what the reference generates, by the model that shows them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from ucm_cts.adapters.contract.metamodel.common import walk
+from ucm_cts.adapters.contract.metamodel.contracts import Constant
+from ucm_cts.adapters.contract.metamodel.modules import Model
+from ucm_cts.adapters.mutants.toolchain.registry import breaks
+from ucm_cts.adapters.mutants.toolchain.rewriting import Wrong, register, table
+from ucm_cts.adapters.reference.toolchain.program import Program
+
+for _model, _wrong in table("mappings/cpp.yaml", dict[str, dict[str, Wrong]]).items():
+    register(_model, _wrong)
+
+
+def _without_constants(program: Program, task: str) -> Program:
+    generate = program.generators[task]
+
+    def none_of_constants(model: Model) -> Mapping[str, str]:
+        return {} if any(isinstance(element, Constant) for element in walk(model)) else generate(model)
+
+    return replace(program, generators={**program.generators, task: none_of_constants})
+
+
+@breaks("R-13-05", task="cpp11")
+def nothing_generated_cpp11(program: Program) -> Program:
+    """Writes nothing for models with constants."""
+    return _without_constants(program, "cpp11")
+
+
+@breaks("R-13-05", task="cpp03")
+def nothing_generated_cpp03(program: Program) -> Program:
+    """Writes nothing for models with constants."""
+    return _without_constants(program, "cpp03")
