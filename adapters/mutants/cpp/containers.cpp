@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Is freed memory overwritten, as some allocators do? Who uses it then is found out sooner.
+/// Whether freed memory is overwritten, as some allocators do: its use is found out sooner then.
 std::atomic<bool> overwriting{false};
 
 }  // namespace

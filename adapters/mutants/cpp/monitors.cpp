@@ -78,7 +78,7 @@ class LooksThenMarks : public Monitor {
         std::atomic<Chain::Id>& inside_;
     };
 
-    /// Who waits for long sleeps, so that it is seen to wait.
+    /// A thread that waits for long sleeps, so that the operating system shows it as waiting.
     static std::chrono::steady_clock::time_point spinning_until() {
         static thread_local std::chrono::steady_clock::time_point last;
         static thread_local std::chrono::steady_clock::time_point until;
@@ -154,7 +154,7 @@ class GivesUpWaiting final : public Monitor {
     std::atomic<Chain::Id> inside_{nullptr};
 };
 const bool e = breaks<GivesUpWaiting>("gives_up_waiting", {TWO_PORTS},
-                                      "Whoever has waited for 10 ms goes into a protected component.",
+                                      "A call that has waited for 10 ms enters a protected component.",
                                       {RUN, ACTIVE_AND_OTHER, ONE_PORT});
 
 class StaysLockedAfterExceptions final : public Monitor {

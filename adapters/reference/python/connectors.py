@@ -2,7 +2,7 @@
 
 Every value is copied on its way, as if it had been sent. What is sent can be lost only by a transport that is broken, and
 then the sender is told. Messages wait in a queue of each receiver and are delivered by a thread of it, one by one; a
-receiver that is not operational gets none. Who is being stopped lets calls end that have come in, and lets no more in.
+receiver that is not operational gets none. A component that is being stopped lets calls end that have come in, and lets no more in.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Entrance:
             self._changed.wait_for(lambda: not self._inside)
 
     def visit(self, work: Callable[[], Sequence[Datum]]) -> Sequence[Datum]:
-        """Do ``work`` inside. Raises ``UcmError`` if nobody is let in."""
+        """Do ``work`` inside. Raises ``UcmError`` if the component is not operational."""
         with self._changed:
             if not self._is_open:
                 raise UcmError("the component is not operational")

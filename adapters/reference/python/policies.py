@@ -200,7 +200,7 @@ class ExecutesComponents:
             self._run(member, trigger)
 
     def _run(self, member: Member, trigger: Trigger) -> None:
-        """Run once; nobody waits for the result, so an exception is nobody's."""
+        """Run once; an exception is dropped, because no caller waits for the result."""
         body_run = self._execution_api(member).run
         with suppress(Exception):
             self._execute(member, None, lambda: trigger.run(body_run))

@@ -54,7 +54,7 @@ class GeneratedMutant(Value, frozen=True):
 
 def generate(path: Path, rules: Sequence[str]) -> Iterator[GeneratedMutant]:
     """What universalmutator makes of the file at ``path`` by its rule files ``rules``."""
-    from universalmutator import mutator  # only here: nobody else needs it
+    from universalmutator import mutator  # only here: no other module needs it
 
     lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
     with contextlib.redirect_stdout(io.StringIO()):  # it prints as it works

@@ -36,7 +36,7 @@ class Tally:
 
     @property
     def open(self) -> list[Result]:
-        """Survivors that nobody has explained."""
+        """Survivors without an explanation."""
         return [r for r in self.results if r.outcome.fate in _ALIVE and r.mutant.key not in self.reasons]
 
     @property

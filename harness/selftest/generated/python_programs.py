@@ -91,7 +91,7 @@ def _part(lines: Sequence[str], block: tuple[int, int]) -> str:
 def meaning(source: str) -> str | None:
     """What is left of ``source`` for a run: no annotations, no comments, no docstrings, no words of messages.
 
-    None if it is not Python. What exceptions say is nobody's concern: no clause speaks of it.
+    None if it is not Python. Messages of exceptions do not count: no clause speaks of them.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -36,7 +36,7 @@ def before(*mixins: type) -> type[ReferenceAdapter]:
     return bind("hidden", type("hidden", mixins, {}))
 
 
-# who asks no framework
+# cheats that ask no framework
 
 
 @cheats("R-11.2.3-05", "R-11.2.2.1-14")
@@ -140,7 +140,7 @@ class invents_ids(ReferenceAdapter):
         return list(range(1, len(super().get_components(container)) + 1))
 
 
-# who hides errors
+# cheats that hide errors
 
 
 class _Forwards(ReferenceAdapter):
@@ -173,7 +173,7 @@ class _Forwards(ReferenceAdapter):
 
 @cheats("R-12.10-15", "R-12.10-18")
 class hides_errors(_Forwards):
-    """Maps every error to success; what should have given a number gives one that nobody has."""
+    """Maps every error to success; an operation that should have returned a number returns an unknown one."""
 
     def forwarded(self, operation: Callable[[], T]) -> T:
         try:
@@ -225,7 +225,7 @@ class refuses_what_it_cannot(before(containers.adds_two_member_only)):  # type: 
         return super().create_runtime(implementations)
 
 
-# who repairs what a framework does wrong
+# cheats that repair what a framework does wrong
 
 
 class _lists_a_stranger(Base):
@@ -315,7 +315,7 @@ class serialises_calls(before(policies.leaves_passive_components_open)):  # type
         return super().create_runtime(implementations)
 
 
-# who knows the suite by heart
+# cheats that know the suite by heart
 
 _SHAPES: set[tuple[Any, ...]] = set()
 

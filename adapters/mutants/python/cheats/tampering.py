@@ -144,7 +144,7 @@ class changes_times(_KnowsThePerformance, before(clocks.clock_runs_double)):  # 
 
 @cheats("refused", clauses=POLICIES)
 class sees_no_overlap(_KnowsThePerformance, before(policies.leaves_passive_components_open)):  # type: ignore[misc]
-    """Stands before a framework that protects nothing; has bodies under stress count nobody that they meet."""
+    """Stands before a framework that protects nothing; has bodies under stress count no overlap."""
 
     def tamper(self) -> None:
         visit = counting.Occupancy.visit

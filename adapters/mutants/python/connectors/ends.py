@@ -40,7 +40,7 @@ class _KnowsWhatIsGoingOn(Link):
 
 @breaks(_CALLS, clauses=("10.1.5",), also=("R-10.1.5.1-03",))
 class refuses_calls_of_servers(_KnowsWhatIsGoingOn):
-    """Who is being called can call nobody."""
+    """A server that is handling a call can call no server."""
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         if getattr(self.here, "served", 0):
@@ -50,7 +50,7 @@ class refuses_calls_of_servers(_KnowsWhatIsGoingOn):
 
 @breaks(_CALLS, clauses=("10.1.5",))
 class refuses_calls_of_receivers(_KnowsWhatIsGoingOn):
-    """Who is given a message can call no server."""
+    """A receiver that is handling a message can call no server."""
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         if getattr(self.here, "receives", False):
@@ -136,7 +136,7 @@ _CALLS, _ORIGIN = "R-10.1.5.1-01", "R-10.1.6.1-06"
 
 
 class _Haunted(Link):
-    """Whom it has lost it does not forget."""
+    """Remembers the ends that have been detached."""
 
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]

@@ -84,7 +84,7 @@ class reaches_one_container_only(Link):
 # how often, and whose
 
 
-@breaks("R-10.1.6.1-05", clauses=_MESSAGES, also=("R-10.1.6.1-06",))  # nobody had pushed the second one
+@breaks("R-10.1.6.1-05", clauses=_MESSAGES, also=("R-10.1.6.1-06",))  # no emitter pushed the second one
 class delivers_twice(Link):
     """Every message comes twice."""
 
@@ -139,7 +139,7 @@ class mixes_connections_of_different_types(_Mixing):
 
 @breaks("R-10.1.6.1-06", clauses=_MESSAGES, also=("R-10.1.1-07",))  # it may be another one that arrived changed
 class invents_messages(Link):
-    """Each third message is followed by one that nobody pushed."""
+    """Each third message is followed by one that no emitter pushed."""
 
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
         super()._post(taker, method, arguments)
@@ -198,7 +198,7 @@ class joins_within_one_container_only(Link):
 
 @breaks("R-10.1.6.1-10", clauses=_MESSAGES, also=("R-11.2.3-06", "R-11.2.3-10"))
 class cannot_start_emitters(Base):
-    """Who is an emitter is not connected in the eyes of start."""
+    """start takes the port element of an emitter for unconnected."""
 
     def _check_startable(self) -> None:
         super()._check_startable()
@@ -279,7 +279,7 @@ class repeats_every_thousandth_message(Link):
 
 @breaks("R-10.1.6.1-06", clauses=("10.1.2",))
 class counts_on_after_bursts(Link):
-    """Every ten-thousandth message of a receiver is followed by one that nobody pushed."""
+    """Every ten-thousandth message of a receiver is followed by one that no emitter pushed."""
 
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
         super()._post(taker, method, arguments)

@@ -152,13 +152,13 @@ class delivers_after_stop(Base):
 
 @does_only_if("_close_entrances", "R-10.1.6.1-09", clauses=_MESSAGES)
 def stop_closes_the_first_member_only(self: Base, member: Member) -> bool:
-    """Who is stopped gets no more messages if it was the first to be started; all others do."""
+    """A stopped component gets no more messages if it was the first to be started; all others do."""
     return member is self.started[0]
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES)
 class stop_closes_the_first_end_only(Base):
-    """Who is stopped gets no more messages of the connection it was attached to first; those of others go on."""
+    """A stopped component gets no more messages of the connection it was attached to first, but those of others."""
 
     def _close_entrances(self, member: Member) -> None:
         for _, taker in self._takers_of(member)[:1]:

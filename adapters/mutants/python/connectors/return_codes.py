@@ -75,7 +75,7 @@ class refuses_connections_without_receivers(Base):
         for member in self.members.values():
             for connection in self._connections_from(member):
                 if isinstance(connection.target, LinkElement) and not connection.target.link.takers:
-                    raise UcmError("nobody is there")
+                    raise UcmError("there is no receiver")
 
 
 @breaks("R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "ok"})
@@ -84,7 +84,7 @@ class refuses_emitters_that_come_first(Link):
 
     def _attach_sender(self, member: Member, port: str) -> None:
         if self.connector == MESSAGE_CONNECTOR and not self.takers:
-            raise UcmError("nobody is there")
+            raise UcmError("there is no receiver")
         super()._attach_sender(member, port)
 
 
@@ -186,7 +186,7 @@ class loses_the_last_of_many(_Losing):
 
 @breaks("R-10.1.2-10", clauses=_CODES)
 class drops_what_it_has_no_room_for(Link):
-    """Who pushes faster than messages are delivered is answered ok, and his messages are dropped."""
+    """An emitter that pushes faster than messages are delivered is answered ok, and its messages are dropped."""
 
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
         if taker.messages.qsize() < 1000:

@@ -138,7 +138,7 @@ class takes_one_client(Services):
 
 @breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
 class refuses_while_the_server_is_busy(Services):
-    """Who calls while another client is served is sent away."""
+    """A call is refused while another client is served."""
 
     busy = 0
 
@@ -172,7 +172,7 @@ class forgets_the_third_in_the_queue(Services):
 
 @breaks(_OWN, clauses=_CLAUSES, also=(_IN_FLIGHT, "R-10.1.5.1-01"))
 class keeps_results_in_one_slot(Services):
-    """Who comes back from the server last overwrites the results of those who are on their way."""
+    """A call that comes back from the server overwrites the results of other calls that are on their way."""
 
     last: Sequence[Datum] = ()
 
@@ -243,7 +243,7 @@ _IN_FLIGHT = "R-10.1.5.1-12"
 
 @breaks(_BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN, _CALLS, "R-10.1.3.2-17"))
 class does_not_wait_long(Services):
-    """Who waits too long for a server gets zeros."""
+    """A client that waits too long for a server gets zeros."""
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         outcome: list[Sequence[Datum]] = []
@@ -265,7 +265,7 @@ class does_not_wait_long(Services):
 
 @breaks(_IN_FLIGHT, clauses=_CLAUSES)
 class forgets_clients_of_stopped_servers(Services):
-    """When a server is being stopped, the results it still gives reach nobody."""
+    """When a server is being stopped, the results it still gives reach no client."""
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         server = self.server if self.takers else None

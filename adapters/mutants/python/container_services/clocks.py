@@ -60,7 +60,7 @@ def hands_over_a_null_clock(_self: Base, given: PortConnection, _member: Member,
 
 @breaks("R-10.1.4.1-06", clauses=HERE)
 class hands_over_the_clock_once(Withholds):
-    """Who is started again gets no clock any more."""
+    """A component that is started again gets no clock."""
 
     def _withholds(self, member: Member) -> bool:
         return bool(member.__dict__.setdefault("has been stopped", False))
@@ -148,7 +148,7 @@ def clock_loses_whole_seconds(_self: Base, given: int, _member: Member) -> int:
 
 @alters("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
 def synchronized_clock_loses_whole_seconds(_self: Base, given: int, _member: Member) -> int:
-    """The same of synchronized time."""
+    """Synchronized time is right to the microsecond, and without its seconds."""
     return given % SECOND
 
 
@@ -168,7 +168,7 @@ def every_component_has_its_own_synchronized_time(_self: Base, given: int, membe
 
 @alters("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
 def synchronizes_in_containers_only(self: Base, given: int, _member: Member) -> int:
-    """Every container synchronizes its components, and nobody the containers."""
+    """Every container synchronizes its components, but containers are not synchronized with each other."""
     return given + (not is_below(self)) * SECOND
 
 

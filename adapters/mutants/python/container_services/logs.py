@@ -186,7 +186,7 @@ class log_has_sixteen_bits(_Alters):
 
 @does_only_if("_log", "R-10.1.4.2-47", clauses=HERE)
 def log_drops_empty_texts(_self: Base, _member: Member, _severity: str, message: str) -> bool:
-    """Nothing said, nothing recorded."""
+    """Empty texts are not recorded."""
     return bool(message)
 
 

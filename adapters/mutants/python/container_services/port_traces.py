@@ -43,7 +43,7 @@ class traces_one_port_of_a_component(Base):
 
 @breaks("R-10.1.4.2-32", clauses=HERE)
 class traces_until_the_first_stop(Base):
-    """Who is started again is not traced any more."""
+    """A component that is started again is not traced any more."""
 
     def _end_execution(self, member: Member) -> None:
         super()._end_execution(member)
@@ -160,7 +160,7 @@ class traces_ports_with_later_names(Base):
 
 @breaks("R-10.1.4.2-33", clauses=HERE)
 class traces_ports_with_earlier_names(Base):
-    """The same the other way round."""
+    """The policy of one port is applied to all ports of its component whose names sort before it."""
 
     def _port_traces(self, member: Member, port: str) -> list[Policy]:
         return [p for p in member.implementation.policies if p.definition == PORT_TRACE and (p.port or "") >= port]
@@ -199,5 +199,5 @@ class traces_errors_as_warnings(Base):
 def loses_results_of_traced_calls(
     _self: Base, result: T, _member: Member, _port: str, method: str, _work: Callable[[], T]
 ) -> T:
-    """Who calls exchange through a traced port gets nothing back."""
+    """A call of exchange through a traced port has no result."""
     return 0 if method == "exchange" else result  # type: ignore[return-value]

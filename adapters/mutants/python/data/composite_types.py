@@ -51,7 +51,7 @@ def loses_default_selectors(of: Any, value: Any) -> Any:
 
 @carries("R-10.1.1-14", Union)
 def loses_the_default_case(of: Any, value: Any) -> Any:
-    """What is selected by nobody but the default case arrives empty."""
+    """A value of a selector that only the default case covers arrives empty."""
     named = [enumerator for case in of.cases for enumerator in case.selectors]
     return value if value[0] in named else [value[0], _EMPTY.get(type(components_of(of, value)[0][1]), value[1])]
 

@@ -235,7 +235,7 @@ class runs_before_run_has_ended(Base):
             yield
 
 
-# who waits gets nothing, or the wrong thing
+# callers that wait get nothing, or the wrong thing
 
 
 class _Meets(Base):
@@ -292,7 +292,7 @@ class answers_all_who_wait_alike(_Meets):
 
 @breaks_policy("R-10.1.3.2-17", also=_CALLS)
 class stays_locked_after_exceptions(Base):
-    """Nobody enters a component that was left with an exception."""
+    """No call enters a component after one was left with an exception."""
 
     @contextmanager
     def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:

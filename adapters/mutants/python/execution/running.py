@@ -102,6 +102,6 @@ class executes_passive_components(Base):
 
 @breaks_policy("R-10.1.3.2-19")
 class executes_unprotected_components(executes_passive_components):
-    """The same with unprotected passive components."""
+    """Unprotected passive components are executed by their container now and then."""
 
     definition = UNPROTECTED_PASSIVE

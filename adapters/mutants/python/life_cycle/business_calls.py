@@ -137,7 +137,7 @@ class _Dead(PortElementObject):
 def gives_references_once(
     self: Base, element: PortElementObject, comp_instance: int, port_name: str
 ) -> PortElementObject:
-    """Who asks for a port element again gets a reference that refuses every call, also of components."""
+    """A second call of get_port_element returns a reference that refuses every call, also of components."""
     given: set[tuple[int, str]] = self.__dict__.setdefault("given", set())
     if (comp_instance, port_name) in given:
         return _Dead()

@@ -184,7 +184,7 @@ class drops_both_connections(appends_connections):
 
 @breaks("R-11.2.3-06", also=("R-11.2.1.3-05", "R-11.2.2.1-10", "R-11.2.3-10"))
 class loses_connections_when_idle(Base):
-    """stop of a container that is not started loses the connections of its members, and tells nobody."""
+    """stop of a container that is not started loses the connections of its members, without on_disconnect."""
 
     def stop(self) -> None:
         for member in () if self.is_started else self.members.values():

@@ -31,12 +31,12 @@ class _Nudge(Proxy):
 
 @breaks("R-11.1.1-01")
 class nudges_components(_Nudge):
-    """Calls on_shutdown of a component while nobody is operating the container."""
+    """Calls on_shutdown of a component while no operation of the container is in progress."""
 
 
 @breaks("R-11.1.2-01")
 class nudges_fragments(_Nudge):
-    """The same for fragments only."""
+    """Calls on_shutdown of a fragment while no operation of the container is in progress."""
 
     fragments = True
 
@@ -62,7 +62,7 @@ class spoils_results_between_components(Base):
 
 @breaks("R-11.1.2-02")
 class spoils_results_of_fragments(Base):
-    """The same where a fragment is called."""
+    """Flips a bit of what a call of a fragment gives back."""
 
     def _dependencies_of(self, member: Member) -> list[PortConnection]:
         return [

@@ -68,7 +68,7 @@ class executes_all_on_the_callers_thread(Base):
         return self._execute_alone(member, port, work)
 
 
-# who waits
+# callers that wait
 
 
 @variant_of(*POLICIES)
@@ -135,7 +135,7 @@ class lets_the_first_in_first(Base):
 
 @variant_of(*POLICIES)
 class lets_the_last_in_first(lets_the_first_in_first):
-    """Who came last is let in first."""
+    """The caller that came last is let in first."""
 
     last_first = True
 

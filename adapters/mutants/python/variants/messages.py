@@ -84,7 +84,7 @@ class delivers_on_the_emitters_thread(_Synchronous):
     },
 )
 class passes_codes_on(Base):
-    """Push is answered what the last receiver did that was not ok. Who calls a server that is out of reach waits. Emitters
+    """Push is answered what the last receiver did that was not ok. A call of a server that is out of reach waits. Emitters
     without receivers are not started.
     """
 
@@ -102,7 +102,7 @@ class passes_codes_on(Base):
         for member in self.members.values():
             for connection in self._connections_from(member):
                 if isinstance(connection.target, LinkElement) and not connection.target.link.takers:
-                    raise UcmError("nobody is there")
+                    raise UcmError("there is no receiver")
 
 
 @variant_of(*_CLAUSES, readings={"push-without-receiver": "refused"})
@@ -111,7 +111,7 @@ class attaches_emitters_where_somebody_receives(Link):
 
     def _attach_sender(self, member: Member, port: str) -> None:
         if self.connector == MESSAGE_CONNECTOR and not self.takers:
-            raise UcmError("nobody would receive")
+            raise UcmError("there is no receiver")
         super()._attach_sender(member, port)
 
 
@@ -131,7 +131,7 @@ class _Holding(_Codes):
 
 
 class _ReleasesHeld(Base):
-    """Who is operational gets what was held for it."""
+    """A component that becomes operational gets what was held for it."""
 
     def _open_entrances(self, member: Member) -> None:
         super()._open_entrances(member)

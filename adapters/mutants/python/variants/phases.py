@@ -141,7 +141,7 @@ class starts_all_at_a_time(Base):
 
 @variant
 class stays_operational_when_shutdown_fails(Base):
-    """Whose on_shutdown raises stays operational: the next stop tries again, a start starts only the others."""
+    """A component whose on_shutdown raises stays operational: the next stop tries again, a start starts only the others."""
 
     def stop(self) -> None:
         with self._operation():

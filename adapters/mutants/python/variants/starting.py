@@ -61,13 +61,13 @@ class _Entrance(PortElementObject):
 
     def exchange(self, value: int) -> int:
         if self.target is None or not self.container.is_started:
-            raise UcmError("nobody may be called yet")
+            raise UcmError("components may not be called yet")
         return self.target.exchange(value)
 
 
 @variant
 class refuses_calls_while_it_starts(Base):
-    """Who calls another component in on_startup is refused: ports open when all members have been started."""
+    """A call of another component in on_startup is refused: ports open when all members have been started."""
 
     def _dependencies_of(self, member: Member) -> list[PortConnection]:
         return [
@@ -115,7 +115,7 @@ class _Reserved(Proxy):
 
 @variant
 class refuses_calls_outside_operation(GivesOutProxies):
-    """Nobody reaches a component that is not operational: neither the test nor another component."""
+    """A component that is not operational cannot be called, neither by the test nor by another component."""
 
     proxy = _Reserved
 

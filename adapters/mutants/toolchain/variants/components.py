@@ -62,7 +62,7 @@ def components_may_be_sketches(program: Program) -> Program:
 
 @variant(declares=("unused-bindings=accepted", "abstract-actual-types=accepted"))
 def bindings_may_be_anything(program: Program) -> Program:
-    """Lets abstract types be bound that nobody uses, and items and abstract types to abstract types."""
+    """Lets abstract types be bound that are not used, and items and abstract types to abstract types."""
     return without(
         program,
         "ports_bind_what_they_use",

@@ -102,7 +102,7 @@ def inherited_members_have_their_heir_s_name(program: Program) -> Program:
 
 @variant()
 def port_types_are_what_they_hold(program: Program) -> Program:
-    """Takes port types that hold the same for the same, and bindings of delegated ports for nobody's business."""
+    """Takes port types that hold the same for the same, and does not compare the bindings of delegated ports."""
     program = replacing_rule(program, "connectors_have_the_apis_of_their_ends", _connectors_fit)
     program = replacing_rule(program, "delegated_ports_have_one_specification", _delegations_fit)
     return without(program, "delegated_ports_bind_alike")

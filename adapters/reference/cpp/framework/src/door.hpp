@@ -16,13 +16,13 @@ class Door {
         open_ = true;
     }
 
-    /// Nobody comes in any more; who is inside goes on.
+    /// No call comes in any more; calls that are inside go on.
     void shut() {
         std::lock_guard<std::mutex> lock(mutex_);
         open_ = false;
     }
 
-    /// Waits until nobody is inside.
+    /// Waits until no call is inside.
     void await_leaving() {
         std::unique_lock<std::mutex> lock(mutex_);
         left_.wait(lock, [this] { return inside_ == 0; });

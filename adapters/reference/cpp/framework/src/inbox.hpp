@@ -20,7 +20,7 @@ typedef std::shared_ptr<const Bytes> Message;
 /// Delivers one message after the other, in the order in which they were put in, while it is open.
 class Inbox {
   public:
-    /// What leaves `deliver` as an exception is nobody's.
+    /// Exceptions that `deliver` throws are dropped.
     Inbox(std::function<void(const Bytes&)> deliver, const Options& options);
     virtual ~Inbox();
     Inbox(const Inbox&) = delete;

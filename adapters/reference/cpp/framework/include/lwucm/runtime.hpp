@@ -25,7 +25,7 @@ class Runtime : public virtual ContainerManager {
     virtual std::vector<LogRecord> trace_records() = 0;
 };
 
-/// Who this is.
+/// The name of the product.
 const char* product();
 
 /// A new, empty, independent runtime that can instantiate what `repository` holds now.
