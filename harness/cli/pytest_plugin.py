@@ -54,7 +54,7 @@ def _seconds(text: str) -> float:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """FrameworkReport wrong use before anything runs."""
+    """Report wrong use before anything runs."""
     profile = config.getoption("--iut-profile")
     if profile != _PROFILE:
         from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import msgspec
 
@@ -12,7 +12,6 @@ from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.harness.catalogue.requirements import Level, Requirement
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, shortest_first
-from ucm_cts.harness.results.statement import Statement
 
 SCHEMA_FILE = "report.schema.json"
 
@@ -29,6 +28,16 @@ OUTPUT = 4_000
 
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """Base of the values of ``report.json``: every field is always there."""
+
+    @classmethod
+    def of(cls, source: object, **others: Any) -> Self:
+        """Takes the fields that ``source`` has under the same name, and ``others`` as they are given."""
+        same = {
+            name: getattr(source, name)
+            for name in cls.__struct_fields__
+            if name not in others and hasattr(source, name)
+        }
+        return cls(**same, **others)
 
 
 class FindingEntry(Entry, frozen=True):
@@ -134,44 +143,30 @@ class ReportEntry(Entry, frozen=True):
 def to_json(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     """``report.json``, indented, ending with a newline. The report must be clean (``foreign.clean_report``)."""
     known = {requirement.id: requirement for requirement in catalogue}
-    shared = {name: getattr(report, name) for name in _SHARED}
-    entry = ReportEntry(
-        **shared,
-        **_body(report),
+    entry = ReportEntry.of(
+        report,
         requirements=tuple(_requirement(result, known) for result in report.requirements),
-        statement=_statement(report.statement),
+        statement=StatementEntry.of(report.statement),
         measures=report.effort.measures,
         seconds_by_clause=report.effort.seconds,
+        **_body(report),
     )
     return msgspec.json.format(msgspec.json.encode(entry), indent=2) + b"\n"
-
-
-_SHARED = ("product", "version", "profile", "verdict", "adapter", "suite_version", "seed", "started", "seconds")
 
 
 def _body(report: v.Report) -> dict[str, Any]:
     """What differs between products. For a tool chain ``scenarios`` are models and ``events`` are facts."""
     if isinstance(report, v.FrameworkReport):
-        incidents = (
-            _incident(item.incident, item.execution.name, number) for number, item in enumerate(report.incidents)
-        )
         return {
-            "incidents": tuple(incidents),
-            "transitions": tuple(map(_transition, report.transitions)),
-            "scenarios": report.scenarios,
-            "events": report.events,
-            "readings": report.readings,
-            "runs": report.runs,
+            "incidents": tuple(
+                IncidentEntry.of(item.incident, scenario=item.execution.name, replay=incident_file(number))
+                for number, item in enumerate(report.incidents)
+            ),
+            "transitions": tuple(map(TransitionEntry.of, report.transitions)),
         }
     assert isinstance(report, v.ToolChainReport)
-    return {
-        "incidents": (),
-        "transitions": (),
-        "scenarios": report.models,
-        "events": report.facts,
-        "readings": {},
-        "runs": 1,
-    }
+    counts = {"scenarios": report.models, "events": report.facts, "runs": 1}
+    return {"incidents": (), "transitions": (), "readings": {}, **counts}
 
 
 def schema() -> dict[str, Any]:
@@ -184,36 +179,29 @@ def schema() -> dict[str, Any]:
 
 
 def _requirement(result: v.RequirementResult, known: Mapping[str, Requirement]) -> RequirementEntry:
-    return RequirementEntry(
-        id=result.id,
-        clause=result.clause,
-        title=result.title,
+    findings = enumerate(shortest_first(result.findings))
+    return RequirementEntry.of(
+        result,
         level=known[result.id].level if result.id in known else "statement",
-        verdict=result.verdict,
-        exercised=result.exercised,
-        reason=result.reason,
-        findings=tuple(
-            _finding(failed, file_name(result.id, number))
-            for number, failed in enumerate(shortest_first(result.findings))
-        ),
+        findings=tuple(_finding(failed, file_name(result.id, number)) for number, failed in findings),
     )
 
 
 def _finding(failed: v.ReportedFinding, replay: str) -> FindingEntry:
-    shown = FindingEntry(
-        rule=failed.finding.rule,
-        expected=failed.finding.expected,
-        observed=failed.finding.observed,
-        occurrences=failed.occurrences,
-        waived=failed.waived,
-        unstable=failed.unstable,
+    finding = failed.finding
+    shown = FindingEntry.of(
+        failed,
+        rule=finding.rule,
+        expected=finding.expected,
+        observed=finding.observed,
         scenario="",
         events=(),
         replay="",
+        steady=(),
     )
     match failed.evidence:
         case v.TraceEvidence(execution=execution, steady=steady):
-            suspects = set(failed.finding.events)
+            suspects = set(finding.events)
             return msgspec.structs.replace(
                 shown,
                 scenario=execution.name,
@@ -233,34 +221,6 @@ def _finding(failed: v.ReportedFinding, replay: str) -> FindingEntry:
                 place=failed.evidence.place,
             )
     return shown
-
-
-def _incident(incident: v.Incident, scenario: str, number: int) -> IncidentEntry:
-    return IncidentEntry(
-        kind=incident.kind,
-        detail=incident.detail,
-        stacks=incident.stacks,
-        reproduced=incident.reproduced,
-        scenario=scenario,
-        replay=incident_file(number),
-    )
-
-
-def _statement(statement: Statement) -> StatementEntry:
-    return StatementEntry(
-        source=statement.source,
-        product=statement.product,
-        version=statement.version,
-        profiles=statement.profiles,
-        capabilities=statement.capabilities,
-        readings=statement.readings,
-        ixit=statement.ixit,
-        models=statement.models,
-    )
-
-
-def _transition(result: v.TransitionResult) -> TransitionEntry:
-    return TransitionEntry(result.row, result.exercised, result.violated, result.readings)
 
 
 def schema_bytes() -> bytes:

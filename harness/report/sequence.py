@@ -136,43 +136,7 @@ class _Walk:
 
     def follow(self, event: t.Event) -> None:
         """Append the lines of one event."""
-        match event:
-            case t.Call():
-                self._call(event)
-            case t.Skip():
-                self._skip(event)
-            case t.Timeout():
-                self._timeout(event)
-            case t.Create():
-                self._create(event)
-            case t.Enter():
-                self._enter(event)
-            case t.Exit():
-                self._exit(event)
-            case t.Request():
-                self._request(event)
-            case t.Reply():
-                self._reply(event)
-            case t.Siblings():
-                self._siblings(event)
-            case t.Held():
-                self._held(event)
-            case t.Opened():
-                self._opened(event)
-            case t.Settled():
-                self._settled(event)
-            case t.Pushed():
-                self._pushed(event)
-            case t.Counted():
-                self._counted(event)
-            case t.Stressed():
-                self._stressed(event)
-            case t.Paused():
-                self._paused(event)
-            case t.Return():
-                self._return(event)
-            case t.Raise():
-                self._raise(event)
+        getattr(self, f"_{t.kind_of(event)}")(event)
 
     # the lanes
 

@@ -169,43 +169,35 @@ class Tally:
     def _result(
         self, requirement: Requirement, failures: list[v.ReportedFinding], known_failures: Sequence[KnownFailure]
     ) -> v.RequirementResult:
-        exercised = self.exercised[requirement.id]
         by_length = shortest_first(tuple(failures))
         waived = tuple(
             msgspec.structs.replace(f, waived=waiver_for(f.finding, known_failures))
             for f in by_length
             if not f.unstable
         )
-        if waived:
-            return v.RequirementResult(requirement.id, requirement.clause, requirement.title, "fail", exercised, waived)
-        if by_length:
-            return v.RequirementResult(
-                requirement.id,
-                requirement.clause,
-                requirement.title,
-                "inconclusive",
-                exercised,
-                tuple(by_length),
-                by_length[0].unstable,
-            )
-        if requirement.id in self._settled:
-            verdict, reason = self._settled[requirement.id]
-            return v.RequirementResult(
-                requirement.id, requirement.clause, requirement.title, verdict, exercised, (), reason
-            )
-        if requirement.id in self.lost:
-            reason = f"a scenario that was to exercise it was lost ({self.lost[requirement.id]})"
-            return v.RequirementResult(
-                requirement.id, requirement.clause, requirement.title, "error", exercised, (), reason
-            )
-        if not exercised:
-            reason = self._reasons.get(requirement.id, "its condition never arose in this run")
-            if requirement.id in self._left_out:
-                reason += f"; scenarios that were to exercise it were {self._left_out[requirement.id]}"
-            return v.RequirementResult(
-                requirement.id, requirement.clause, requirement.title, "inconclusive", 0, (), reason
-            )
-        return v.RequirementResult(requirement.id, requirement.clause, requirement.title, "pass", exercised)
+        verdict, reason = self._verdict(requirement.id, by_length, bool(waived))
+        findings = waived or tuple(by_length)
+        exercised = self.exercised[requirement.id]
+        return v.RequirementResult(
+            requirement.id, requirement.clause, requirement.title, verdict, exercised, findings, reason
+        )
+
+    def _verdict(self, requirement: str, failures: Sequence[v.ReportedFinding], fails: bool) -> tuple[v.Verdict, str]:
+        """The verdict, and the reason for any but pass and fail. Where it does not fail, ``failures`` are unstable."""
+        if fails:
+            return "fail", ""
+        if failures:
+            return "inconclusive", failures[0].unstable
+        if requirement in self._settled:
+            return self._settled[requirement]
+        if requirement in self.lost:
+            return "error", f"a scenario that was to exercise it was lost ({self.lost[requirement]})"
+        if self.exercised[requirement]:
+            return "pass", ""
+        reason = self._reasons.get(requirement, "its condition never arose in this run")
+        if requirement in self._left_out:
+            reason += f"; scenarios that were to exercise it were {self._left_out[requirement]}"
+        return "inconclusive", reason
 
     def transitions(self, table: LifeCycleTable) -> tuple[v.TransitionResult, ...]:
         """How each row of the table fared."""

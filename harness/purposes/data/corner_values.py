@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from itertools import cycle, islice
 from types import MappingProxyType
 
 from ucm_cts.adapters.contract import data_types as d
@@ -60,16 +62,34 @@ def lengths(of: d.Sequence, readings: Readings, longest: int) -> tuple[int, int]
 
 def corners(of: d.AnyType, readings: Readings = UNDECLARED) -> list[d.Datum]:
     """Corner values of ``of``, the simplest first; at least one."""
-    return _CORNERS[type(of)](of, readings)
+    match of:
+        case d.Alias():
+            return corners(of.of, readings)
+        case d.Integer():
+            return _of_integer(of, readings)
+        case d.Float():
+            return list(_FLOAT_CORNERS[of.kind].split())
+        case d.Char():
+            return _of_char(of, readings)
+        case d.Boolean():
+            return [False, True]
+        case d.String():
+            return _of_string(of, readings)
+        case d.Enumeration():
+            return list(of.values)
+        case d.Structure():
+            return list(_combined([corners(field, readings) for field in of.fields.values()]))
+        case d.Union():
+            return _of_union(of, readings)
+        case d.Array():
+            return [_array(of.sizes, _dealer(corners(of.of, readings), start)) for start in range(3)]
+        case d.Sequence():
+            return _of_sequence(of, readings)
 
 
 def float_bits(kind: str, value: float) -> str:
     """How ``value`` travels; it is rounded to FLOAT where that is wanted."""
     return struct.pack(">f" if kind == "FLOAT" else ">d", value).hex()
-
-
-def _of_alias(of: d.Alias, readings: Readings) -> list[d.Datum]:
-    return corners(of.of, readings)
 
 
 def _of_integer(of: d.Integer, readings: Readings) -> list[d.Datum]:
@@ -101,19 +121,11 @@ _FLOAT_CORNERS = {
 """Zeros, ones, a tenth, the least step above one, great integers, subnormals, the greatest, infinities, quiet NaNs."""
 
 
-def _of_float(of: d.Float, readings: Readings) -> list[d.Datum]:
-    return list(_FLOAT_CORNERS[of.kind].split())
-
-
 def _of_char(of: d.Char, readings: Readings) -> list[d.Datum]:
     last = largest_character(of.kind, readings)
     candidates = (0x61, 0x41, 0x20, 0x0A, 0x22, 0x5C, 0, 1, 0x7F, 0x80, 0xE9, 0xFF, 0x100, 0x20AC, 0xD7FF, 0xE000)
     beyond = (0xFEFF, 0xFFFD, 0xFFFF, 0x10000, 0x1F600, 0x10FFFF)
     return [c for c in (*candidates, *beyond) if c <= last]
-
-
-def _of_boolean(of: d.Boolean, readings: Readings) -> list[d.Datum]:
-    return [False, True]
 
 
 def _of_string(of: d.String, readings: Readings) -> list[d.Datum]:
@@ -141,14 +153,6 @@ def _of_string(of: d.String, readings: Readings) -> list[d.Datum]:
     return list(dict.fromkeys(kept))
 
 
-def _of_enumeration(of: d.Enumeration, readings: Readings) -> list[d.Datum]:
-    return list(of.values)
-
-
-def _of_structure(of: d.Structure, readings: Readings) -> list[d.Datum]:
-    return list(_combined([corners(field, readings) for field in of.fields.values()]))
-
-
 def _combined(columns: Sequence[Sequence[d.Datum]]) -> list[list[d.Datum]]:
     """Rows with the values of each column, from the first to the last if there are too many; neighbours are seldom alike."""
     rows = min(max(map(len, columns)), _MOST_COMBINATIONS)
@@ -171,10 +175,6 @@ def _of_union(of: d.Union, readings: Readings) -> list[d.Datum]:
     return values
 
 
-def _of_array(of: d.Array, readings: Readings) -> list[d.Datum]:
-    return [_array(of.sizes, _dealer(corners(of.of, readings), start)) for start in range(3)]
-
-
 def _array(sizes: tuple[int, ...], element: Callable[[], d.Datum]) -> list[d.Datum]:
     if len(sizes) == 1:
         return [element() for _ in range(sizes[0])]
@@ -183,14 +183,7 @@ def _array(sizes: tuple[int, ...], element: Callable[[], d.Datum]) -> list[d.Dat
 
 def _dealer(values: Sequence[d.Datum], start: int) -> Callable[[], d.Datum]:
     """Gives the values one by one, again and again, beginning somewhere."""
-    turn = start * 5 - 1
-
-    def deal() -> d.Datum:
-        nonlocal turn
-        turn += 1
-        return values[turn % len(values)]
-
-    return deal
+    return partial(next, islice(cycle(values), start * 5 % len(values), None))
 
 
 def _of_sequence(of: d.Sequence, readings: Readings) -> list[d.Datum]:
@@ -201,18 +194,3 @@ def _of_sequence(of: d.Sequence, readings: Readings) -> list[d.Datum]:
     if of.size < 0 and isinstance(of.of, d.Structure | d.Union | d.Array | d.Sequence):
         wanted = [n for n in wanted if n <= 2] + [5]
     return [_array((length,), _dealer(elements, length)) for length in wanted]
-
-
-_CORNERS: dict[type, Callable[..., list[d.Datum]]] = {
-    d.Alias: _of_alias,
-    d.Integer: _of_integer,
-    d.Float: _of_float,
-    d.Char: _of_char,
-    d.Boolean: _of_boolean,
-    d.String: _of_string,
-    d.Enumeration: _of_enumeration,
-    d.Structure: _of_structure,
-    d.Union: _of_union,
-    d.Array: _of_array,
-    d.Sequence: _of_sequence,
-}

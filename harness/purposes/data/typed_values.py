@@ -8,7 +8,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract.data_values import case_of, parts
@@ -79,19 +79,43 @@ def draw(of: d.AnyType, number: int, seed: str, readings: corner.Readings = corn
 
 def _value(of: d.AnyType, source: _Source) -> d.Datum:
     """One value of ``of``."""
-    return _DRAWN[type(of)](of, source)
-
-
-def _of_alias(of: d.Alias, source: _Source) -> d.Datum:
-    return _value(of.of, source)
-
-
-def _of_integer(of: d.Integer, source: _Source) -> d.Datum:
-    return source.choose(*corner.bounds(of, source.readings))
-
-
-def _of_float(of: d.Float, source: _Source) -> d.Datum:
     choose = source.choose
+    match of:
+        case d.Alias():
+            return _value(of.of, source)
+        case d.Integer():
+            return choose(*corner.bounds(of, source.readings))
+        case d.Float():
+            return _float(of, choose)
+        case d.Char():
+            return _character(of.kind, source, 0)
+        case d.Boolean():
+            return choose(0, 1) == 1
+        case d.String():
+            longest = source.longest_string
+            length = choose(0, longest if of.size < 0 else min(of.size, longest))
+            return "".join(chr(_character(of.base, source, 1)) for _ in range(length))
+        case d.Enumeration():
+            return list(of.values)[choose(0, len(of.values) - 1)]
+        case d.Structure():
+            return [_value(field, source) for field in of.fields.values()]
+        case d.Union():
+            covered = [(enumerator, case) for enumerator in of.selector.values if (case := case_of(of, enumerator))]
+            enumerator, chosen = covered[choose(0, len(covered) - 1)]
+            return [enumerator, _value(chosen.of, source)]
+        case d.Array():
+            return _array(of.of, of.sizes, source)
+        case d.Sequence():
+            longest = source.longest_sequence
+            least, most = corner.lengths(of, source.readings, longest)
+            return [_value(of.of, source) for _ in range(choose(least, max(least, min(most, longest))))]
+
+
+def _array(of: d.AnyType, sizes: tuple[int, ...], source: _Source) -> d.Datum:
+    return [_array(of, sizes[1:], source) for _ in range(sizes[0])] if sizes else _value(of, source)
+
+
+def _float(of: d.Float, choose: Choose) -> d.Datum:
     sort = choose(0, 3)
     if sort == 0:
         return corner.float_bits(of.kind, float(choose(-1000, 1000)))
@@ -107,10 +131,6 @@ def _of_float(of: d.Float, source: _Source) -> d.Datum:
     return f"{sign | rest:0{digits}x}"
 
 
-def _of_char(of: d.Char, source: _Source) -> d.Datum:
-    return _character(of.kind, source, 0)
-
-
 def _character(kind: str, source: _Source, least: int) -> int:
     """The simplest characters are letters, the rest follows by code point."""
     sort = source.choose(0, 2)
@@ -119,58 +139,3 @@ def _character(kind: str, source: _Source, least: int) -> int:
     largest = corner.largest_character(kind, source.readings)
     point = source.choose(least, min(largest, 0x7F if sort == 1 else largest))
     return point if point not in _SURROGATES else point - len(_SURROGATES)
-
-
-def _of_boolean(of: d.Boolean, source: _Source) -> d.Datum:
-    return source.choose(0, 1) == 1
-
-
-def _of_string(of: d.String, source: _Source) -> d.Datum:
-    longest = source.longest_string
-    length = source.choose(0, longest if of.size < 0 else min(of.size, longest))
-    return "".join(chr(_character(of.base, source, 1)) for _ in range(length))
-
-
-def _of_enumeration(of: d.Enumeration, source: _Source) -> d.Datum:
-    return list(of.values)[source.choose(0, len(of.values) - 1)]
-
-
-def _of_structure(of: d.Structure, source: _Source) -> d.Datum:
-    return [_value(field, source) for field in of.fields.values()]
-
-
-def _of_union(of: d.Union, source: _Source) -> d.Datum:
-    covered = [(enumerator, case) for enumerator in of.selector.values if (case := case_of(of, enumerator))]
-    enumerator, case = covered[source.choose(0, len(covered) - 1)]
-    return [enumerator, _value(case.of, source)]
-
-
-def _of_array(of: d.Array, source: _Source) -> d.Datum:
-    def dimension(sizes: tuple[int, ...]) -> d.Datum:
-        if not sizes:
-            return _value(of.of, source)
-        return [dimension(sizes[1:]) for _ in range(sizes[0])]
-
-    return dimension(of.sizes)
-
-
-def _of_sequence(of: d.Sequence, source: _Source) -> d.Datum:
-    longest = source.longest_sequence
-    least, most = corner.lengths(of, source.readings, longest)
-    length = source.choose(least, max(least, min(most, longest)))
-    return [_value(of.of, source) for _ in range(length)]
-
-
-_DRAWN: dict[type, Callable[[Any, _Source], d.Datum]] = {
-    d.Alias: _of_alias,
-    d.Integer: _of_integer,
-    d.Float: _of_float,
-    d.Char: _of_char,
-    d.Boolean: _of_boolean,
-    d.String: _of_string,
-    d.Enumeration: _of_enumeration,
-    d.Structure: _of_structure,
-    d.Union: _of_union,
-    d.Array: _of_array,
-    d.Sequence: _of_sequence,
-}
