@@ -121,5 +121,9 @@ class Adapter(ABC):
         """All records of the trace (10.1.4.2) so far, oldest first: severity and text."""
         raise NotOffered
 
+    def advance(self, manager: ContainerHandle, milliseconds: int) -> None:
+        """Let so much virtual time pass for all components at once."""
+        raise NotOffered
+
     def close(self) -> None:  # noqa: B027 - optional hook
         """Free what the adapter itself holds; called last, whatever happened."""

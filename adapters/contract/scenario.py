@@ -328,6 +328,15 @@ class Stress(StepBase, frozen=True, tag_field="op", tag="stress"):
     milliseconds: Annotated[Int32, Lasts(2)] = 100
 
 
+class Advance(StepBase, frozen=True, tag_field="op", tag="advance"):
+    """Let virtual time pass: all times that components are told go on by so many ``milliseconds``, at once."""
+
+    optional = True
+    wording = "{milliseconds} ms"
+
+    milliseconds: Int32
+
+
 ContainerCall = (
     AddComponent
     | RemoveComponent
@@ -358,6 +367,7 @@ Step = (
     | Pause
     | AwaitMessages
     | Stress
+    | Advance
 )
 
 

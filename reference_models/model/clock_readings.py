@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
-from ucm_cts.adapters.contract.trace import Paused
+from ucm_cts.adapters.contract.trace import Paused, Return
 from ucm_cts.reference_models.model.interactions import Interactions, MethodCall
 from ucm_cts.reference_models.model.runtime import Container
 from ucm_cts.reference_models.model.service_policies import policy_elements
@@ -31,7 +31,7 @@ _WRAP = 2**32 * SECOND
 @dataclass(frozen=True, slots=True)
 class ClockReading:
     """A body asked for the time at ``asked`` and was told ``time`` at ``told``; all in nanoseconds, the latter two by the
-    host's monotonic clock.
+    host's monotonic clock. By then ``advanced`` virtual time had passed beside.
     """
 
     call: MethodCall
@@ -40,6 +40,7 @@ class ClockReading:
     asked: int
     told: int
     time: int
+    advanced: int
 
     @property
     def body(self) -> tuple[str, int]:
@@ -81,13 +82,21 @@ def time_told(call: MethodCall) -> tuple[int, int] | None:
 
 def readings_of(interactions: Interactions, components: dict[str, Declaration], method: str) -> list[ClockReading]:
     """The times that bodies were told by ``method``, in the order in which they asked; of very many some are left out."""
+    advances = [
+        (o, o.step.milliseconds * MILLISECOND)
+        for o in interactions.operations
+        if isinstance(o.step, s.Advance) and isinstance(o.end, Return)
+    ]
     readings = []
     for call in interactions.calls:
         told = time_told(call) if clock_call(call, components) == method else None
         if told is not None and call.reply is not None:
             request, reply = call.request, call.reply
+            if any(o.overlaps(request.n, reply.n) for o, _ in advances):
+                continue  # nobody knows which came first
+            advanced = sum(virtual for o, virtual in advances if o.begin.n < request.n)
             time = told[0] * SECOND + told[1] * MICROSECOND
-            readings.append(ClockReading(call, request.n, reply.n, request.t, reply.t, time))
+            readings.append(ClockReading(call, request.n, reply.n, request.t, reply.t, time, advanced))
     return readings[:: len(readings) // _MOST + 1]
 
 

@@ -161,7 +161,7 @@ def synchronized_time_passes(verdicts: Verdicts, runtime: ObservedRuntime) -> No
     """Between two readings of one body synchronized time went on, by half of the real time at least."""
     tolerance = verdicts.ics.tolerance("synchronization-tolerance") * MILLISECOND
     for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
-        least = (later.asked - earlier.told) // 2
+        least = (later.asked - earlier.told) // 2 + later.advanced - earlier.advanced
         went = passed(earlier.time, later.time)
         if earlier.body != later.body or went >= least - tolerance - drift:
             continue
@@ -178,13 +178,14 @@ def synchronized_time_passes(verdicts: Verdicts, runtime: ObservedRuntime) -> No
 
 @property_at("closed", "R-10.1.4.1-09", timed=True)
 def local_time_rate(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
-    """Between two readings of one body as much local time passed as on the host's monotonic clock."""
+    """Between two readings of one body as much local time passed as on the host's monotonic clock, and virtual time."""
     tolerance = verdicts.ics.tolerance("clock-tolerance") * MILLISECOND
     rate = verdicts.ics.tolerance("clock-rate") / 100
     for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(verdicts)):
         if earlier.body != later.body or _width(earlier) + _width(later) > tolerance:
             continue
-        least, most = later.asked - earlier.told, later.told - earlier.asked
+        virtual = later.advanced - earlier.advanced
+        least, most = later.asked - earlier.told + virtual, later.told - earlier.asked + virtual
         went, slack = passed(earlier.time, later.time), tolerance + drift + 2 * MICROSECOND
         if least * (1 - rate) - slack <= went <= most * (1 + rate) + slack:
             if least >= _LONG_ENOUGH * tolerance and drift <= tolerance:
@@ -211,7 +212,7 @@ def local_time_epoch(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
         calendar = calendar_at(runtime.interactions.pauses, reading.asked, reading.told)
         if calendar is None:
             continue
-        away = passed(calendar[0], reading.time)
+        away = passed(calendar[0] + reading.advanced, reading.time)
         slack = tolerance + calendar[1]
         if -slack <= away <= slack + _width(reading):
             verdicts.exercised("R-10.1.4.1-09")

@@ -75,6 +75,7 @@ class Rude : public ucm_cts::Adapter {
     }
     void stop(const Handle&) override {}
     std::vector<ucm_cts::Id> get_components(const Handle&) override { return {2147483646}; }
+    void advance(const Handle&, std::int32_t ms) override { throw ucm_cts::BadParameter(std::to_string(ms)); }
     Handle create_container(const Handle&) override { return nullptr; }
     void remove_container(const Handle&, const Handle&) override {}
     void destroy(const Handle&) override { throw ucm_cts::UcmError("never"); }

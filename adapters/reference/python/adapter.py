@@ -70,5 +70,8 @@ class ReferenceAdapter(Adapter):
     def read_log(self, manager: ContainerManager) -> list[tuple[str, str]]:
         return manager.read_log()
 
+    def advance(self, manager: ContainerManager, milliseconds: int) -> None:
+        manager.advance(milliseconds)
+
     def destroy(self, manager: ContainerManager) -> None:
         manager.destroy()

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 _SERVICES = {CLOCK, COMPONENT_TRACE, PORT_TRACE}
-_SECOND, _MICROSECOND = 1_000_000_000, 1_000
+_SECOND, _MILLISECOND, _MICROSECOND = 1_000_000_000, 1_000_000, 1_000
 
 Record = tuple[str, str]
 """Severity and message."""
@@ -51,9 +51,9 @@ class ClockElement(ServiceElement):
     def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         container = self.member.container
         if method == "get_local_time":
-            return [container._time_value(container._local_time(self.member))]
+            return [container._time_value(container._local_time(self.member) + container.manager.advanced)]
         if method == "get_synchronized_time":
-            return [container._time_value(container._synchronized_time(self.member))]
+            return [container._time_value(container._synchronized_time(self.member) + container.manager.advanced)]
         raise UcmError(f"the clock has no method {method!r}")
 
 
@@ -141,6 +141,12 @@ class OffersServices(ExecutesComponents):
         return member.traced.setdefault(port, TracedElement(member, port, element))
 
     # the clock, in nanoseconds
+
+    advanced = 0
+    """Virtual time by which all clocks of the runtime are ahead."""
+
+    def advance(self, milliseconds: int) -> None:
+        self.manager.advanced += milliseconds * _MILLISECOND
 
     def _local_time(self, member: Member) -> int:
         return time.time_ns()

@@ -358,6 +358,9 @@ class Performance(metaclass=KeptClass):
 
         return operate
 
+    def _advance(self, step: s.Advance) -> Callable[[], Any]:
+        return partial(self._adapter.advance, self._manager, step.milliseconds)
+
 
 _OPERATIONS: dict[type[Any], Callable[[Performance, Any], Callable[[], Any]]] = {
     s.AddComponent: Performance._add_component,
@@ -378,6 +381,7 @@ _OPERATIONS: dict[type[Any], Callable[[Performance, Any], Callable[[], Any]]] = 
     s.Break: Performance._break,
     s.Mend: Performance._mend,
     s.ReadLog: Performance._read_log,
+    s.Advance: Performance._advance,
 }
 
 

@@ -105,6 +105,9 @@ class RudeAdapter(Adapter):
 
     def remove_container(self, manager: Any, sub_container: Any) -> None: ...
 
+    def advance(self, manager: Any, milliseconds: int) -> None:
+        raise BadParameter(str(milliseconds))
+
     def destroy(self, manager: Any) -> None:
         raise UcmError("never")
 

@@ -94,6 +94,11 @@ public final class RudeAdapter extends Adapter<String> {
     public void removeContainer(String manager, String container) {}
 
     @Override
+    public void advance(String manager, int milliseconds) {
+        throw new BadParameter(String.valueOf(milliseconds));
+    }
+
+    @Override
     public void destroy(String manager) {
         throw new UcmError("never");
     }

@@ -119,6 +119,22 @@ class clock_stands_still(Base):
         return BEGINNING
 
 
+@breaks("R-10.1.4.1-09", clauses=HERE, also=("R-10.1.4.1-10",))
+class clock_ignores_virtual_time(Base):
+    """Local and synchronized time go on in real time alone."""
+
+    def advance(self, milliseconds: int) -> None:
+        pass
+
+
+@breaks("R-10.1.4.1-09", clauses=HERE)
+class virtual_time_passes_twice(Base):
+    """Clocks go on by two seconds when one second of virtual time passes."""
+
+    def advance(self, milliseconds: int) -> None:
+        super().advance(2 * milliseconds)
+
+
 class _Paced(Base):
     pace = 1.0
 

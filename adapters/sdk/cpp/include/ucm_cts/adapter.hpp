@@ -218,6 +218,9 @@ class Adapter {
 
     /// All records of the trace (10.1.4.2) so far, oldest first.
     virtual std::vector<LogRecord> read_log(const ContainerHandle& /*manager*/) { throw NotOffered(); }
+
+    /// Lets so much virtual time pass for all components at once.
+    virtual void advance(const ContainerHandle& /*manager*/, std::int32_t /*milliseconds*/) { throw NotOffered(); }
 };
 
 typedef std::function<std::shared_ptr<Adapter>()> AdapterFactory;

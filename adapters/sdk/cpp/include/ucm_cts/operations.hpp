@@ -227,6 +227,10 @@ class Operations {
             case Operation::read_log:
                 stage_->recorder.record(events::Return(number).records(read_log(step.records)));
                 break;
+            case Operation::advance:
+                adapter_->advance(manager_, step.milliseconds);
+                returned(number);
+                break;
             default:  // the engine carries out the others itself
                 break;
         }

@@ -124,19 +124,19 @@ struct Declaration {
 enum class StepKind {
     add_component, remove_component, get_port_element, connect, disconnect, start, stop, get_components,
     create_container, remove_container, destroy, invoke, open, reach, settle, join, link, attach, detach, break_link,
-    mend_link, read_log, pause, await_messages, stress
+    mend_link, read_log, pause, await_messages, stress, advance
 };
 
 inline Words words_of(StepKind) {
     static const char* const words[] = {
         "add_component", "remove_component", "get_port_element", "connect", "disconnect", "start", "stop",
         "get_components", "create_container", "remove_container", "destroy", "invoke", "open", "reach", "settle",
-        "join", "link", "attach", "detach", "break", "mend", "read_log", "pause", "await_messages", "stress"
+        "join", "link", "attach", "detach", "break", "mend", "read_log", "pause", "await_messages", "stress", "advance"
     };
-    return Words{words, 25};
+    return Words{words, 26};
 }
 
-/// One of 25 kinds of objects; each member says which kinds have it.
+/// One of 26 kinds of objects; each member says which kinds have it.
 struct Step {
     typedef StepKind Kind;
     Kind kind = Kind::add_component;
@@ -203,7 +203,7 @@ struct Step {
     /// Of read_log.
     std::int32_t records = 0;
 
-    /// Of pause, stress.
+    /// Of pause, stress, advance.
     std::int32_t milliseconds = 100;
 
     /// Of await_messages.

@@ -204,6 +204,7 @@ inline void read_members(json::Fields& fields, Step& into) {
             fields.optional("records", into.records);
             break;
         case Step::Kind::pause:
+        case Step::Kind::advance:
             fields.required("milliseconds", into.milliseconds);
             break;
         case Step::Kind::await_messages:

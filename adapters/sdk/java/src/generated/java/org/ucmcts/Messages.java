@@ -320,9 +320,12 @@ final class Messages {
             new Kind("stress",
                     needs("refs", list(TEXT)),
                     may("milliseconds", INT32, 100L),
+                    may("thread", orNull(TEXT), null)),
+            new Kind("advance",
+                    needs("milliseconds", INT32),
                     may("thread", orNull(TEXT), null)));
 
-    /** One of 25 kinds of objects; each method says which kinds have the field. */
+    /** One of 26 kinds of objects; each method says which kinds have the field. */
     static final class Step extends Node {
         private Step(Map<String, Object> fields) {
             super(fields);
@@ -436,7 +439,7 @@ final class Messages {
             return number("records");
         }
 
-        /** Of pause, stress. */
+        /** Of pause, stress, advance. */
         long milliseconds() {
             return number("milliseconds");
         }

@@ -87,6 +87,11 @@ public abstract class Adapter<C> {
         throw new NotOffered();
     }
 
+    /** Lets so much virtual time pass for all components at once. */
+    public void advance(C manager, int milliseconds) throws Exception {
+        throw new NotOffered();
+    }
+
     /** Frees what the adapter itself holds; called last, unless threads are stuck. */
     public void close() throws Exception {}
 

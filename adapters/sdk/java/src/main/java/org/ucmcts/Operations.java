@@ -160,6 +160,10 @@ final class Operations<C> {
             case "read_log" -> {
                 return () -> readLog(step.number("records"));
             }
+            case "advance" -> {
+                int milliseconds = (int) step.number("milliseconds");
+                return silent(() -> adapter.advance(manager, milliseconds));
+            }
             default -> throw new IllegalArgumentException(step.text("op"));
         }
     }
