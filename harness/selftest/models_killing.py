@@ -76,5 +76,5 @@ def _examined(requirement: str, what: str, spoilt: Iterable[Spoilt]) -> MutantRe
 
 
 def _kill(mutation: Mutation, result: ModelResult, every_way: bool, ways: int) -> Kill:
-    told = result.expected, result.observed
-    return Kill(result.requirement, f"models: {mutation.what}", result.check, *told, (), every_way, ways)
+    shown_by = result.expected, result.observed
+    return Kill(result.requirement, f"models: {mutation.what}", result.check, *shown_by, (), every_way, ways)

@@ -27,7 +27,7 @@ _REFERENCE = replace(reference(), read=functools.lru_cache(8192)(read_model))
 """Mutants differ in what they make of models, seldom in how they read them."""
 
 SOME = 4
-"""Models of generators that are gone through before it is asked whether a mutant is found out."""
+"""Models of generators that are processed before the verdicts are checked for the first time."""
 
 _PROFILES: dict[str, str] = {task: profile for profile, task in TASKS.items()}
 
@@ -63,7 +63,7 @@ def examine_toolchain(subject: ToolChainSubject) -> MutantResult | VariantResult
     statement = declaring(derived.declares)
     program = derived.derive(_REFERENCE)
     kills: dict[str, Kill] = {}
-    asked = 0
+    models = 0
     trouble = ""
     for names in _batches(derived, program):
         examination = examination_for(profile, statement, Renaming(), models=names)
@@ -72,7 +72,7 @@ def examine_toolchain(subject: ToolChainSubject) -> MutantResult | VariantResult
             pass
         campaign.judge()
         report = campaign.report()
-        asked += report.models
+        models += report.models
         kills |= {r.id: _kill(r) for r in report.requirements if r.verdict == "fail" and r.id not in kills}
         unsettled = [r.id for r in report.requirements if r.verdict in ("error", "inconclusive")]
         trouble = f"undecided: {', '.join(unsettled)}" if unsettled and names is None else ""
@@ -81,9 +81,9 @@ def examine_toolchain(subject: ToolChainSubject) -> MutantResult | VariantResult
     seconds = round(time.monotonic() - began, 3)
     failed = tuple(kills[requirement] for requirement in sorted(kills))
     if not subject.breaks:
-        return VariantResult(subject.name, failed, (), asked, seconds, trouble)
+        return VariantResult(subject.name, failed, (), models, seconds, trouble)
     clause = subject.breaks[0].removeprefix("R-").rpartition("-")[0]
-    return MutantResult(subject.name, subject.lie, clause, subject.breaks, subject.also, failed, (), asked, seconds)
+    return MutantResult(subject.name, subject.lie, clause, subject.breaks, subject.also, failed, (), models, seconds)
 
 
 def _batches(derived: Mutant | Variant, program: Program) -> list[tuple[str, ...] | None]:
@@ -126,8 +126,8 @@ def declaring(readings: tuple[str, ...]) -> Statement:
 def _kill(result: RequirementResult) -> Kill:
     """The reference tool chain fails nothing, so whatever a mutant fails is where it parts from it."""
     finding = result.findings[0].finding
-    told = finding.expected, finding.observed
-    return Kill(result.id, finding.cause, finding.rule, *told, (), True, len(result.findings))
+    difference = finding.expected, finding.observed
+    return Kill(result.id, finding.cause, finding.rule, *difference, (), True, len(result.findings))
 
 
 def _doc(one: Mutant | Variant) -> str:

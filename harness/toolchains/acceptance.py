@@ -66,13 +66,13 @@ class Acceptance:
 
     def __init__(self, statement: Statement, renaming: Renaming, expression: str = "") -> None:
         """``expression`` selects questions by words of their names or requirements, and the twins of those."""
-        asked = [q for q in questions() if all(map(statement.meets, q.under))]
+        chosen = [q for q in questions() if all(map(statement.meets, q.under))]
         words = [word.strip().lower() for word in expression.split(" or ") if word.strip()]
         if words:
-            wanted = [q for q in asked if any(w in f"{q.name} {q.requirement}".lower() for w in words)]
+            wanted = [q for q in chosen if any(w in f"{q.name} {q.requirement}".lower() for w in words)]
             twins = {q.twin for q in wanted}
-            asked = [q for q in asked if q in wanted or q.name in twins]
-        self._questions = renamed(asked, renaming)
+            chosen = [q for q in chosen if q in wanted or q.name in twins]
+        self._questions = renamed(chosen, renaming)
         self.not_applicable = _not_applicable(statement)
         self._texts = {q.name: q.text for q in self._questions}
 
@@ -121,14 +121,14 @@ def _not_applicable(statement: Statement) -> Mapping[str, str]:
     }
 
 
-def renamed(asked: Sequence[Question], renaming: Renaming) -> list[Question]:
-    """The questions ``asked`` as a tool chain gets them."""
+def renamed(chosen: Sequence[Question], renaming: Renaming) -> list[Question]:
+    """The questions ``chosen`` as a tool chain gets them."""
     if renaming == Renaming():
-        return list(asked)
-    texts = {q.name: renaming.apply(q.text) for q in asked}
+        return list(chosen)
+    texts = {q.name: renaming.apply(q.text) for q in chosen}
     return [
         replace(q, text=texts[q.name], changed=differing_lines(texts[q.twin], texts[q.name]) if q.twin else q.changed)
-        for q in asked
+        for q in chosen
     ]
 
 
@@ -140,12 +140,12 @@ def _answer(response: Response) -> Answer:
     return Answer(None, first_line=f"{incident.kind}: {incident.detail}", incident=own)
 
 
-def judge(asked: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judgement]:
+def judge(chosen: Sequence[Question], answers: Mapping[str, Answer]) -> list[Judgement]:
     """A judgement for each question that was answered."""
-    legal = {q.name: q.text for q in asked if q.due == "accept" and q.name in answers and _may_count(q, answers)}
+    legal = {q.name: q.text for q in chosen if q.due == "accept" and q.name in answers and _may_count(q, answers)}
     minimal = MinimalRefusals(legal, {name for name in legal if answers[name].accepted is False})
     unspecified = refused_for_spelling(legal, {name: answers[name].accepted for name in legal})
-    return [_judged(q, answers, minimal, unspecified) for q in asked if q.name in answers]
+    return [_judged(q, answers, minimal, unspecified) for q in chosen if q.name in answers]
 
 
 def _may_count(q: Question, answers: Mapping[str, Answer]) -> bool:

@@ -30,8 +30,8 @@ class Difference:
 
 @dataclass(frozen=True)
 class Comparison:
-    """How often each requirement was looked at, and what broke it. ``readings`` are the values of options that were met,
-    ``unjudged`` says of requirements why they were not looked at, or not everywhere. ``remarks`` are for the report's effort.
+    """How often each requirement was exercised, and what broke it. ``readings`` are the values of options that were met,
+    ``unjudged`` says why requirements were not exercised, or not everywhere. ``remarks`` are for the report's effort.
     """
 
     exercised: Mapping[str, int]

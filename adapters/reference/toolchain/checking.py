@@ -1,4 +1,4 @@
-"""Is a model well-formed? Walks it once and asks the rules that were registered for each kind of element."""
+"""Is a model well-formed? Walks it once and applies the rules that were registered for each kind of element."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Rule:
     """``look`` is asked about each element of ``kinds``, with the scope in which its references are looked up.
 
     ``under`` is the reading (``option=value``) that asks for the rule where the text leaves it open, and empty elsewhere; ``also``
-    are requirements that say the same in part, so that whoever lacks the rule may break them, too.
+    are requirements that say the same in part, so that a tool chain without the rule may break them, too.
     """
 
     name: str
@@ -84,7 +84,7 @@ def check(model: Model, file: str, rules: Mapping[str, Rule], plans: Plans) -> l
 
 
 class _Plan(NamedTuple):
-    """What is done with elements of one kind: who looks at them, and which fields hold what is looked at next."""
+    """What is done with elements of one kind: their rules, and the fields that hold the next elements."""
 
     looks: tuple[tuple[Rule, Look], ...]
     fields: tuple[str, ...]

@@ -42,7 +42,7 @@ def command_line(program: Program) -> click.Group:
     )
     def check(models: tuple[Path, ...]) -> None:
         """Say what is wrong with each MODEL for itself, a line each: FILE:LINE: error: MESSAGE [REQUIREMENT, clause]."""
-        _tell([diagnostic for model in models for diagnostic in program.check(_read(model), str(model))[1]])
+        _print([diagnostic for model in models for diagnostic in program.check(_read(model), str(model))[1]])
 
     for task, what in _GENERATED.items():
         group.add_command(_generating(program, task, what))
@@ -54,7 +54,7 @@ def _generating(program: Program, task: str, what: str) -> click.Command:
     @_model
     @_out
     def generate(model: Path, out: Path) -> None:
-        files, told = program.generate(task, _read(model), str(model))
+        files, diagnostics = program.generate(task, _read(model), str(model))
         for name, content in files.items():
             path = out / name
             try:
@@ -62,7 +62,7 @@ def _generating(program: Program, task: str, what: str) -> click.Command:
                 path.write_text(content, encoding="utf-8")
             except OSError as error:
                 raise click.ClickException(f"{path} cannot be written: {error.strerror}; name another folder") from None
-        _tell(told)
+        _print(diagnostics)
 
     return generate
 
@@ -78,10 +78,10 @@ def _read(path: Path) -> bytes:
     return text
 
 
-def _tell(told: list[Diagnostic]) -> None:
-    for diagnostic in told:
+def _print(diagnostics: list[Diagnostic]) -> None:
+    for diagnostic in diagnostics:
         click.echo(str(diagnostic))
-    if told:
+    if diagnostics:
         sys.exit(REFUSED)
 
 

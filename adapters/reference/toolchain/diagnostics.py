@@ -17,5 +17,5 @@ class Diagnostic:
 
     def __str__(self) -> str:
         clause = self.clause or self.requirement.removeprefix("R-").rpartition("-")[0]
-        told = ", ".join(filter(None, (self.requirement, f"clause {clause}" if clause else "")))
-        return f"{self.file}:{self.line}: error: {self.message}{f' [{told}]' if told else ''}"
+        rule = ", ".join(filter(None, (self.requirement, f"clause {clause}" if clause else "")))
+        return f"{self.file}:{self.line}: error: {self.message}{f' [{rule}]' if rule else ''}"

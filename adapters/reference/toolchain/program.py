@@ -28,16 +28,16 @@ class Program:
     def check(self, text: bytes, file: str) -> tuple[Model | None, list[Diagnostic]]:
         """The model in ``text``, and what is wrong with it; ``file`` is what diagnostics call it."""
         reading = self.read(text, file)
-        told = [Diagnostic(file, p.line, p.message, clause=p.clause) for p in reading.problems]
-        if reading.model is None or told:
-            return None, told
-        told = check(reading.model, file, self.rules, self._plans)
-        return (None if told else reading.model), told
+        diagnostics = [Diagnostic(file, p.line, p.message, clause=p.clause) for p in reading.problems]
+        if reading.model is None or diagnostics:
+            return None, diagnostics
+        diagnostics = check(reading.model, file, self.rules, self._plans)
+        return (None if diagnostics else reading.model), diagnostics
 
     def generate(self, task: str, text: bytes, file: str) -> tuple[Mapping[str, str], list[Diagnostic]]:
         """The files that ``task`` makes of the model in ``text``; none if something is wrong with it."""
-        model, told = self.check(text, file)
-        return (self.generators[task](model) if model is not None else {}), told
+        model, diagnostics = self.check(text, file)
+        return (self.generators[task](model) if model is not None else {}), diagnostics
 
 
 def all_rules() -> Mapping[str, Rule]:

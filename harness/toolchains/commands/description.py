@@ -18,7 +18,7 @@ from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import DocumentError, convert, read_toml
 
 Task = Literal["check", "idl", "cpp11", "cpp03"]
-"""What a tool chain can be asked to do with a model."""
+"""What a tool chain can do with a model."""
 
 MODEL, MODELS, OUT = "{model}", "{models}", "{out}"
 
@@ -117,7 +117,7 @@ _OF_CPP = ("compiler", "include", "headers", "sources", "libraries")
 
 
 def _check_keys(path: Path, document: dict[str, Any], lines: dict[str, int]) -> None:
-    """Tell keys that mean nothing, and commands that are no lists, before their values are looked at."""
+    """Tell keys that mean nothing, and commands that are no lists, before their values are read."""
     kinds: dict[str, type[msgspec.Struct]] = {
         **dict.fromkeys(("check", "idl", "cpp11", "cpp03"), Command),
         "dialect": Dialect,
@@ -132,8 +132,8 @@ def _check_keys(path: Path, document: dict[str, Any], lines: dict[str, int]) -> 
                 hint = f"did you mean '{close[0]}'?" if close else f"there is {', '.join(known)}"
                 raise DocumentError(path, lines.get(f"{prefix}{key}"), f"there is no key '{str(key)[:60]}'; {hint}")
             if key in _OF_CPP and prefix in ("check.", "idl."):
-                told = f"{key} says how C++ is compiled; it belongs in [cpp11] or [cpp03]"
-                raise DocumentError(path, lines.get(f"{prefix}{key}"), told)
+                message = f"{key} says how C++ is compiled; it belongs in [cpp11] or [cpp03]"
+                raise DocumentError(path, lines.get(f"{prefix}{key}"), message)
         if kind is Command:
             _check_lists(path, prefix, table, lines)
 
@@ -148,8 +148,8 @@ def _check_lists(path: Path, prefix: str, table: dict[str, Any], lines: dict[str
         place = lines.get(f"{prefix}{key}")
         if isinstance(value, (str, int, float)):
             each = "the numbers" if key == "refuses" else "each word in quotes"
-            told = f"{called} is a list: write {each}, with commas between them, in brackets"
-            raise DocumentError(path, place, told)
+            message = f"{called} is a list: write {each}, with commas between them, in brackets"
+            raise DocumentError(path, place, message)
         if isinstance(value, list) and any(isinstance(word, str) and "\0" in word for word in value):
             raise DocumentError(path, place, f"{called} holds the character U+0000, which no word can; take it out")
 
@@ -174,8 +174,8 @@ def _check_dialect(path: Path, dialect: Dialect, lines: dict[str, int]) -> None:
         for key, name in given.items():
             if not _is_name(name):
                 line = lines.get(f"dialect.{table}.{key}") or lines.get(f"dialect.{table}")
-                told = f"'{name[:60]}' for {key} is no name of XML; write letters, digits, '_', '-' and '.', a letter first"
-                raise DocumentError(path, line, told)
+                message = f"'{name[:60]}' for {key} is no name of XML; write letters, digits, '_', '-' and '.', a letter first"
+                raise DocumentError(path, line, message)
     for key, word in dialect.literals.items():
         if not word.isprintable():
             line = lines.get(f"dialect.literals.{key}") or lines.get("dialect.literals")
@@ -201,8 +201,10 @@ def _check_distinct(path: Path, dialect: Dialect, lines: dict[str, int]) -> None
             if name in called:
                 key = keys[0] if keys else next(k for k, v in dialect.attributes.items() if v == name)
                 line = lines.get(f"dialect.attributes.{key}") or lines.get("dialect.attributes")
-                told = f"{called[name]} and {attribute} of {spelling.tag} are both called '{name}'; give them two names"
-                raise DocumentError(path, line, told)
+                message = (
+                    f"{called[name]} and {attribute} of {spelling.tag} are both called '{name}'; give them two names"
+                )
+                raise DocumentError(path, line, message)
             called[name] = attribute
 
 

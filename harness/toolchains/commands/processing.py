@@ -89,20 +89,20 @@ class CommandLine:
             ended = run(filled, folder, self._toolchain)
         if ended.incident or _odd_status(ended.status, command) or _died(ended):
             return None
-        told: dict[str, list[str]] = {str(file): [] for file in files}
+        printed: dict[str, list[str]] = {str(file): [] for file in files}
         for line in ended.output.splitlines():
             found = re.match(command.diagnostic, line)
             if (
                 found
                 and not _REMARK.match(line[found.end() :])
-                and (named := str(Path(folder, found["file"] or ""))) in told
+                and (named := str(Path(folder, found["file"] or ""))) in printed
             ):
-                told[named].append(line.replace(named, MODEL_FILE))
-        if (ended.status == 0) == any(told.values()):
+                printed[named].append(line.replace(named, MODEL_FILE))
+        if (ended.status == 0) == any(printed.values()):
             return None
         shown = tuple(word.replace(MODELS, MODEL_FILE) for word in _by_hand(command, words))
         responses = []
-        for (name, text), lines in zip(models, told.values(), strict=True):
+        for (name, text), lines in zip(models, printed.values(), strict=True):
             output = "".join(f"{line}\n" for line in lines)
             processed = Processed(name, task, text, shown, ended.status if lines else 0, output)
             responses.append(Response(processed, not lines, named_lines(output, command.diagnostic, text)))
@@ -154,16 +154,16 @@ class InProcess:
         files: Mapping[str, str] = {}
         try:
             if task == "check":
-                _, told = self._program.check(text.encode(), MODEL_FILE)
+                _, diagnostics = self._program.check(text.encode(), MODEL_FILE)
             else:
-                files, told = self._program.generate(task, text.encode(), MODEL_FILE)
+                files, diagnostics = self._program.generate(task, text.encode(), MODEL_FILE)
         except Exception as problem:  # noqa: BLE001 - a mutant may do anything
             incident = Incident("crash", f"{type(problem).__name__}: {problem}")
             return Response(Processed(name, task, text, ("ucm-cts-toolchain", task), None, "", incident), None)
-        output = "".join(f"{diagnostic}\n" for diagnostic in told)
-        status = 1 if told else 0
+        output = "".join(f"{diagnostic}\n" for diagnostic in diagnostics)
+        status = 1 if diagnostics else 0
         processed = Processed(name, task, text, ("ucm-cts-toolchain", task, MODEL_FILE), status, output)
-        return Response(processed, not told, frozenset(diagnostic.line for diagnostic in told), files)
+        return Response(processed, not diagnostics, frozenset(diagnostic.line for diagnostic in diagnostics), files)
 
 
 def named_lines(output: str, diagnostic: str, model: str) -> frozenset[int]:

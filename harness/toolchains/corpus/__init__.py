@@ -1,1 +1,1 @@
-"""Models that tool chains are asked about: hand-written cases, legal models, and what operators make of them."""
+"""The models that test tool chains: hand-written cases, legal models, and what operators make of them."""

@@ -72,7 +72,7 @@ def _whole_models() -> Iterator[Question]:
 
 
 def _of_operators(legal: Sequence[Question]) -> Iterator[Question]:
-    """What the operators make of legal models that are nobody's variants."""
+    """The questions that the operators make of legal models which are not variants themselves."""
     roots = [(q, etree.fromstring(q.text)) for q in legal if q.due == "accept" and not q.twin]
     for operator in load_operators().values():
         yield from _of_operator(operator, roots)

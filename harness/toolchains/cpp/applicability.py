@@ -19,7 +19,7 @@ MODELS = SUITE / "models" / "mapping"
 
 @functools.cache
 def stand_for() -> Mapping[str, frozenset[str]]:
-    """The requirements that each rule stands for: those that the models of the mappings make it look at."""
+    """The requirements that each rule stands for: those that it checks with the models of the mappings."""
     found: dict[str, set[str]] = {"cpp_headers": set(HEADERS.values()), GENERATED[1]: {GENERATED[0]}}
     for path in sorted(MODELS.glob("*.xml")):
         model = read_model(path.read_bytes(), path.name).model
@@ -31,5 +31,5 @@ def stand_for() -> Mapping[str, frozenset[str]]:
 
 def not_applicable(statement: Statement) -> Mapping[str, str]:
     """The requirements of clause 13 that do not apply to this vendor, and why."""
-    told = {r.id: why_not(r, statement) for r in load_requirements() if r.rules and r.id.startswith("R-13")}
-    return {requirement: why[1] for requirement, why in told.items() if why is not None}
+    reasons = {r.id: why_not(r, statement) for r in load_requirements() if r.rules and r.id.startswith("R-13")}
+    return {requirement: why[1] for requirement, why in reasons.items() if why is not None}

@@ -150,17 +150,17 @@ def compile_text(
     words += ["-O0", str(source), *linked, "-o", str(made)] if made else ["-fsyntax-only", str(source)]
     structured = [*words, "-fmax-errors=0", "-fdiagnostics-format=json"]
     ended = run(structured, folder, compiler)
-    told = disguise.taken_off(ended.errors)
-    found = _read_json(told)
+    text = disguise.taken_off(ended.errors)
+    found = _read_json(text)
     if ended.status not in (0, None) and (not found or not all(is_own(e.file) for e in found)):
-        all_of_them = ["-ferror-limit=0"] if "clang" in told.partition(":")[0] else []
+        all_of_them = ["-ferror-limit=0"] if "clang" in text.partition(":")[0] else []
         ended = run([*words, *all_of_them], folder, compiler)
-        told = disguise.taken_off(ended.errors)
-        found = read_errors(told)
+        text = disguise.taken_off(ended.errors)
+        found = read_errors(text)
     if ended.problem:
         return Compiled(tuple(found or ()), ended.problem)
     if ended.status != 0 and not found:
-        line = next((s for s in told.splitlines() if s.strip()), f"status {ended.status}")
+        line = next((s for s in text.splitlines() if s.strip()), f"status {ended.status}")
         return Compiled((), f"the compiler failed: {line.strip()[:300]}")
     return Compiled(tuple(found or ()))
 

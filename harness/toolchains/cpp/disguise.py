@@ -14,7 +14,7 @@ _NAME = re.compile(r"\bucts(?![A-Za-z0-9])")
 
 
 class Disguise:
-    """Names of one compilation: ``ucts``, with which all names of ours begin, and the tags get a word that nobody can guess."""
+    """Names of one compilation: ``ucts``, with which all names of ours begin, and the tags get a random word."""
 
     def __init__(self) -> None:
         self._word = secrets.token_hex(8)
@@ -29,12 +29,12 @@ class Disguise:
         ours = _OURS.sub(lambda line: _NAME.sub(self.name, line[1]), text)
         return _ISSUED.sub(rf'\1@{self._word}"', ours)
 
-    def taken_off(self, told: str) -> str:
-        """What was ``told`` of it, in the names of ``text``; tags that were not issued are none any more."""
+    def taken_off(self, message: str) -> str:
+        """What was ``message`` of it, in the names of ``text``; tags that were not issued are none any more."""
         own = re.sub(
             rf"({TAG})(@{self._word})?",
             lambda tag: tag[1] if tag[2] else tag[1].replace("#", " "),
-            told,
+            message,
             flags=re.ASCII,
         )
         return own.replace(self.name, "ucts")

@@ -72,19 +72,19 @@ class Answers(Value, frozen=True):
 
 
 class NotThere(Exception):
-    """What is to be looked at is not declared; another check tells."""
+    """The subject is not declared, which another check reports."""
 
 
 def answers(request: Request) -> Answers:
     """What libclang has to say of ``request``."""
     if cindex is None:
         return Answers(problem="libclang cannot be used: install the package libclang")
-    told = Answers(problem="nothing was tried")
+    answers = Answers(problem="nothing was tried")
     for options in request.attempts:
-        told = _Tree(request, options).answers()
-        if not told.problem:
+        answers = _Tree(request, options).answers()
+        if not answers.problem:
             break
-    return told
+    return answers
 
 
 class _Tree:

@@ -26,7 +26,7 @@ from ucm_cts.reference_models.mapping.cpp.classes import Class, Connected
 from ucm_cts.reference_models.mapping.cpp.expected import Expected, ExpectedCpp
 
 Listed = tuple[list[Difference], dict[str, int], dict[str, str]]
-"""Differences, how often each requirement was looked at, and why others were not."""
+"""Differences, how often each requirement was exercised, and why others were not."""
 
 RULE = "cpp_unexpected"
 LISTED = (
@@ -52,13 +52,13 @@ def listed(expected: ExpectedCpp, headers: Headers, compiler: Compiler) -> Liste
     if not wanted:
         return [], {}, {}
     disguise = Disguise()
-    told = _asked(_request(wanted, expected.standard, headers, compiler, disguise), compiler)
-    if told.problem:
-        return [], {}, {e.requirement: told.problem for e in wanted}
+    answers = _answered(_request(wanted, expected.standard, headers, compiler, disguise), compiler)
+    if answers.problem:
+        return [], {}, {e.requirement: answers.problem for e in wanted}
     differences: list[Difference] = []
     counted: Counter[str] = Counter()
     unjudged: dict[str, str] = {}
-    for one, answer in zip(wanted, told.answers, strict=True):
+    for one, answer in zip(wanted, answers.answers, strict=True):
         if answer.missing:
             unjudged.setdefault(one.requirement, disguise.taken_off(answer.missing))
             continue
@@ -86,7 +86,7 @@ def _says(one: Expected) -> str:
     return "PortElementObject has no operations"
 
 
-def _asked(request: Request, compiler: Compiler) -> Answers:
+def _answered(request: Request, compiler: Compiler) -> Answers:
     """What the program answers; it goes beyond no limit that a compiler has."""
     with tempfile.TemporaryDirectory(prefix="ucm-cts-cpp-") as folder:
         path = Path(folder) / "request.json"
@@ -95,13 +95,13 @@ def _asked(request: Request, compiler: Compiler) -> Answers:
     if ended.problem:
         return Answers(problem=f"libclang does not come to an end with the headers: {ended.problem}")
     try:
-        told = msgspec.json.decode(ended.output, type=Answers)
+        answers = msgspec.json.decode(ended.output, type=Answers)
     except msgspec.MsgspecError:
         last = next((s for s in reversed(ended.errors.splitlines()) if s.strip()), "without a word")
         return Answers(problem=f"libclang does not survive the headers: status {ended.status}, {last.strip()[:200]}")
-    if not told.problem and [a.number for a in told.answers] != [q.number for q in request.questions]:
+    if not answers.problem and [a.number for a in answers.answers] != [q.number for q in request.questions]:
         return Answers(problem="libclang cannot be used: it left questions without an answer")
-    return told
+    return answers
 
 
 def _request(

@@ -1,4 +1,4 @@
-"""How annotations are looked at: those of clause 14 as such, and those that data types of the model need."""
+"""Checks annotations: those of clause 14 as such, and those that data types of the model need."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ def _value(annotation: Annotation, scope: Scope) -> Worth | None:
 
 
 def indexed(vendor: Vendor, fact: Indexed) -> list[Wrong]:
-    """Whether the index type is told where it is needed, is an integer, and is the model's."""
+    """Whether the index type is given where it is needed, is an integer, and is the model's."""
     hit = here(vendor, fact.path, (Typedef, Enum))
     declaration = hit.entry.declaration
     found = [a for a in annotations_of(declaration) if last(a.name) == "indextype"]
@@ -200,7 +200,7 @@ def _kinds(vendor: Vendor, annotation: Annotation, scope: Scope) -> set[str] | N
 
 
 def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
-    """Whether the values of enumerators can be told from the IDL."""
+    """Whether the values of enumerators follow from the IDL."""
     if vendor.reading("idl-enumerator-values") not in ("observed", "default-value"):
         raise NotExercised
     hit = here(vendor, fact.path, Enum)
@@ -253,7 +253,7 @@ def _parsed(text: str, scope: Scope) -> Worth | None:
 
 
 def defaulted(vendor: Vendor, fact: Defaulted) -> list[Wrong]:
-    """Whether the default value that is told, if one is, is the model's."""
+    """Whether the default value, if one is given, is the model's."""
     hit = here(vendor, fact.path, Attribute)
     declaration = hit.entry.declaration
     found: Sequence[Annotation] = [

@@ -1,6 +1,6 @@
 """Compares a vendor's IDL with what clause 12 makes of a model: by meaning, so text, order and spelling are free where IDL's are.
 
-Facts about what is not there are left alone, because one fact says that it is missing; so one defect is told once.
+One fact reports a missing declaration; further facts about it are not exercised, so one defect is reported once.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ CHECKS = {
     "idl_interactions": "Nothing is made of connectors and port types.",
     "idl_standard": "Declarations that clause 12 prints are as printed, wherever they stand.",
 }
-"""The checks that the catalogue names among its rules, and what each looks at."""
+"""The checks that the catalogue names among its rules, and what each checks."""
 
 
 def compare(
@@ -45,7 +45,7 @@ def compare(
     """Compare the vendor's ``files`` (name to text) with what is ``expected`` of them under the ``readings`` declared.
 
     ``readings`` maps options of ``suite/interpretations`` to values; what is not named counts as its first value.
-    ``second_opinion`` is asked whether files are IDL in which nothing else is wrong. Never raises for whatever the files hold.
+    ``second_opinion`` says whether files are IDL in which nothing else is wrong. Never raises for whatever the files hold.
     """
     read = read_files(files)
     vendor = Vendor(build(read.declarations), expected, readings, bool(read.problems), bool(read.missing))
@@ -61,11 +61,11 @@ def compare(
             if read.problems:
                 unjudged[fact.requirement] = f"not all files can be read: {read.problems[0]}"
             continue
-        told = [_difference(fact, one) for one in wrong]
+        found = [_difference(fact, one) for one in wrong]
         placed = {MISPLACED} if isinstance(fact, Declares) and len(fact.path) > 1 else set()
-        for requirement in {fact.requirement, *placed, *(one.requirement for one in told)}:
+        for requirement in {fact.requirement, *placed, *(one.requirement for one in found)}:
             exercised[requirement] = exercised.get(requirement, 0) + 1
-        differences += told
+        differences += found
     remarks: tuple[str, ...] = ()
     if second_opinion is not None and not differences:  # what is wrong already is told, and often why omniidl complains
         second = second_opinion(files)

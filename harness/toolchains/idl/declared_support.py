@@ -1,4 +1,4 @@
-"""Requirements of profile idl that are asked only of vendors who declare that they do such things at all."""
+"""Requirements of profile idl that apply only to vendors who declare support for what they are about."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ASKED_OF: dict[str, tuple[str, ...]] = {
     "R-12.11.3-*": ("standard-idl=printed-with-timers",),
     "R-14-06": ("idl-enumerator-values=default-value", "idl-attribute-defaults=annotated"),
 }
-"""By patterns of requirements: the readings (``option=value``) of which one must be declared. Whoever may leave a thing out keeps or
+"""By patterns of requirements: the readings (``option=value``) of which one must be declared. A vendor who may leave a thing out keeps or
 breaks nothing by it, so without such a declaration there would be no verdict.
 """
 

@@ -1,4 +1,4 @@
-"""How each kind of expectation is looked at: what is wrong with the vendor's IDL, if anything."""
+"""Checks each kind of expectation: what is wrong with the vendor's IDL, if anything."""
 
 from __future__ import annotations
 
@@ -159,7 +159,7 @@ def _unsigned_long_long(vendor: Vendor, found: Type, scope: Scope) -> bool:
 
 
 def selects(vendor: Vendor, fact: Selects) -> list[Wrong]:
-    """Whether a union is told apart by the right type."""
+    """Whether the cases of a union are selected by the right type."""
     hit = here(vendor, fact.path, Union)
     union = hit.entry.declaration
     assert isinstance(union, Union)

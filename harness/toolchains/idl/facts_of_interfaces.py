@@ -1,4 +1,4 @@
-"""How expectations of interfaces are looked at: operations, attributes, ancestors and getters."""
+"""Checks expectations of interfaces: operations, attributes, ancestors and getters."""
 
 from __future__ import annotations
 
@@ -118,9 +118,9 @@ def only(vendor: Vendor, fact: Only) -> list[Wrong]:
 
 
 def _superfluous(vendor: Vendor, hit: Hit, fact: Only) -> list[Hit]:
-    """The interfaces that one inherits from though the model has no such ancestor; none where that cannot be told.
+    """The interfaces that one inherits from though the model has no such ancestor; none where the IDL leaves that open.
 
-    What PortElementObject holds is looked at by itself.
+    Another fact is about the members of PortElementObject.
     """
     ancestors = [vendor.at(path) for path in fact.ancestors]
     if any(one is None for one in ancestors):

@@ -138,8 +138,8 @@ def without_annotations(text: str) -> str:
     return _ANNOTATION.sub(lambda m: m[0] if m["kept"] else re.sub(r"[^\n]", " ", m[0]), text)
 
 
-def _problems(told: str, files: Sequence[str]) -> Iterator[Problem]:
-    for line in told.splitlines():
+def _problems(output: str, files: Sequence[str]) -> Iterator[Problem]:
+    for line in output.splitlines():
         found = re.match(r"(\d+):(\d+): (?!\s)(.*)", line)
         if found and int(found[1]) < len(files) and not found[3].startswith(("Warning", "(")):
             yield Problem(files[int(found[1])], int(found[2]), 1, found[3])

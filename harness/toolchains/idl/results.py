@@ -18,4 +18,4 @@ class Wrong:
 
 
 class NotExercised(Exception):
-    """There is nothing to look at: what a fact is about is not there, and another fact tells."""
+    """The declaration that a fact is about is missing, which another fact reports."""

@@ -63,8 +63,8 @@ def _is_promised(vendor: Vendor, path: tuple[str, ...]) -> bool:
         return False
     if len(path) == 1:
         return vendor.reading("idl-standard-files") == "generated"
-    promises = ("printed-with-timers",) if path[0] == "timer_service" else ("printed", "printed-with-timers")
-    return vendor.reading("standard-idl") in promises
+    readings = ("printed-with-timers",) if path[0] == "timer_service" else ("printed", "printed-with-timers")
+    return vendor.reading("standard-idl") in readings
 
 
 _NOTHING = ExpectedIdl((), {}, {})
@@ -144,8 +144,8 @@ def _other_operations(alike: _Alike, expected: Interface, found: Interface) -> I
             yield Wrong(f"{show_declaration(one)} in interface {expected.name}", observed, place)
     for other in there:
         if all(other.name != one.name for one in due):
-            told = show_declaration(other)
-            yield Wrong(f"no {kind_of(other)} {other.name} in interface {expected.name}", told, other.place)
+            observed = show_declaration(other)
+            yield Wrong(f"no {kind_of(other)} {other.name} in interface {expected.name}", observed, other.place)
 
 
 def _exported(declaration: Declaration) -> bool:

@@ -1,4 +1,4 @@
-"""What a fact is about: found, or not there to be looked at."""
+"""The declaration that a fact is about."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ucm_cts.reference_models.mapping.idl.expectations import Path
 
 
 def here(vendor: Vendor, path: Path, kinds: type[Declaration] | tuple[type[Declaration], ...] = Declaration) -> Hit:
-    """What stands at ``path``. Raises ``NotExercised`` if there is nothing, or something else: another fact tells."""
+    """What stands at ``path``. Raises ``NotExercised`` if there is nothing, or something else, which another fact reports."""
     hit = vendor.at(path)
     if hit is None or not isinstance(hit.entry.declaration, kinds):
         raise NotExercised
@@ -18,5 +18,5 @@ def here(vendor: Vendor, path: Path, kinds: type[Declaration] | tuple[type[Decla
 
 
 def nearest(hit: Hit | None) -> Place:
-    """Where people look for what is missing: at the declaration around it."""
+    """The place of the declaration around a missing one."""
     return hit.entry.declaration.place if hit is not None else Place()

@@ -133,7 +133,7 @@ class Vendor:
         return name == "bool" and self.reading("idl-boolean") != "boolean"
 
     def same(self, found: Type, scope: Scope, expected: Type, bound: Bound = NOTHING) -> bool:
-        """Whether a vendor's type means the expected one. Nobody is held to what the model leaves open."""
+        """Whether a vendor's type means the expected one. What the model leaves open decides nothing."""
         if expected == Basic("") or self.is_open(expected) or self._standard(found, expected):
             return True
         if isinstance(found, Annotated) and not isinstance(expected, Annotated):
@@ -160,7 +160,7 @@ class Vendor:
         return self.meaning(found, scope, bound) == self.expected_meaning(expected)
 
     def is_open(self, expected: Type) -> bool:
-        """Whether it cannot be told what ``expected`` is in the IDL; that it is not there is told elsewhere."""
+        """Whether the IDL leaves open what ``expected`` is. Another fact reports a missing declaration."""
         path = tuple(expected.name.split("::")[1:]) if isinstance(expected, Named) else ()
         if not path or path in self.expected.abstract:
             return False

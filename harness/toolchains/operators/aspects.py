@@ -179,5 +179,5 @@ def no_language_at_all(languages: etree._Element) -> None:
 
 @keeps("R-9.4.4.1-01", at="ProgrammingLanguages")
 def one_more_language(languages: etree._Element) -> None:
-    """A language may be listed that nobody uses."""
+    """A language may be listed that no implementation uses."""
     etree.SubElement(languages, "Language", name="Fortran")

@@ -100,7 +100,7 @@ def end_with_an_api_of_its_own(connection: etree._Element) -> bool:
 
 
 def _stray_port_type(beside: etree._Element) -> etree._Element | None:
-    """A new port type with an element like nobody else's, so that it is another one by its name and by what it holds."""
+    """A new port type with an element that no other has, so that it differs by its name and by what it holds."""
     interface = spare_interface(beside)
     if not interface:
         return None

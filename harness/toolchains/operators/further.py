@@ -1,4 +1,4 @@
-"""The last of several is wrong, where those before it are not: whoever looks at the first ones only is found out."""
+"""Edits of the last of several elements: a tool chain that checks only the first ones accepts them."""
 
 from __future__ import annotations
 

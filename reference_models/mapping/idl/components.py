@@ -65,7 +65,7 @@ def component_facts(subject: Subject, bodies: Sequence[Subject], templates: Temp
         **subject.about("R-12.8.1-06"),
         kind="operation",
         names=(),
-        patterns=(*getters, "get_tp_*"),  # of which there must be, and may not be, is told elsewhere
+        patterns=(*getters, "get_tp_*"),  # another expectation says which must be there
         ancestors=ancestors,
     )
     base = subject.scope.find(component.refines, ComponentType) if component.refines else None

@@ -9,7 +9,7 @@ import msgspec
 
 
 class Place(msgspec.Struct, frozen=True):
-    """Where a declaration's name stands. Lines and columns are counted from 1; 0 if nobody knows."""
+    """Where a declaration's name stands. Lines and columns are counted from 1; 0 if unknown."""
 
     file: str = ""
     line: int = 0

@@ -66,7 +66,7 @@ UNREAD = {
         "R-9.2.4.11-02", "Takes words and fractions for sizes of arrays.", BAD, "ArrayDimension"
     ),
     "greatest_sizes_of_any_kind": Unread(
-        "R-9.2.5.1-02", "Takes words and fractions for greatest sizes.", BAD, "StringType Sequence"
+        "R-9.2.5.1-02", "Takes words and fractions for greatest sizes.", {"bad number"}, "StringType Sequence"
     ),
     # values that are missing
     "integers_of_any_kind": Unread(

@@ -191,9 +191,9 @@ def _startup(body: Body) -> Iterator[str]:
     given = []
     for used in body.required:
         assert used.interface is not None
-        asked = "service" if used.of_policy else "required"
+        kind = "service" if used.of_policy else "required"
         type_ = qualified_class(used.interface, used.bindings)
-        given.append(f"connections.{instance(asked, type_)}({numbers[used.of_policy]})")
+        given.append(f"connections.{instance(kind, type_)}({numbers[used.of_policy]})")
         numbers[used.of_policy] += 1
     name = " connections" if given else ""
     yield f"    static void on_startup(Body& body, const TypedConnections&{name}) {{"

@@ -79,11 +79,11 @@ def _interfaces() -> Iterator[str]:
 def _operation(operation: Operation) -> str:
     result, name, parameters, raised = operation
     taken = ", ".join(f"in {kind} {parameter}" for parameter, kind in parameters.items())
-    told = f"    {result} {name}({taken})"
+    head = f"    {result} {name}({taken})"
     raises = f"raises ({', '.join(raised)})" if raised else ""
     if not raises:
-        return f"{told};"
-    return f"{told} {raises};" if len(told) + len(raises) < _WIDTH else f"{told}\n        {raises};"
+        return f"{head};"
+    return f"{head} {raises};" if len(head) + len(raises) < _WIDTH else f"{head}\n        {raises};"
 
 
 _BEFORE = """\
@@ -196,11 +196,11 @@ def _policies() -> Iterator[str]:
 
 
 def _declaration(declared: Declared) -> str:
-    keyword, told, body = declared
+    keyword, head, body = declared
     if not body:
-        return f"{keyword} {told};"
+        return f"{keyword} {head};"
     members = ",\n".join(body) if keyword == "enum" else "\n".join(f"{member};" for member in body)
-    return f"{keyword} {told} {{\n{indent(members, ' ' * 4)}\n}};"
+    return f"{keyword} {head} {{\n{indent(members, ' ' * 4)}\n}};"
 
 
 STANDARD = "\n".join((_BEFORE, *_interfaces(), *_policies(), "#endif\n"))

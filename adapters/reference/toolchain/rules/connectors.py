@@ -132,9 +132,9 @@ def ports_of_an_item_handle_its_type(connector: ConnectorDefinition, scope: Scop
         if item is None or bound is None:
             continue
         groups = _ports_that_involve(item, connector, scope)
-        told = [any(handles(api, bound) for _, api in group) for group in groups]
-        for group, handled in zip(groups, told, strict=True):
-            if not handled and any(told):
+        handling = [any(handles(api, bound) for _, api in group) for group in groups]
+        for group, handled in zip(groups, handling, strict=True):
+            if not handled and any(handling):
                 port = group[0][0]
                 yield (
                     port,

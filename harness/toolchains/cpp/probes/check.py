@@ -31,7 +31,7 @@ _RESULT = re.compile(r"(begin|kept|broken|over|end) (\d+) ?(.*)")
 
 
 def rule_of(claim: claims.Claim) -> str:
-    """The rule that looks at ``claim``."""
+    """The rule that checks ``claim``."""
     if isinstance(claim, claims.Implemented | claims.Runs):
         return "cpp_body"
     return RULE if isinstance(claim, LISTED) else "cpp_probes"
@@ -39,7 +39,7 @@ def rule_of(claim: claims.Claim) -> str:
 
 @dataclass(frozen=True)
 class Check:
-    """A claim with its probe; ``number`` tells it from others of its translation unit."""
+    """A claim with its probe; ``number`` is unique in the translation unit."""
 
     number: int
     expected: Expected

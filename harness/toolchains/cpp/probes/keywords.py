@@ -26,8 +26,8 @@ def keywords(standard: Standard) -> list[str]:
 
 def redefined(standard: Standard) -> str:
     """Lines that the compiler refuses, with the keyword's name, if headers before them redefine a keyword."""
-    told = (k for k in keywords(standard) if standard == "cpp11" or k not in _OF_STDBOOL)
-    return "".join(f"#ifdef {k}\n#error it redefines the keyword {k}\n#endif\n" for k in told)
+    checked = (k for k in keywords(standard) if standard == "cpp11" or k not in _OF_STDBOOL)
+    return "".join(f"#ifdef {k}\n#error it redefines the keyword {k}\n#endif\n" for k in checked)
 
 
 def keyword_of(message: str) -> str:

@@ -1,4 +1,4 @@
-"""C++ that all probes use, valid in both standards. Nothing of it looks at the headers under test."""
+"""C++ that all probes use, valid in both standards. It does not depend on the headers under test."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from ucm_cts.harness.toolchains.cpp.probes.keywords import without_macros
 
 MOST_PARAMETERS = 8
-"""How many a function may have that probes look at."""
+"""The most parameters of a function that probes check."""
 
 
 def taken_first() -> str:

@@ -305,8 +305,8 @@ class _Comparing:
                 differences.append(self._difference(one, *observed))
         if not differences:  # else it follows from one of these
             for error in self._seen.loose[:1]:
-                told = "; ".join([error.message, *self._linked.left_out])
-                differences.append(self._of_header("what is generated", told, self._place(error)))
+                message = "; ".join([error.message, *self._linked.left_out])
+                differences.append(self._of_header("what is generated", message, self._place(error)))
         found, counted, missing = listing
         found = [d for d in found if not self._is_refuted(d)]
         exercised.update(counted)
@@ -315,9 +315,9 @@ class _Comparing:
 
     def _is_refuted(self, found: Difference) -> bool:
         """Whether a function that libclang found to be pure is defined somewhere: the class could be implemented without it."""
-        asked = {e.requirement for e in self._expected.expected if isinstance(e.claim, claims.NothingElse)}
+        requirements = {e.requirement for e in self._expected.expected if isinstance(e.claim, claims.NothingElse)}
         bodies = (c for c in self._checks if isinstance(c.expected.claim, claims.Implemented))
-        of_class = [c for c in bodies if c.expected.element == found.element and found.requirement in asked]
+        of_class = [c for c in bodies if c.expected.element == found.element and found.requirement in requirements]
         return any(c.number in self._seen.kept and not self._not_judged(c) for c in of_class)
 
     def _observed_of(self, one: Check) -> tuple[str, tuple[tuple[str, int], ...]] | None:

@@ -12,7 +12,7 @@ from ucm_cts.reference_models.mapping.cpp.classes import Class, Connected, Named
 class Text:
     """``declared`` stands at the outermost level, ``run`` in a function that ``ucts::require`` ends; ``says`` is what must hold.
 
-    ``key`` names the implementation that it needs, ``of_functions`` is whether a function is looked at, ``judged_last`` that it
+    ``key`` names the implementation that it needs, ``of_functions`` is whether the claim is about a function, ``judged_last`` that it
     says something only if all functions are as they should be, and ``pure`` that it does so only if the class can be implemented.
     """
 

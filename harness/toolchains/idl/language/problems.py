@@ -26,6 +26,6 @@ class NotIdl(Exception):
         self.problem = problem
 
 
-def problem_at(text: str, at: int, file: str, told: str) -> Problem:
-    """The problem that is ``told`` of the character of ``text`` at index ``at``."""
-    return Problem(file, text.count("\n", 0, at) + 1, at - (text.rfind("\n", 0, at) + 1) + 1, told)
+def problem_at(text: str, at: int, file: str, message: str) -> Problem:
+    """The problem that is ``message`` of the character of ``text`` at index ``at``."""
+    return Problem(file, text.count("\n", 0, at) + 1, at - (text.rfind("\n", 0, at) + 1) + 1, message)
