@@ -119,6 +119,14 @@ def test_links_lead_somewhere(page: Path) -> None:
         assert not anchor or anchor in {re.sub(r"[^\w -]", "", h.lower()).replace(" ", "-") for h in headings}, target
 
 
+@pytest.mark.parametrize("page", sorted((ROOT / "docs").glob("*.md")), ids=lambda page: page.name)
+def test_page_begins_with_five_lines_of_summary(page: Path) -> None:
+    title, empty, *lines = page.read_text().splitlines()
+    assert title.startswith("# ")
+    assert not empty
+    assert lines.index("") == 5
+
+
 @each_page
 def test_excerpts_are_from_their_files(page: Path) -> None:
     for name, excerpt in re.findall(r"(?ms)^<!-- from: (\S+) -->\n```\w+\n(.*?)^```$", page.read_text()):
