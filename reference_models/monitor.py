@@ -33,10 +33,12 @@ from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.operation_effects import apply
+from ucm_cts.reference_models.model.operation_end import conclude
 from ucm_cts.reference_models.model.row_selection import RowSelection
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress
-from ucm_cts.reference_models.properties.declaration import Feature
+from ucm_cts.reference_models.model.runtime import Member
+from ucm_cts.reference_models.properties.declaration import Bound, Feature
 from ucm_cts.reference_models.properties.table import PropertyTable, features_of
 from ucm_cts.reference_models.verdicts import Verdicts
 
@@ -116,7 +118,7 @@ class _TraceReader:
     ) -> None:
         self.monitor = monitor
         self.table = table
-        self.verdicts = Verdicts(scenario, monitor.expected, ics=monitor.ics)
+        self.verdicts = Verdicts()
         self.steps = scenario.steps
         self.runtime = ObservedRuntime(scenario, monitor.ics, "interactions" in features)
         self.ongoing: OperationInProgress | None = None
@@ -130,9 +132,20 @@ class _TraceReader:
     def close(self) -> None:
         """The trace is over."""
         self.runtime.is_over, self.runtime.service_calls = True, None
-        for check in self.table.closed:
-            check(self.verdicts, self.runtime)
+        self.check(self.table.closed)
         self.verdicts.close()
+
+    def check(self, properties: tuple[Bound, ...], *details: object) -> None:
+        """Add what the properties conclude from ``details``."""
+        runtime, add = self.runtime, self.verdicts.add
+        for evaluate, one in properties:
+            add(evaluate(one, runtime, *details))
+
+    def suspend(self) -> None:
+        """Apply to the model what properties concluded."""
+        for member in self.verdicts.suspended:
+            member.suspended = True
+        self.verdicts.suspended.clear()
 
     def thread(self, number: int) -> _Thread:
         """The thread of that number."""
@@ -159,11 +172,15 @@ class _TraceReader:
         return None
 
     def end(self, event: Return | Raise) -> None:
-        ongoing, verdicts, runtime = self.ongoing, self.verdicts, self.runtime
+        ongoing, runtime, add = self.ongoing, self.runtime, self.verdicts.add
         self.interactions.operated(event)
         if ongoing is not None and ongoing.step_number == event.step:
-            for check in self.table.ended[ongoing.operation]:
-                check(verdicts, runtime, ongoing, event)
+            conclude(runtime, ongoing, event, self.monitor.expected)
+            for evaluate, one in self.table.ended[ongoing.operation]:
+                if conclusions := evaluate(one, runtime, ongoing, event):
+                    add(conclusions)
+            if self.verdicts.suspended:
+                self.suspend()
             apply(runtime, ongoing, event)
             runtime.starting.clear()
             runtime.starting_up.clear()
@@ -179,16 +196,14 @@ class _TraceReader:
         calls = thread.calls if thread is not None else None
         if calls and type(step) is s.Invoke:
             call = calls.pop()
-            for check in self.table.answered:
-                check(verdicts, runtime, call, event)
+            self.check(self.table.answered, call, event)
             self.come_back(call, event.n)
 
     def end_connecting(self, step: s.Step, begin: Call, event: Return | Raise) -> None:
         if type(step) in _CONNECTOR_CALLS:
             link = self.interactions.linked(step, begin, event)  # type: ignore[arg-type]
             self.runtime.changed()
-            for check in self.table.linked:
-                check(self.verdicts, self.runtime, link, step, event)
+            self.check(self.table.linked, link, step, event)
         elif isinstance(event, Return):
             self.tell(event)
 
@@ -199,8 +214,7 @@ class _TraceReader:
     def tell(self, event: Return | Pushed | Counted | Paused | Stressed) -> None:
         if isinstance(event, Pushed):
             self.interactions.push(event)
-        for check in self.table.told:
-            check(self.verdicts, self.runtime, event)
+        self.check(self.table.told, event)
 
     def paused(self, event: Paused) -> None:
         self.interactions.pauses.append(event)
@@ -221,9 +235,14 @@ class _TraceReader:
         history = self.histories.get(body)
         if history is None:
             history = self.histories[body] = CallbackHistory()
-        ongoing, verdicts, runtime = self.ongoing, self.verdicts, self.runtime
-        for check in self.table.entered[hook]:
-            check(verdicts, runtime, ongoing, event, history)
+        ongoing, runtime, add = self.ongoing, self.runtime, self.verdicts.add
+        for evaluate, one in self.table.entered[hook]:
+            if conclusions := evaluate(one, runtime, ongoing, event, history):
+                add(conclusions)
+        if self.verdicts.suspended:
+            self.suspend()
+        if not self.verdicts.findings:
+            self.check(self.table.unclear[hook], ongoing, event, history)
         history.add(hook, event.n)
         if hook == "on_startup":
             runtime.startups[body] = event.n, event.thread
@@ -263,21 +282,22 @@ class _TraceReader:
         thread.served.append(call)
         body = event.component, event.instance
         thread.inside.append(body)
-        verdicts, runtime = self.verdicts, self.runtime
+        runtime, add = self.runtime, self.verdicts.add
         execution, met = self.executions.begin(event, call)
-        for check in self.table.began:
-            check(verdicts, runtime, execution, met)
+        for evaluate, one in self.table.began:
+            if conclusions := evaluate(one, runtime, execution, met):
+                add(conclusions)
         if hook == "run":
             runtime.last_run[body] = event.n
             return
         if call is not None:
             call.entries.append((event, None))
         if delivery is not None:
-            for check in self.table.delivered:
-                check(verdicts, runtime, delivery)
+            self.check(self.table.delivered, delivery)
         else:
-            for check in self.table.called[call.by if call is not None else "nobody"]:
-                check(verdicts, runtime, self.ongoing, event, call)
+            for evaluate, one in self.table.called[call.by if call is not None else "nobody"]:
+                if conclusions := evaluate(one, runtime, self.ongoing, event, call):
+                    add(conclusions)
         member = runtime.bodies.get(body)
         if member is not None and member.operational:
             member.served = True
@@ -300,8 +320,7 @@ class _TraceReader:
             call.close(event)
         execution = self.executions.end(event)
         if execution is not None:
-            for check in self.table.over:
-                check(self.verdicts, self.runtime, execution, event.n)
+            self.check(self.table.over, execution, event.n)
 
     def call_behind(self, event: Enter, own: BusinessCall | None) -> BusinessCall | None:
         """The call of another thread that seems to have led to this entry, else this thread's ``own``."""
@@ -330,20 +349,21 @@ class _TraceReader:
         if not calls:
             return
         call = calls.pop()
+        runtime, add = self.runtime, self.verdicts.add
         if call.request is None or call.request.method is None:
-            for check in self.table.replied:
-                check(self.verdicts, self.runtime, call, event)
+            for evaluate, one in self.table.replied:
+                if conclusions := evaluate(one, runtime, call, event):
+                    add(conclusions)
         else:
             completed = self.interactions.reply(event)
             if completed is not None:
-                for check in self.table.completed:
-                    check(self.verdicts, self.runtime, completed)
+                self.check(self.table.completed, completed)
         self.come_back(call, event.n)
 
     def come_back(self, call: BusinessCall, end: int) -> None:
         waited = self.executions.answered(call)
-        for check in self.table.served if waited is not None else ():
-            check(self.verdicts, self.runtime, call, waited, end)
+        if waited is not None:
+            self.check(self.table.served, call, waited, end)
 
     def held(self, event: Held) -> None:
         self.executions.hold(event)
@@ -364,16 +384,13 @@ class _TraceReader:
         if isinstance(step, s.ReachGate):
             self.runtime.in_vain.add(step.gate)
         self.interactions.wait(event)
-        for check in self.table.waited:
-            check(self.verdicts, self.runtime, event)
+        self.check(self.table.waited, event)
         if isinstance(step, s.Join):
             for call, waited in self.executions.lost():
-                for check in self.table.served:
-                    check(self.verdicts, self.runtime, call, waited, 0)
+                self.check(self.table.served, call, waited, 0)
 
     def siblings(self, event: Siblings) -> None:
-        for check in self.table.noted:
-            check(self.verdicts, self.runtime, self.ongoing, event)
+        self.check(self.table.noted, self.ongoing, event)
 
 
 _TAKE: dict[type[Any], Callable[[_TraceReader, Any], bool | None]] = {

@@ -1,14 +1,16 @@
-"""What a monitor makes of one trace: requirements exercised, violations found, rows of the table visited."""
+"""The verdicts on one trace: requirements exercised, violations found, rows of the life-cycle table visited."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
-from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks, Fit
-from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.conclusions import Broken, Conclusions, Measured, Suspended, Taken
+from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.expected_callbacks import Fit
 from ucm_cts.reference_models.model.life_cycle import Row
+from ucm_cts.reference_models.model.runtime import Member
 
 
 @dataclass(slots=True)
@@ -22,69 +24,64 @@ class RowTally:
 
 @dataclass(slots=True)
 class Verdicts:
-    """The judgement of one trace in the making."""
+    """The verdicts on one trace.
 
-    scenario: Scenario
-    expected: ExpectedCallbacks
+    ``exercises``: how often the condition of each requirement arose.
+    ``readings``: which readings the framework took, by option.
+    ``measures``: amounts worth adding up over a run.
+    ``tallies``, ``fits``: how rows of the life-cycle table fared.
+    ``suspended``: members whose state is not known after the event being read.
+    """
+
     exercises: dict[str, int] = field(default_factory=dict)
     findings: list[Finding] = field(default_factory=list)
     tallies: dict[int, tuple[Row, RowTally]] = field(default_factory=dict)
     fits: dict[Fit, int] = field(default_factory=dict)
-    ics: Ics = field(default_factory=Ics)
     readings: dict[str, set[str]] = field(default_factory=dict)
     measures: dict[str, int] = field(default_factory=dict)
+    suspended: list[Member] = field(default_factory=list)
 
-    def measured(self, what: str, amount: int = 1) -> None:
-        """Something worth adding up over a run: how much effort was behind verdicts."""
-        self.measures[what] = self.measures.get(what, 0) + amount
-
-    def observed(self, option: str, value: str) -> bool:
-        """The framework took reading ``value`` of ``option``; False if its vendor declared another one."""
-        self.readings.setdefault(option, set()).add(value)
-        return self.ics.permits(option, value)
-
-    def exercised(self, *requirements: str) -> None:
-        """The requirements' condition really arose, and they were kept."""
+    def add(self, conclusions: Conclusions) -> None:
+        """Add what a property concludes."""
         exercises = self.exercises
-        for requirement in requirements:
-            exercises[requirement] = exercises.get(requirement, 0) + 1
+        for one in conclusions:
+            if type(one) is str:  # most are
+                exercises[one] = exercises.get(one, 0) + 1
+            else:
+                _ADD[type(one)](self, one)
 
-    def violated(
-        self,
-        requirement: str,
-        rule: str,
-        cause: str,
-        expected: str,
-        observed: str,
-        events: tuple[int, ...] = (),
-        step: int | None = None,
-        instead: tuple[Arrow, ...] = (),
-    ) -> None:
-        """The requirement was broken. It was exercised, too."""
-        self.exercised(requirement)
-        self.findings.append(Finding(requirement, rule, cause, expected, observed, events, step, instead))
+    def _fail(self, finding: Finding) -> None:
+        """A requirement was violated: it was exercised, too."""
+        self.exercises[finding.requirement] = self.exercises.get(finding.requirement, 0) + 1
+        self.findings.append(finding)
 
-    def row(self, row: Row) -> RowTally:
-        """The tally of ``row``."""
+    def _take(self, taken: Taken) -> None:
+        self.readings.setdefault(taken.option, set()).add(taken.value)
+
+    def _measure(self, measured: Measured) -> None:
+        self.measures[measured.what] = self.measures.get(measured.what, 0) + measured.amount
+
+    def _fit(self, fit: Fit) -> None:
+        self.fits[fit] = self.fits.get(fit, 0) + 1
+
+    def _break(self, broken: Broken) -> None:
+        tally = self._tally(broken.row)
+        tally.exercised += 1
+        tally.violated += 1
+
+    def _suspend(self, suspended: Suspended) -> None:
+        self.suspended.append(suspended.member)
+
+    def _tally(self, row: Row) -> RowTally:
         known = self.tallies.get(id(row))
         if known is None:
             known = self.tallies[id(row)] = (row, RowTally())
         return known[1]
 
-    def broken(self, row: Row) -> None:
-        """An instance went a way that ``row`` forbids."""
-        tally = self.row(row)
-        tally.exercised += 1
-        tally.violated += 1
-
-    def fitted(self, fit: Fit) -> None:
-        """An instance went a way that its row permits."""
-        self.fits[fit] = self.fits.get(fit, 0) + 1
-
     def close(self) -> None:
         """The trace is over: add up what the fits exercised."""
         for fit, times in self.fits.items():
-            tally = self.row(fit.row)
+            tally = self._tally(fit.row)
             tally.exercised += times
             if len(fit.readings) == 1:
                 tally.readings.add(fit.readings[0])
@@ -96,3 +93,13 @@ class Verdicts:
     def rows(self) -> dict[str, RowTally]:
         """All tallies, by the rows' ids."""
         return {row.id: tally for row, tally in self.tallies.values()}
+
+
+_ADD: dict[type[Any], Callable[[Verdicts, Any], None]] = {
+    Finding: Verdicts._fail,
+    Taken: Verdicts._take,
+    Measured: Verdicts._measure,
+    Fit: Verdicts._fit,
+    Broken: Verdicts._break,
+    Suspended: Verdicts._suspend,
+}

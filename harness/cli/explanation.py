@@ -50,7 +50,7 @@ def explanation(identifier: str) -> RenderableType:
         lines += [Text(), Text("Applies where the vendor states: ", style="bold") + Text(_needed(need))]
     checks = CHECKS | TOOLCHAIN_CHECKS
     for rule in requirement.rules:
-        doc = checks[rule] if rule in checks else (PROPERTIES[rule].check.__doc__ or "").strip().splitlines()[0]
+        doc = checks[rule] if rule in checks else (PROPERTIES[rule].evaluate.__doc__ or "").strip().splitlines()[0]
         lines += [Text(), Text(f"Rule {rule}: ", style="bold") + Text(doc)]
     offered = load_purposes(requirement.profile) if requirement.profile in FRAMEWORK_PROFILES else ()
     purposes = [p for p in offered if requirement.id in p.requirements]

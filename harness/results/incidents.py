@@ -13,6 +13,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Create, Enter, Exit, Raise, Reply, Request, Return, Skip, Trace
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model.operation import DECLARED_ERRORS
 from ucm_cts.reference_models.properties.operations import DECLARED
 
 FREE_LOOKS = 0.25
@@ -91,7 +92,7 @@ def finding_of_incident(execution: Execution) -> Finding | None:
     operation = s.operation(execution.scenario.steps[call.step])
     if operation not in DECLARED:
         return None
-    requirement, declared = DECLARED[operation]
+    requirement, declared = DECLARED[operation], DECLARED_ERRORS[operation]
     return Finding(
         requirement,
         "declared_errors",

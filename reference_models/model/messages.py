@@ -10,7 +10,6 @@ from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.links import End
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member
-from ucm_cts.reference_models.verdicts import Verdicts
 
 OK, INTERNAL_ERROR, COMM_ERROR = "ok", "internal_error", "comm_error"
 CODES = (OK, INTERNAL_ERROR, COMM_ERROR)
@@ -53,12 +52,12 @@ def counts(member: Member) -> bool:
     return any(isinstance(a, s.CountMessages) for a in member.declaration.plan.get("method", ()))
 
 
-def settling_time(verdicts: Verdicts) -> float:
+def settling_time(runtime: ObservedRuntime) -> float:
     """Nanoseconds that a connector may take to learn that it was broken or mended."""
-    return verdicts.ics.tolerance("error-known-within") * _NANOSECONDS
+    return runtime.ics.tolerance("error-known-within") * _NANOSECONDS
 
 
-def is_whole(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> bool:
+def is_whole(runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Has nothing been broken when it was pushed, nor since, nor mended so lately that the connector need not know?
 
     Connections may share what is broken.
@@ -67,7 +66,7 @@ def is_whole(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> 
     if call.link is None or any(link.broken or link.broken_at > call.request.t for link in links):
         return False
     mended_at = max(link.mended_at for link in links)
-    return not mended_at or call.request.t - mended_at >= settling_time(verdicts)
+    return not mended_at or call.request.t - mended_at >= settling_time(runtime)
 
 
 def lasting(runtime: ObservedRuntime, call: MethodCall) -> list[End]:
@@ -123,10 +122,10 @@ def waited_for(runtime: ObservedRuntime, timeout: Timeout, since: int) -> bool:
     return not interactions.held and timeout.t - max(since, interactions.released_at) >= patience
 
 
-def overdue(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> Iterator[tuple[MethodCall, list[End]]]:
+def overdue(runtime: ObservedRuntime, timeout: Timeout) -> Iterator[tuple[MethodCall, list[End]]]:
     """Answered messages, and the receivers that are well and operational all the while and were waited for in vain."""
     for call in messages(runtime):
-        if call.reply is None or not is_whole(verdicts, runtime, call):
+        if call.reply is None or not is_whole(runtime, call):
             continue
         if not waited_for(runtime, timeout, call.reply.t):
             continue

@@ -7,12 +7,12 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Raise, Reference, Return
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import (
     NO_ID,
     Connection,
     Container,
     Member,
-    OperationInProgress,
     Runtime,
     raises,
 )
@@ -50,14 +50,6 @@ def _linger(runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise)
                 member.container.suspend()
 
 
-def received(ongoing: OperationInProgress, member: Member, hook: s.Hook) -> list[Enter]:
-    """The ``hook`` callbacks that ``member``'s body received during the operation."""
-    if hook not in ongoing.hooks:
-        return []
-    callbacks = ongoing.by_body.get((member.component, member.instance))
-    return [c for c in callbacks if c.hook == hook] if callbacks is not None else []
-
-
 def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent, end: Return | Raise) -> None:
     value = end.value if isinstance(end, Return) else None
     declaration = runtime.scenario.components.get(step.component)
@@ -93,7 +85,7 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
         unsure.suspended = True
         unsure.doubt()
     runtime.enrol(member)
-    if received(ongoing, member, "on_startup"):
+    if ongoing.received(member, "on_startup"):
         member.operational = True
         member.startups = 1
         if ongoing.container.started:
@@ -132,7 +124,7 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
         member.suspended = True
         return
     connection = Connection(step.bind, value, member, step.port, reference, provider, runtime.ports.get(step.to, ""))
-    replaced = bool(received(ongoing, member, "on_disconnect"))
+    replaced = bool(ongoing.received(member, "on_disconnect"))
     for earlier in member.live_connections(step.port):
         earlier.live = False if replaced or earlier.id == value else None
     of_that_id = [c for c in runtime.all_connections() if c.id == value and c.client.container is member.container]
@@ -150,7 +142,7 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
     member.forget_repetitions()
     member.once_connected.add(step.port)
     runtime.connections[step.bind] = connection
-    if received(ongoing, member, "on_startup"):
+    if ongoing.received(member, "on_startup"):
         member.handed_over = tuple(c for c in member.connections if c.live is not False)
         if ongoing.judged and not member.suspended:  # late connections are taken at once
             member.operational = True
@@ -179,7 +171,7 @@ def _disconnected(runtime: Runtime, ongoing: OperationInProgress, step: s.Discon
         return
     connection.live = False
     client = connection.client
-    if received(ongoing, client, "on_shutdown"):  # it is not left half-connected
+    if ongoing.received(client, "on_shutdown"):  # it is not left half-connected
         client.operational = False
         _forget_start(client)
     if any(c.live is None and c.port == connection.port for c in client.connections):
@@ -194,7 +186,7 @@ def _component_removed(
         return
     if isinstance(end, Return):
         _removed(runtime, ongoing, [member])
-    elif received(ongoing, member, "on_remove"):
+    elif ongoing.received(member, "on_remove"):
         _perhaps_removed(runtime, [member])
 
 
@@ -249,10 +241,10 @@ def _perhaps_removed(runtime: Runtime, members: Sequence[Member]) -> None:
 
 def _removed(runtime: Runtime, ongoing: OperationInProgress, removed: Sequence[Member]) -> None:
     for client, used in runtime.clients_of(removed):
-        told = len(received(ongoing, client, "on_disconnect"))
+        told = len(ongoing.received(client, "on_disconnect"))
         for connection in used:
             connection.live = False if told >= len(used) else None
-        if received(ongoing, client, "on_shutdown"):
+        if ongoing.received(client, "on_shutdown"):
             client.operational = False
         if told < len(used) or not client.operational:
             client.suspended = client.suspended or told < len(used)
@@ -268,12 +260,12 @@ def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end:
     returned = isinstance(end, Return)
     container = ongoing.container
     everywhere = [m for c in runtime.containers.values() for m in c.live_members()] if ongoing.callbacks else []
-    reached = [m for m in everywhere if received(ongoing, m, "on_startup")]
+    reached = [m for m in everywhere if ongoing.received(m, "on_startup")]
     own = [m for m in reached if m.container is container]
     _reached_unseen(runtime, container)
     if not returned:
         failing = any(m.raises("on_startup") for m in container.live_members())
-        half_way = any(not received(ongoing, m, "on_shutdown") for m in own)
+        half_way = any(not ongoing.received(m, "on_shutdown") for m in own)
         unseen = ongoing.forgiving and all(m.doubtful for m in container.live_members())
         unclear = container.started is not False or failing or half_way or unseen
         if unclear and (container.started is not True or own):
@@ -285,7 +277,7 @@ def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end:
     if container.started is not True:
         container.startup_order = []
     for member in container.live_members():
-        for callback in received(ongoing, member, "on_startup"):
+        for callback in ongoing.received(member, "on_startup"):
             _resolve(member, callback)
         unclear = member.lingering or member.doubtful or member.instance is None
         member.suspended = unclear or member.raises("on_startup")
@@ -306,7 +298,7 @@ def _stopped(runtime: Runtime, ongoing: OperationInProgress, step: s.Stop, end: 
     _reached_unseen(runtime, container)
     for other in runtime.containers.values() if ongoing.callbacks else ():
         for member in other.live_members():
-            if received(ongoing, member, "on_shutdown"):
+            if ongoing.received(member, "on_shutdown"):
                 member.operational = False
                 if not returned:
                     other.suspend()

@@ -14,9 +14,10 @@ from ucm_cts.adapters.contract.trace import DeclaredError, Enter, Raise, Referen
 from ucm_cts.reference_models.model.expected_callbacks import Listener, pattern
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.operation_effects import apply
 from ucm_cts.reference_models.model.row_selection import RowSelection, undone_by
-from ucm_cts.reference_models.model.runtime import Connection, Container, Member, OperationInProgress
+from ucm_cts.reference_models.model.runtime import Connection, Container, Member
 
 
 class Way(NamedTuple):

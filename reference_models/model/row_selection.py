@@ -9,7 +9,8 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.executions import is_contradictory
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row, State
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Connection, Container, Member, OperationInProgress, raises
+from ucm_cts.reference_models.model.operation import OperationInProgress
+from ucm_cts.reference_models.model.runtime import Connection, Container, Member, raises
 from ucm_cts.reference_models.model.service_policies import has_several_clocks
 
 _FAILING_END: tuple[s.Hook, ...] = ("on_shutdown", "on_disconnect", "on_remove")

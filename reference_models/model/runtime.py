@@ -11,10 +11,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario, Step
-from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference, Skip
-from ucm_cts.reference_models.model.expected_callbacks import Fit
-from ucm_cts.reference_models.model.life_cycle import Row, State
+from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN, Declaration, Hook, RaiseError, Scenario
+from ucm_cts.adapters.contract.trace import MaybeReference, Reference, Skip
+from ucm_cts.reference_models.model.life_cycle import State
 
 NO_ID = 2**64
 """The id of a connection whose id nobody was told."""
@@ -173,65 +172,6 @@ class Container:
         self.started = None
         for member in self.members:
             member.suspended = True
-
-
-class OperationInProgress:
-    """One operation of Container or ContainerManager, from call to return.
-
-    ``roles`` pairs each instance concerned with the row of the life-cycle table that stands for it (the instance is
-    None where the row is about one that does not exist). ``judged`` is False where the model cannot predict.
-    After a ``lost`` operation nobody can say what state it left. ``created`` are the bodies made meanwhile,
-    ``fitted`` the roles whose instances went a way that their rows permit.
-    ``forgiving`` operations may end in UCM_ERROR for a reason the rows do not show. ``call`` is the call event's ``n``.
-    """
-
-    __slots__ = (
-        "by_body",
-        "call",
-        "callbacks",
-        "connection",
-        "container",
-        "created",
-        "fitted",
-        "forgiving",
-        "hooks",
-        "judged",
-        "lost",
-        "operation",
-        "roles",
-        "step",
-        "step_number",
-        "subject",
-    )
-
-    def __init__(self, step_number: int, step: Step, operation: str, container: Container, call: int = 0) -> None:
-        self.step_number = step_number
-        self.step = step
-        self.operation = operation
-        self.container = container
-        self.call = call
-        self.roles: list[tuple[Member | None, Row]] = []
-        self.judged = True
-        self.forgiving = False
-        self.lost = False
-        self.callbacks: list[Enter] = []
-        self.hooks: set[Hook] = set()
-        self.by_body: dict[tuple[str, int | None], list[Enter]] = {}
-        self.created: list[tuple[str, int]] = []
-        self.fitted: list[tuple[Member | None, Row, Fit]] = []
-        self.subject: Member | None = None
-        self.connection: Connection | None = None
-
-    def hear(self, callback: Enter) -> None:
-        """A body was entered while the operation was in progress."""
-        self.callbacks.append(callback)
-        self.hooks.add(callback.hook)
-        body = callback.component, callback.instance
-        callbacks = self.by_body.get(body)
-        if callbacks is None:
-            self.by_body[body] = [callback]
-        else:
-            callbacks.append(callback)
 
 
 def lane(component: str, instance: int) -> str:

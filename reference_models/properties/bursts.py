@@ -6,17 +6,18 @@ import itertools
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Event, Pushed
+from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
+from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.interactions import PushedBurst
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.messages import CODES, OK, is_well
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 
 @property_at("told", "R-10.1.2-02", "R-10.1.2-09")
-def burst_answered(verdicts: Verdicts, runtime: ObservedRuntime, event: Event) -> None:
+def burst_answered(check: Property, runtime: ObservedRuntime, event: Event) -> Conclusions:
     """Each message of a burst is answered one of the three codes; ok, where the vendor has declared that push waits."""
     if not isinstance(event, Pushed):
         return
@@ -27,23 +28,21 @@ def burst_answered(verdicts: Verdicts, runtime: ObservedRuntime, event: Event) -
     unknown = [code for code in event.answers if code not in CODES]
     if unknown:
         expected = f"each message of a burst is answered {' or '.join(CODES)}"
-        _violate(
-            verdicts, "R-10.1.2-02", "burst_answered", expected, f"{unknown[0] or 'nothing'} was the answer", event
-        )
+        yield _violate(check, "R-10.1.2-02", expected, f"{unknown[0] or 'nothing'} was the answer", event)
         return
-    verdicts.exercised("R-10.1.2-02")
+    yield check.kept("R-10.1.2-02")
     healthy = len(burst.receivers) == len(burst.link.live("receiver")) > 0 and all(map(is_well, burst.receivers))
     if not healthy or burst.link.broken_at:
         return
     if set(event.answers) == {OK}:
-        verdicts.exercised("R-10.1.2-09")
-    elif not verdicts.observed("message-overflow", "refuse"):
+        yield check.kept("R-10.1.2-09")
+    elif not (yield from takes(runtime, "message-overflow", "refuse")):
         expected = "message-overflow was declared as block: each message of a burst is answered ok"
-        _violate(verdicts, "R-10.1.2-09", "burst_answered", expected, f"the answers were {event.answers}", event)
+        yield _violate(check, "R-10.1.2-09", expected, f"the answers were {event.answers}", event)
 
 
 @property_at("told", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07", timed=True)
-def burst_counted(verdicts: Verdicts, runtime: ObservedRuntime, event: Event) -> None:
+def burst_counted(check: Property, runtime: ObservedRuntime, event: Event) -> Conclusions:
     """What was pushed in bursts and got ok is counted, each message once, and nothing else is."""
     if not isinstance(event, Counted):
         return
@@ -52,55 +51,57 @@ def burst_counted(verdicts: Verdicts, runtime: ObservedRuntime, event: Event) ->
     bursts = [burst for burst in runtime.interactions.bursts if burst.link is link]
     if receiver is None or link is None or not bursts or _is_busy(runtime, link) or not _is_known(bursts):
         return
-    _origin(verdicts, receiver, bursts, event)
-    _once(verdicts, receiver, event)
-    _order(verdicts, receiver, event)
+    yield from _origin(check, receiver, bursts, event)
+    yield from _once(check, receiver, event)
+    yield from _order(check, runtime, receiver, event)
     if link.broken_at or not receiver.serving or not all(receiver in burst.receivers for burst in bursts):
         return
     due = sum(burst.pushed.answers.get(OK, 0) for burst in bursts)
     step = runtime.scenario.steps[event.step]
     if event.distinct >= due:
-        verdicts.exercised("R-10.1.2-10")
+        yield check.kept("R-10.1.2-10")
         if len({(b.pushed.component, b.pushed.instance) for b in bursts}) > 1:
-            verdicts.exercised("R-10.1.6.1-03")
+            yield check.kept("R-10.1.6.1-03")
     elif isinstance(step, s.AwaitMessages) and event.received < step.count and not runtime.interactions.held:
         expected = f"{receiver.lane} gets each of the {due} messages that were answered ok"
         observed = f"it has got {event.distinct} of them when patience has run out"
-        _violate(verdicts, "R-10.1.2-10", "burst_counted", expected, observed, event, "lost")
+        yield _violate(check, "R-10.1.2-10", expected, observed, event, "lost")
 
 
-def _origin(verdicts: Verdicts, receiver: Member, bursts: list[PushedBurst], event: Counted) -> None:
+def _origin(check: Property, receiver: Member, bursts: list[PushedBurst], event: Counted) -> Conclusions:
     pushed = sum(burst.pushed.count for burst in bursts)
     least = min(burst.pushed.first for burst in bursts)
     greatest = max(burst.pushed.first + burst.pushed.count - 1 for burst in bursts)
     if event.received and (event.distinct > pushed or event.least < least or event.greatest > greatest):
         expected = f"{receiver.lane} gets {pushed} messages from {least} to {greatest} and nothing else"
         observed = f"it got {event.distinct} from {event.least} to {event.greatest}"
-        _violate(verdicts, "R-10.1.6.1-06", "burst_counted", expected, observed, event, "invented")
-    elif event.received:
-        verdicts.exercised("R-10.1.6.1-06")
+        return (_violate(check, "R-10.1.6.1-06", expected, observed, event, "invented"),)
+    if event.received:
+        return (check.kept("R-10.1.6.1-06"),)
+    return ()
 
 
-def _once(verdicts: Verdicts, receiver: Member, event: Counted) -> None:
+def _once(check: Property, receiver: Member, event: Counted) -> Conclusions:
     if event.received > event.distinct:
         again = event.received - event.distinct
         expected = f"{receiver.lane} gets each message once"
-        _violate(verdicts, "R-10.1.6.1-05", "burst_counted", expected, f"{again} came again", event, "repeated")
-    elif event.received:
-        verdicts.exercised("R-10.1.6.1-05")
+        return (_violate(check, "R-10.1.6.1-05", expected, f"{again} came again", event, "repeated"),)
+    if event.received:
+        return (check.kept("R-10.1.6.1-05"),)
+    return ()
 
 
-def _order(verdicts: Verdicts, receiver: Member, event: Counted) -> None:
+def _order(check: Property, runtime: ObservedRuntime, receiver: Member, event: Counted) -> Conclusions:
     """Each burst has numbers of its own, in which the disorder is counted."""
     if event.received < 2:
         return
-    verdicts.exercised("R-10.1.6.1-07")
+    yield check.kept("R-10.1.6.1-07")
     if not event.disordered:
-        verdicts.observed("message-order", "fifo")
-    elif not verdicts.observed("message-order", "unordered"):
+        yield Taken("message-order", "fifo")
+    elif not (yield from takes(runtime, "message-order", "unordered")):
         expected = f"{receiver.lane} gets an emitter's messages in the order in which they were pushed"
         observed = f"{event.disordered} came after a later one"
-        _violate(verdicts, "R-10.1.6.1-07", "burst_counted", expected, observed, event, "disordered")
+        yield _violate(check, "R-10.1.6.1-07", expected, observed, event, "disordered")
 
 
 def _is_busy(runtime: ObservedRuntime, link: LinkState) -> bool:
@@ -116,13 +117,12 @@ def _is_known(bursts: list[PushedBurst]) -> bool:
 
 
 def _violate(
-    verdicts: Verdicts,
+    check: Property,
     requirement: str,
-    rule_name: str,
     expected: str,
     observed: str,
     event: Pushed | Counted,
     cause: str = "answer",
-) -> None:
+) -> Finding:
     step = event.step if isinstance(event, Counted) else None
-    verdicts.violated(requirement, rule_name, cause, expected, observed, (event.n,), step)
+    return check.fail(cause, expected=expected, observed=observed, at=(event.n,), step=step, requirement=requirement)

@@ -4,15 +4,19 @@ what its vendor declares.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Skip
+from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.expected_callbacks import Fit
+from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, lane
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.model.operation import Fitted, OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import Member, lane
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _WITH_CHOICES = (
     "R-11.2.2.1-08",
@@ -34,22 +38,59 @@ _OF_ALL_AT_ONCE = ("double-start", "stop-when-stopped")
 
 @property_at("ended", *_WITH_CHOICES)
 def declared_choices(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """Where the life-cycle table permits several ways, an instance goes the one that the vendor declares."""
-    fitted = [told for told in ongoing.fitted if told[2].readings]
-    telling = [told for told in fitted if _is_choice(ongoing, end, *told)] if fitted else fitted
-    if not telling:
+    fitted = [one for one in ongoing.outcome.fitted if one[2].readings]
+    return _chosen(check, runtime, ongoing, end, fitted) if fitted else ()
+
+
+def _chosen(
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result, fitted: list[Fitted]
+) -> Conclusions:
+    telling = _choices(ongoing, end, fitted)
+    for _, _, fit in telling:
+        if len(fit.readings) == 1:
+            yield Taken(*fit.readings[0].split("=", 1))
+    undeclared = undeclared_choice(runtime.ics, ongoing, end, telling)
+    if undeclared is None:
         return
-    together = isinstance(end, Raise) or any(_options(fit)[0] in _OF_ALL_AT_ONCE for _, _, fit in telling)
-    if together and len(telling) < len(ongoing.roles):
-        return  # somebody else may be the reason
-    undeclared = [told for told in telling if not _is_declared(verdicts, told[2])]
-    if undeclared and (not together or len(undeclared) == len(telling)):
-        _belied(verdicts, ongoing, end, *undeclared[0])
+    member, row, fit = undeclared
+    declared = [f"{option} = {runtime.ics.reading(option)}" for option in dict.fromkeys(_options(fit))]
+    taken = " or ".join(reading.replace("=", " = ") for reading in fit.readings)
+    yield check.fail(
+        f"{row.id} {taken}",
+        expected=f"{ongoing.operation} goes as the vendor declares: {', '.join(declared)}",
+        observed=f"it went the way of {taken}" + (f" ({member.lane}, {row.state})" if member is not None else ""),
+        at=(ongoing.call, end.n),
+        step=ongoing.step_number,
+        requirement=row.requirement,
+    )
 
 
-def _is_choice(ongoing: OperationInProgress, end: Return | Raise, member: Member | None, row: Row, fit: Fit) -> bool:
+def _choices(ongoing: OperationInProgress, end: Result, fitted: Sequence[Fitted]) -> list[Fitted]:
+    """The instances of which it is certain that they went one of several ways; none if others may be the reason."""
+    telling = [one for one in fitted if one[2].readings and _is_choice(ongoing, end, *one)]
+    return telling if len(telling) == len(ongoing.roles) or not _is_common(end, telling) else []
+
+
+def _is_common(end: Result, telling: Sequence[Fitted]) -> bool:
+    """Is it one choice for all instances of the operation?"""
+    return isinstance(end, Raise) or any(_options(fit)[0] in _OF_ALL_AT_ONCE for _, _, fit in telling)
+
+
+def undeclared_choice(ics: Ics, ongoing: OperationInProgress, end: Result, fitted: Sequence[Fitted]) -> Fitted | None:
+    """The first instance that went a way which the vendor has ruled out; None if there is none."""
+    telling = _choices(ongoing, end, fitted)
+    undeclared = [one for one in telling if not _is_declared(ics, one[2])]
+    return undeclared[0] if undeclared and (len(undeclared) == len(telling) or not _is_common(end, telling)) else None
+
+
+def _is_declared(ics: Ics, fit: Fit) -> bool:
+    return any(ics.permits(*reading.split("=", 1)) for reading in fit.readings)
+
+
+def _is_choice(ongoing: OperationInProgress, end: Result, member: Member | None, row: Row, fit: Fit) -> bool:
     """Was the framework free to go another way, and is nothing but this choice the reason that it went this one?"""
     if row.operation == "remove_provider":  # whoever removes a container takes its members along, in use or not
         return ongoing.operation == "remove_component"
@@ -72,33 +113,10 @@ def _options(fit: Fit) -> list[str]:
     return [reading.partition("=")[0] for reading in fit.readings]
 
 
-def _is_declared(verdicts: Verdicts, fit: Fit) -> bool:
-    taken = [reading.partition("=")[::2] for reading in fit.readings]
-    if len(taken) == 1:
-        return verdicts.observed(*taken[0])
-    return any(verdicts.ics.permits(option, value) for option, value in taken)
-
-
-def _belied(
-    verdicts: Verdicts, ongoing: OperationInProgress, end: Return | Raise, member: Member | None, row: Row, fit: Fit
-) -> None:
-    declared = [f"{option} = {verdicts.ics.reading(option)}" for option in dict.fromkeys(_options(fit))]
-    taken = " or ".join(reading.replace("=", " = ") for reading in fit.readings)
-    verdicts.violated(
-        row.requirement,
-        "declared_choices",
-        f"{row.id} {taken}",
-        f"{ongoing.operation} goes as the vendor declares: {', '.join(declared)}",
-        f"it went the way of {taken}" + (f" ({member.lane}, {row.state})" if member is not None else ""),
-        (ongoing.call, end.n),
-        ongoing.step_number,
-    )
-
-
 @property_at("ended", "R-11.2.2.1-14", at=("get_components",))
 def declared_listing(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """The manager lists members of its sub-containers if, and only if, the vendor declares so."""
     if ongoing.container.name != s.MANAGER or not ongoing.judged or not isinstance(end, Return):
         return
@@ -107,75 +125,71 @@ def declared_listing(
         return
     listed = end.value if isinstance(end.value, tuple) else ()
     reading = "recursive" if len(listed) > len(ongoing.container.live_members()) else "own"
-    if not verdicts.observed("manager-get-components", reading):
-        verdicts.violated(
-            "R-11.2.2.1-14",
-            "declared_listing",
+    if not (yield from takes(runtime, "manager-get-components", reading)):
+        yield check.fail(
             reading,
-            f"the vendor declares manager-get-components = {verdicts.ics.reading('manager-get-components')}",
-            f"get_components of the manager returned {list(listed)}, which is {reading}",
-            (ongoing.call, end.n),
-            ongoing.step_number,
+            expected=f"the vendor declares manager-get-components = {runtime.ics.reading('manager-get-components')}",
+            observed=f"get_components of the manager returned {list(listed)}, which is {reading}",
+            at=(ongoing.call, end.n),
+            step=ongoing.step_number,
         )
 
 
 @property_at("ended", "R-11.2.3-17", at=("stop",))
-def declared_drain(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
     """stop waits for calls in progress if the vendor declares so."""
     if not isinstance(end, Return) or not ongoing.judged:
         return
     inside = {body for bodies in runtime.inside.values() for body in bodies}
     for member in ongoing.container.live_members():
-        if not member.operational or member.suspended or (member.component, member.instance) not in inside:
+        if (
+            not member.operational
+            or ongoing.outcome.is_unknown(member)
+            or (member.component, member.instance) not in inside
+        ):
             continue
-        if not verdicts.observed("stop-drain", "abandon"):
-            verdicts.violated(
-                "R-11.2.3-17",
-                "declared_drain",
+        if not (yield from takes(runtime, "stop-drain", "abandon")):
+            yield check.fail(
                 "abandoned",
-                "the vendor declares stop-drain = wait: stop returns when the calls in progress have ended",
-                f"stop returned while {member.lane} was still carrying out a call",
-                (ongoing.call, end.n),
-                ongoing.step_number,
+                expected="the vendor declares stop-drain = wait: stop returns when the calls in progress have ended",
+                observed=f"stop returned while {member.lane} was still carrying out a call",
+                at=(ongoing.call, end.n),
+                step=ongoing.step_number,
             )
         return
 
 
 @property_at("entered", "R-11.2.2.1-13", at=("on_startup",))
 def declared_order(
-    verdicts: Verdicts,
+    check: Property,
     runtime: ObservedRuntime,
     ongoing: OperationInProgress | None,
     event: Enter,
     history: CallbackHistory,
-) -> None:
+) -> Conclusions:
     """Who declares that members are started one by one does not start them at a time, by several threads."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or ongoing is None or ongoing.operation != "start" or member.container is not ongoing.container:
         return
     beside = [body for body, thread in runtime.starting_up.items() if thread != event.thread]
-    if beside and not verdicts.observed("start-order", "at-once"):
-        verdicts.violated(
-            "R-11.2.2.1-13",
-            "declared_order",
+    if beside and not (yield from takes(runtime, "start-order", "at-once")):
+        yield check.fail(
             "at once",
-            "the vendor declares start-order = one-by-one: one on_startup has returned before the next one comes",
-            f"{member.lane} received on_startup while {lane(*beside[0])} was still inside its own",
-            (event.n,),
-            ongoing.step_number,
+            expected="the vendor declares start-order = one-by-one: one on_startup has returned before the next one comes",
+            observed=f"{member.lane} received on_startup while {lane(*beside[0])} was still inside its own",
+            at=(event.n,),
+            step=ongoing.step_number,
         )
 
 
 @property_at("entered", "R-11.2.2.1-13", at=("on_startup",), timed=True)
 def declared_meeting(
-    verdicts: Verdicts,
+    check: Property,
     runtime: ObservedRuntime,
     ongoing: OperationInProgress | None,
     event: Enter,
     history: CallbackHistory,
-) -> None:
+) -> Conclusions:
     """Who declares that members are started at once does not let one wait until another one's on_startup has ended.
 
     Another one whose on_startup has ended, although the gate it held at was to open when both had come to it, was inside as
@@ -187,16 +201,14 @@ def declared_meeting(
     meeting = _gates(member) - runtime.opened
     gone = [m for m in map(runtime.bodies.get, runtime.starting) if m is not None and m is not member]
     before = next((m for m in gone if m.container is member.container and _gates(m) & meeting), None)
-    if before is None or verdicts.observed("start-order", "one-by-one"):
+    if before is None or (yield from takes(runtime, "start-order", "one-by-one")):
         return
-    verdicts.violated(
-        "R-11.2.2.1-13",
-        "declared_meeting",
+    yield check.fail(
         "one by one",
-        "the vendor declares start-order = at-once: several members are inside on_startup at a time",
-        f"{member.lane} was not started within {runtime.scenario.patience} ms while {before.lane} was inside",
-        (event.n,),
-        ongoing.step_number,
+        expected="the vendor declares start-order = at-once: several members are inside on_startup at a time",
+        observed=f"{member.lane} was not started within {runtime.scenario.patience} ms while {before.lane} was inside",
+        at=(event.n,),
+        step=ongoing.step_number,
     )
 
 
@@ -210,36 +222,34 @@ _HOOKS = {"transport": "transport-fault", "inside": "connector-fault"}
 
 
 @property_at("closed", "R-10.1-01")
-def core_claimed(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def core_claimed(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """The vendor claims every part of 10.1, and no scenario that asks for what is claimed is refused for want of it."""
     denied: dict[str, Skip] = {}
     for event in runtime.not_offered:
         step = runtime.scenario.steps[event.step]
-        if _is_claimed(verdicts, step):
+        if _is_claimed(runtime, step):
             denied.setdefault(_what(step), event)
     for what, event in denied.items():
-        verdicts.violated(
-            "R-10.1-01",
-            "core_claimed",
+        yield check.fail(
             f"no {what}",
-            f"the adapter offers what the vendor claims: {what}",
-            "the adapter said that it does not offer this operation",
-            (event.n,),
-            event.step,
+            expected=f"the adapter offers what the vendor claims: {what}",
+            observed="the adapter said that it does not offer this operation",
+            at=(event.n,),
+            step=event.step,
         )
     links = runtime.interactions.links
     if not denied and (links or runtime.with_policies):
-        verdicts.exercised("R-10.1-01")
+        yield check.kept()
 
 
-def _is_claimed(verdicts: Verdicts, step: s.Step) -> bool:
+def _is_claimed(runtime: ObservedRuntime, step: s.Step) -> bool:
     """Connectors are always claimed where a scenario asks for them; what only tests need is the vendor's to offer."""
     if isinstance(step, s.Break):
-        return verdicts.ics.reading(_HOOKS[step.where]) == "hook"
+        return runtime.ics.reading(_HOOKS[step.where]) == "hook"
     if isinstance(step, s.Mend):
-        return "hook" in (verdicts.ics.reading(option) for option in _HOOKS.values())
+        return "hook" in (runtime.ics.reading(option) for option in _HOOKS.values())
     if isinstance(step, s.ReadLog):
-        return verdicts.ics.reading("trace-sink") == "hook"
+        return runtime.ics.reading("trace-sink") == "hook"
     return isinstance(step, s.ConnectorCall)
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Raise, Return
+from ucm_cts.adapters.contract.trace import Raise
+from ucm_cts.reference_models.conclusions import Conclusions
+from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.clock_readings import (
     CLOCK_METHODS,
     LOCAL,
@@ -22,10 +24,10 @@ from ucm_cts.reference_models.model.clock_readings import (
 )
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import OperationInProgress, lane
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, only_service, policies_of
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _LARGEST_MICROSECONDS = 999_999
 _LARGEST_SECONDS = 2**32 - 1
@@ -34,23 +36,23 @@ _LONG_ENOUGH = 3
 
 
 @property_at("completed", "R-10.1.4.1-06")
-def clock_answers(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
+def clock_answers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """Both methods of the clock return, from on_startup to on_shutdown."""
     method, caller, reply = clock_call(call, runtime.scenario.components), call.caller, call.reply
     if not method or reply is None or caller is None or caller.suspended:
-        return
+        return ()
     if time_told(call) is not None:
         if _has_told(runtime, call, *(other for other in CLOCK_METHODS if other != method)):
-            verdicts.exercised("R-10.1.4.1-06")
-        return
+            return (check.kept(),)
+        return ()
     failed = reply.raised or reply.exception is not None
-    verdicts.violated(
-        "R-10.1.4.1-06",
-        "clock_answers",
-        f"{method} {'raises' if failed else 'no time'}",
-        f"{method} tells '{caller.lane}' the time",
-        "it raised" if failed else f"it gave {list(reply.results or ())}",
-        (call.request.n, reply.n),
+    return (
+        check.fail(
+            f"{method} {'raises' if failed else 'no time'}",
+            expected=f"{method} tells '{caller.lane}' the time",
+            observed="it raised" if failed else f"it gave {list(reply.results or ())}",
+            at=(call.request.n, reply.n),
+        ),
     )
 
 
@@ -62,126 +64,120 @@ def _has_told(runtime: ObservedRuntime, call: MethodCall, *methods: str) -> bool
 
 
 @property_at("completed", "R-10.1.4.2-14")
-def time_range(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
+def time_range(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """The microseconds of a time are those of one second, and its seconds have 32 bits without sign."""
     told = time_told(call) if clock_call(call, runtime.scenario.components) else None
     if told is None or call.reply is None:
-        return
+        return ()
     seconds, microseconds = told
     if 0 <= microseconds <= _LARGEST_MICROSECONDS and 0 <= seconds <= _LARGEST_SECONDS:
-        verdicts.exercised("R-10.1.4.2-14")
-        return
+        return (check.kept(),)
     part, value = ("seconds", seconds) if not 0 <= seconds <= _LARGEST_SECONDS else ("microseconds", microseconds)
-    verdicts.violated(
-        "R-10.1.4.2-14",
-        "time_range",
-        f"negative {part}" if value < 0 else f"too many {part}",
-        f"seconds from 0 to {_LARGEST_SECONDS}, microseconds from 0 to {_LARGEST_MICROSECONDS}",
-        f"{call.request.method} told {seconds} s and {microseconds} µs",
-        (call.request.n, call.reply.n),
+    return (
+        check.fail(
+            f"negative {part}" if value < 0 else f"too many {part}",
+            expected=f"seconds from 0 to {_LARGEST_SECONDS}, microseconds from 0 to {_LARGEST_MICROSECONDS}",
+            observed=f"{call.request.method} told {seconds} s and {microseconds} µs",
+            at=(call.request.n, call.reply.n),
+        ),
     )
 
 
 @property_at("ended", "R-10.1.4.1-02", at=("add_component", "start"), feature="policies")
-def one_clock(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def one_clock(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
     """A component without clock and one with a clock are started, one with two is refused when it is to start at latest."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
         if declaration is None or ongoing.container.started is not False or not isinstance(end, Raise):
             return
         if has_several_clocks(declaration):
-            verdicts.exercised("R-10.1.4.1-02")
+            yield check.kept()
         elif only_service(declaration, s.CLOCK):
-            _refused(verdicts, ongoing, end)
+            yield _refused(check, ongoing, end)
         return
     members = [m for m in ongoing.container.live_members() if has_several_clocks(m.declaration)]
     if isinstance(end, Raise):
         if members:
-            verdicts.exercised("R-10.1.4.1-02")
+            yield check.kept()
         return
     for member in members:
-        verdicts.violated(
-            "R-10.1.4.1-02",
-            "one_clock",
+        yield check.fail(
             "started",
-            f"'{member.lane}', which has two clocks, is not started",
-            "start returned",
-            (end.n,),
-            ongoing.step_number,
+            expected=f"'{member.lane}', which has two clocks, is not started",
+            observed="start returned",
+            at=(end.n,),
+            step=ongoing.step_number,
         )
     for member in ongoing.container.live_members() if ongoing.judged and not members else ():
         if policies_of(member.declaration, s.CLOCK) and (member.component, member.instance) in ongoing.by_body:
-            verdicts.exercised("R-10.1.4.1-02")
+            yield check.kept()
 
 
-def _refused(verdicts: Verdicts, ongoing: OperationInProgress, end: Raise) -> None:
-    verdicts.violated(
-        "R-10.1.4.1-02",
-        "one_clock",
+def _refused(check: Property, ongoing: OperationInProgress, end: Raise) -> Finding:
+    return check.fail(
         "refused",
-        "a component with one clock is added",
-        f"add_component raised {end.error} {end.detail}".rstrip(),
-        (end.n,),
-        ongoing.step_number,
+        expected="a component with one clock is added",
+        observed=f"add_component raised {end.error} {end.detail}".rstrip(),
+        at=(end.n,),
+        step=ongoing.step_number,
+        requirement="R-10.1.4.1-02",
     )
 
 
 @property_at("closed", "R-10.1.4.1-08")
-def local_time_order(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def local_time_order(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Of two readings of local time in one container, one after the other, the later one is not earlier, unless the clock
     may have been set. Another container may be on another node.
     """
-    tolerance = verdicts.ics.tolerance("clock-tolerance") * MILLISECOND
-    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(verdicts)):
+    tolerance = runtime.ics.tolerance("clock-tolerance") * MILLISECOND
+    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(runtime)):
         if earlier.container is None or earlier.container is not later.container:
             continue
         went = passed(earlier.time, later.time)
         if went >= 0:
             if drift <= tolerance:
-                verdicts.exercised("R-10.1.4.1-08")
+                yield check.kept()
         elif later.asked - earlier.told - went > drift:
-            _went_back(verdicts, "R-10.1.4.1-08", "local_time_order", earlier, later, 0.0)
+            yield _went_back(check, "R-10.1.4.1-08", earlier, later, 0.0)
             return
 
 
 @property_at("closed", "R-10.1.4.1-10")
-def synchronized_time_agrees(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def synchronized_time_agrees(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Of two readings of synchronized time, wherever, the later one is not earlier by more than the tolerance."""
-    tolerance = verdicts.ics.tolerance("synchronization-tolerance")
+    tolerance = runtime.ics.tolerance("synchronization-tolerance")
     for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
         if passed(earlier.time, later.time) < -tolerance * MILLISECOND - drift:
-            _went_back(verdicts, "R-10.1.4.1-10", "synchronized_time_agrees", earlier, later, tolerance)
+            yield _went_back(check, "R-10.1.4.1-10", earlier, later, tolerance)
             return
         if earlier.body != later.body and drift <= tolerance * MILLISECOND:
-            verdicts.exercised("R-10.1.4.1-10")
+            yield check.kept()
 
 
 @property_at("closed", "R-10.1.4.1-10", timed=True)
-def synchronized_time_passes(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def synchronized_time_passes(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Between two readings of one body synchronized time went on, by half of the real time at least."""
-    tolerance = verdicts.ics.tolerance("synchronization-tolerance") * MILLISECOND
+    tolerance = runtime.ics.tolerance("synchronization-tolerance") * MILLISECOND
     for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
         least = (later.asked - earlier.told) // 2 + later.advanced - earlier.advanced
         went = passed(earlier.time, later.time)
         if earlier.body != later.body or went >= least - tolerance - drift:
             continue
-        verdicts.violated(
-            "R-10.1.4.1-10",
-            "synchronized_time_passes",
+        yield check.fail(
             "too slow",
-            f"synchronized time goes on by {_milliseconds(least - int(tolerance))} ms at least",
-            f"'{_who(later)}' saw it go on by {_milliseconds(went)} ms",
-            (earlier.end, later.end),
+            expected=f"synchronized time goes on by {_milliseconds(least - int(tolerance))} ms at least",
+            observed=f"'{_who(later)}' saw it go on by {_milliseconds(went)} ms",
+            at=(earlier.end, later.end),
         )
         return
 
 
 @property_at("closed", "R-10.1.4.1-09", timed=True)
-def local_time_rate(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def local_time_rate(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Between two readings of one body as much local time passed as on the host's monotonic clock, and virtual time."""
-    tolerance = verdicts.ics.tolerance("clock-tolerance") * MILLISECOND
-    rate = verdicts.ics.tolerance("clock-rate") / 100
-    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(verdicts)):
+    tolerance = runtime.ics.tolerance("clock-tolerance") * MILLISECOND
+    rate = runtime.ics.tolerance("clock-rate") / 100
+    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(runtime)):
         if earlier.body != later.body or _width(earlier) + _width(later) > tolerance:
             continue
         virtual = later.advanced - earlier.advanced
@@ -189,25 +185,23 @@ def local_time_rate(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
         went, slack = passed(earlier.time, later.time), tolerance + drift + 2 * MICROSECOND
         if least * (1 - rate) - slack <= went <= most * (1 + rate) + slack:
             if least >= _LONG_ENOUGH * tolerance and drift <= tolerance:
-                verdicts.exercised("R-10.1.4.1-09")
+                yield check.kept()
             continue
-        verdicts.violated(
-            "R-10.1.4.1-09",
-            "local_time_rate",
+        yield check.fail(
             "too slow" if went < least else "too fast",
-            f"local time goes on by {_milliseconds(least)} to {_milliseconds(most)} ms, more or less",
-            f"'{_who(later)}' saw it go on by {_milliseconds(went)} ms",
-            (earlier.end, later.end),
+            expected=f"local time goes on by {_milliseconds(least)} to {_milliseconds(most)} ms, more or less",
+            observed=f"'{_who(later)}' saw it go on by {_milliseconds(went)} ms",
+            at=(earlier.end, later.end),
         )
         return
 
 
 @property_at("closed", "R-10.1.4.1-09", timed=True)
-def local_time_epoch(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def local_time_epoch(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Local time is the host's calendar time, within the tolerance, where the vendor says that it begins like Unix time."""
-    if verdicts.ics.reading("clock-epoch") != "unix":
+    if runtime.ics.reading("clock-epoch") != "unix":
         return
-    tolerance = verdicts.ics.tolerance("epoch-tolerance") * MILLISECOND
+    tolerance = runtime.ics.tolerance("epoch-tolerance") * MILLISECOND
     for reading in _readings(runtime, LOCAL):
         calendar = calendar_at(runtime.interactions.pauses, reading.asked, reading.told)
         if calendar is None:
@@ -215,15 +209,13 @@ def local_time_epoch(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
         away = passed(calendar[0] + reading.advanced, reading.time)
         slack = tolerance + calendar[1]
         if -slack <= away <= slack + _width(reading):
-            verdicts.exercised("R-10.1.4.1-09")
+            yield check.kept()
             continue
-        verdicts.violated(
-            "R-10.1.4.1-09",
-            "local_time_epoch",
+        yield check.fail(
             "not unix",
-            f"local time is the calendar's, about {calendar[0] // SECOND} s, as declared",
-            f"'{_who(reading)}' was told {reading.time // SECOND} s",
-            (reading.begin, reading.end),
+            expected=f"local time is the calendar's, about {calendar[0] // SECOND} s, as declared",
+            observed=f"'{_who(reading)}' was told {reading.time // SECOND} s",
+            at=(reading.begin, reading.end),
         )
         return
 
@@ -232,8 +224,8 @@ def _readings(runtime: ObservedRuntime, method: str) -> list[ClockReading]:
     return readings_of(runtime.interactions, runtime.scenario.components, method)
 
 
-def _is_never_set(verdicts: Verdicts) -> bool:
-    return verdicts.ics.reading("local-clock") == "monotonic"
+def _is_never_set(runtime: ObservedRuntime) -> bool:
+    return runtime.ics.reading("local-clock") == "monotonic"
 
 
 def _pairs(
@@ -253,17 +245,16 @@ def _pairs(
 
 
 def _went_back(
-    verdicts: Verdicts, requirement: str, name: str, earlier: ClockReading, later: ClockReading, tolerance: float
-) -> None:
+    check: Property, requirement: str, earlier: ClockReading, later: ClockReading, tolerance: float
+) -> Finding:
     back = _milliseconds(-passed(earlier.time, later.time))
-    verdicts.violated(
-        requirement,
-        name,
+    return check.fail(
         "one component" if earlier.body == later.body else "two components",
-        f"'{_who(later)}' is told no earlier time than '{_who(earlier)}' before it"
+        expected=f"'{_who(later)}' is told no earlier time than '{_who(earlier)}' before it"
         + (f", give or take {tolerance:g} ms" if tolerance else ""),
-        f"it was told one that is {back} ms earlier",
-        (earlier.begin, earlier.end, later.begin, later.end),
+        observed=f"it was told one that is {back} ms earlier",
+        at=(earlier.begin, earlier.end, later.begin, later.end),
+        requirement=requirement,
     )
 
 

@@ -6,9 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
+from ucm_cts.reference_models.conclusions import Conclusions, Kept
+from ucm_cts.reference_models.findings import Arrow, Finding
+
 Moment = Literal[
     "ended",
     "entered",
+    "unclear",
     "called",
     "answered",
     "replied",
@@ -23,7 +27,8 @@ Moment = Literal[
     "told",
     "closed",
 ]
-"""When a property is checked: an operation ended; a body was entered by a callback, or by a business call; a stimulus of the test
+"""When a property is checked: an operation ended; a body was entered by a callback (``entered``; ``unclear`` if
+no property was violated so far), or by a business call; a stimulus of the test
 came back; a body's own call came back; a fragment's query came back. Where components have policies: an execution began,
 or was over; a call that had to wait came back, or never did; a wait of the scenario ran out of patience. Where port
 elements have interfaces or policies (interactions.py): a step for connectors ended; a method of a body was entered; a
@@ -36,22 +41,47 @@ followed, because port elements have interfaces or components policies; where co
 """
 
 
+Evaluate = Callable[..., Conclusions]
+
+
 @dataclass(frozen=True)
 class Property:
-    """A named check and the requirements it stands for; ``check`` takes what the monitor has at ``moment``.
+    """A property that traces are to have: its requirements are bound here, and ``evaluate`` names them no more.
 
-    ``at`` names the operations, for ``entered`` the hooks, for ``called`` who called, that it looks at; empty stands for all. What a ``timed`` property
-    finds depends on how long something took, so that a machine that stood still may be to blame. With a ``feature`` it applies
-    only to scenarios that use it.
+    ``name``: as reports and the catalogue call it.
+    ``moment``: when it is checked.
+    ``stands_for``: its requirements.
+    ``at``: the operations, hooks (``entered``) or callers (``called``) for which it is checked; empty for all.
+    ``evaluate``: a pure function of this property and what the monitor has at ``moment``; yields what it concludes.
+    ``timed``: whether it depends on durations, so that a machine that stood still may be the reason of a finding.
+    ``feature``: it applies to scenarios that use this; empty for all.
     """
 
     name: str
     moment: Moment
     stands_for: tuple[str, ...]
     at: tuple[str, ...]
-    check: Callable[..., None]
+    evaluate: Evaluate
     timed: bool = False
     feature: Feature = ""
+
+    def kept(self, requirement: str = "") -> Kept:
+        """The requirement's condition really arose, and it was kept; without ``requirement`` the first one's."""
+        return requirement or self.stands_for[0]
+
+    def fail(
+        self,
+        cause: str,
+        *,
+        expected: str,
+        observed: str,
+        at: tuple[int, ...] = (),
+        step: int | None = None,
+        instead: tuple[Arrow, ...] = (),
+        requirement: str = "",
+    ) -> Finding:
+        """The requirement was violated; without ``requirement`` the first one. The others are the fields of ``Finding``."""
+        return Finding(requirement or self.stands_for[0], self.name, cause, expected, observed, at, step, instead)
 
 
 PROPERTIES: dict[str, Property] = {}
@@ -60,20 +90,26 @@ PROPERTIES: dict[str, Property] = {}
 
 def property_at(
     moment: Moment, *stands_for: str, at: tuple[str, ...] = (), timed: bool = False, feature: Feature = ""
-) -> Callable[[Callable[..., None]], Callable[..., None]]:
+) -> Callable[[Evaluate], Evaluate]:
     """Register the decorated function, under its own name, as a property that is checked at ``moment``."""
 
-    def register(check: Callable[..., None]) -> Callable[..., None]:
-        PROPERTIES[check.__name__] = Property(check.__name__, moment, stands_for, at, check, timed, feature)
-        return check
+    def register(evaluate: Evaluate) -> Evaluate:
+        name = evaluate.__name__
+        assert name not in PROPERTIES, f"two properties are called {name}"
+        PROPERTIES[name] = Property(name, moment, stands_for, at, evaluate, timed, feature)
+        return evaluate
 
     return register
 
 
-def checks(moment: Moment, at: str = "", features: frozenset[Feature] = frozenset()) -> tuple[Callable[..., None], ...]:
-    """The checks of all properties for this operation or hook at ``moment``, in scenarios that use ``features``."""
+Bound = tuple[Evaluate, Property]
+"""A property with its function at hand."""
+
+
+def checked_at(moment: Moment, at: str = "", features: frozenset[Feature] = frozenset()) -> tuple[Bound, ...]:
+    """The properties that are checked for this operation, hook or caller at ``moment``, in scenarios that use ``features``."""
     return tuple(
-        r.check
-        for r in PROPERTIES.values()
-        if r.moment == moment and (not r.at or at in r.at) and (not r.feature or r.feature in features)
+        (p.evaluate, p)
+        for p in PROPERTIES.values()
+        if p.moment == moment and (not p.at or at in p.at) and (not p.feature or p.feature in features)
     )

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
+from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, lane
+from ucm_cts.reference_models.model.operation import OperationInProgress
+from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 
 def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
@@ -22,35 +23,38 @@ def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
 
 @property_at("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
 def dependencies(
-    verdicts: Verdicts,
+    check: Property,
     runtime: ObservedRuntime,
     ongoing: OperationInProgress | None,
     event: Enter,
     history: CallbackHistory,
-) -> None:
+) -> Conclusions:
     """on_startup names each connected required port element and gives the reference it was connected to."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended or member.operational:
-        return
+        return ()
     given = handed_over(event)
     again = member.startups > 0
     problem = _problem(member, given)
     if problem is None:
         if member.live_connections():
-            verdicts.exercised("R-11.2.3-10" if again else "R-11.2.1.2-09")
-            verdicts.exercised("R-11.2.1.2-03")
-            verdicts.exercised("R-12.10-25")
-        return
+            return (
+                check.kept("R-11.2.3-10" if again else "R-11.2.1.2-09"),
+                check.kept("R-11.2.1.2-03"),
+                check.kept("R-12.10-25"),
+            )
+        return ()
     requirement, cause, expected, observed = problem
-    verdicts.violated(
-        "R-11.2.3-10" if again else requirement,
-        "dependencies",
-        cause,
-        expected,
-        observed,
-        (event.n,),
-        ongoing.step_number if ongoing else None,
-        (Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
+    return (
+        check.fail(
+            cause,
+            expected=expected,
+            observed=observed,
+            at=(event.n,),
+            step=ongoing.step_number if ongoing else None,
+            instead=(Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
+            requirement="R-11.2.3-10" if again else requirement,
+        ),
     )
 
 
@@ -94,12 +98,12 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
 
 @property_at("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
 def no_dangling_reference(
-    verdicts: Verdicts,
+    check: Property,
     runtime: ObservedRuntime,
     ongoing: OperationInProgress | None,
     event: Enter,
     history: CallbackHistory,
-) -> None:
+) -> Conclusions:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
     if ongoing is not None and ongoing.operation == "connect":
         return
@@ -112,32 +116,30 @@ def no_dangling_reference(
             provider = runtime.provider_of(reference)
             stale = any(c.stale and c.provider is provider for c in member.connections)
             if provider is not None and provider.gone and not stale:
-                verdicts.violated(
-                    "R-11.2.3-14",
-                    "no_dangling_reference",
+                yield check.fail(
                     "removed provider",
-                    f"{provider.lane} was removed, so {port} is not connected to it",
-                    f"on_startup handed over {_show(reference)} for {port}",
-                    (event.n,),
-                    ongoing.step_number if ongoing else None,
+                    expected=f"{provider.lane} was removed, so {port} is not connected to it",
+                    observed=f"on_startup handed over {_show(reference)} for {port}",
+                    at=(event.n,),
+                    step=ongoing.step_number if ongoing else None,
+                    requirement="R-11.2.3-14",
                 )
                 return
             of_port = [c for c in member.connections if c.port == port and c.reference == reference]
             if of_port and all(c.live is False for c in of_port) and not member.suspended:
-                verdicts.violated(
-                    "R-11.2.2.1-10",
-                    "no_dangling_reference",
+                yield check.fail(
                     "undone connection",
-                    f"{of_port[0].name} was disconnected, so its reference is not handed over",
-                    f"on_startup handed over {_show(reference)} for {port}",
-                    (event.n,),
-                    ongoing.step_number if ongoing else None,
+                    expected=f"{of_port[0].name} was disconnected, so its reference is not handed over",
+                    observed=f"on_startup handed over {_show(reference)} for {port}",
+                    at=(event.n,),
+                    step=ongoing.step_number if ongoing else None,
+                    requirement="R-11.2.2.1-10",
                 )
                 return
     if any(c.provider is not None and c.provider.gone for c in member.connections):
-        verdicts.exercised("R-11.2.3-14")
+        yield check.kept("R-11.2.3-14")
     if any(c.live is False and c.provider is not None and not c.provider.gone for c in member.connections):
-        verdicts.exercised("R-11.2.2.1-10")
+        yield check.kept("R-11.2.2.1-10")
 
 
 def _expected(member: Member) -> str:

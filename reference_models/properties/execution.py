@@ -8,6 +8,7 @@ import statistics
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, HoldAtGate
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
+from ucm_cts.reference_models.conclusions import Conclusions, Measured, Taken, takes
 from ucm_cts.reference_models.model.executions import (
     CALL_EXCLUSIONS,
     EXCLUSIONS,
@@ -22,10 +23,10 @@ from ucm_cts.reference_models.model.executions import (
 )
 from ucm_cts.reference_models.model.interactions import Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import OperationInProgress, lane, raises
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import lane, raises
 from ucm_cts.reference_models.model.service_policies import SERVICES, policies_of
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _SUPPORT = {
     "self-executing": "R-10.1.3.1-12",
@@ -42,49 +43,49 @@ _INTERVALS = 3
 
 
 @property_at("began", *EXCLUSIONS)
-def no_reentry(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
+def no_reentry(check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> Conclusions:
     """A protected component is not entered while it is executed, unless the execution's own calls lead back into it."""
     enter = execution.enter
     declaration = runtime.scenario.components[enter.component]
     for other in met:
-        requirement = exclusion(declaration, verdicts.ics, execution.way, other.way)
+        requirement = exclusion(declaration, runtime.ics, execution.way, other.way)
         if requirement:
-            verdicts.violated(
-                requirement,
-                "no_reentry",
+            yield check.fail(
                 f"{other.way} {execution.way}",
-                f"nothing else executes '{lane(enter.component, enter.instance)}' while its {other.way} is executed",
-                f"its {execution.way} was entered by another thread meanwhile",
-                (other.enter.n, enter.n),
+                expected=f"nothing else executes '{lane(enter.component, enter.instance)}' while its {other.way} is executed",
+                observed=f"its {execution.way} was entered by another thread meanwhile",
+                at=(other.enter.n, enter.n),
+                requirement=requirement,
             )
             return
 
 
 @property_at("began", "R-10.1.3.2-20")
-def overlap_possible(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
+def overlap_possible(
+    check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]
+) -> Conclusions:
     """Two callers may be inside an unprotected passive component, which is told and never demanded."""
     if met and protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
-        verdicts.observed("unprotected-concurrency", "concurrent")
-        verdicts.exercised("R-10.1.3.2-20")
-        verdicts.measured("overlaps provoked")
+        return (Taken("unprotected-concurrency", "concurrent"), check.kept(), Measured("overlaps provoked"))
+    return ()
 
 
 @property_at("over", *EXCLUSIONS)
-def kept_out(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, end: int) -> None:
+def kept_out(check: Property, runtime: ObservedRuntime, execution: Execution, end: int) -> Conclusions:
     """An execution was held, a call that was to execute the same body had been made, and did not until the first ended."""
     enter = execution.enter
     for call in execution.waited:
         for member, port in goals_of(runtime, call):
             own = (member.component, member.instance) == (enter.component, enter.instance)
-            requirement = exclusion(member.declaration, verdicts.ics, execution.way, port) if own else ""
+            requirement = exclusion(member.declaration, runtime.ics, execution.way, port) if own else ""
             inside = any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries)
             if requirement and not inside:
-                verdicts.exercised(requirement)
-                verdicts.measured("exclusions proved")
+                yield check.kept(requirement)
+                yield Measured("exclusions proved")
 
 
 @property_at("delivered", *CALL_EXCLUSIONS)
-def message_kept_out(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
+def message_kept_out(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """A message was pushed while its receiver was executed, time passed, and it came in when the execution had ended."""
     call, receiver = delivery.call, delivery.receiver
     if call is None or receiver is None or not call.is_message:
@@ -93,10 +94,10 @@ def message_kept_out(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Del
     for execution in runtime.executions.past(enter.component, enter.instance):
         was_there = execution.enter.n < call.request.n
         if was_there and _time_passed(runtime, call.request.n, execution.end) and enter.port is not None:
-            requirement = exclusion(receiver.declaration, verdicts.ics, execution.way, enter.port)
+            requirement = exclusion(receiver.declaration, runtime.ics, execution.way, enter.port)
             if requirement:
-                verdicts.exercised(requirement)
-                verdicts.measured("exclusions proved")
+                yield check.kept(requirement)
+                yield Measured("exclusions proved")
 
 
 def _time_passed(runtime: ObservedRuntime, begin: int, end: int) -> bool:
@@ -105,7 +106,7 @@ def _time_passed(runtime: ObservedRuntime, begin: int, end: int) -> bool:
 
 
 @property_at("over", "R-10.1.3.2-20")
-def callers_meet(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, end: int) -> None:
+def callers_meet(check: Property, runtime: ObservedRuntime, execution: Execution, end: int) -> Conclusions:
     """Who waits while an unprotected component is executed is kept out, which is wrong if callers are said to meet."""
     enter = execution.enter
     body = enter.component, enter.instance
@@ -115,55 +116,53 @@ def callers_meet(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execut
         inside = any((e.component, e.instance) == body for e, _ in call.entries)
         if inside or not _time_passed(runtime, call.n, end):
             continue
-        if not verdicts.observed("unprotected-concurrency", "may-serialise"):
-            verdicts.violated(
-                "R-10.1.3.2-20",
-                "callers_meet",
+        if not (yield from takes(runtime, "unprotected-concurrency", "may-serialise")):
+            yield check.fail(
                 "kept out",
-                f"callers of '{lane(*body)}', which is not protected, meet inside, as declared",
-                "one waited while another one was held there",
-                (enter.n, call.n, end),
+                expected=f"callers of '{lane(*body)}', which is not protected, meet inside, as declared",
+                observed="one waited while another one was held there",
+                at=(enter.n, call.n, end),
             )
 
 
 @property_at("began", "R-10.1.3.2-05")
-def run_kept_out(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
+def run_kept_out(check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> Conclusions:
     """A run was held inside for several of the intervals at which run is called, and nobody came in."""
     runs = [run for run in execution.earlier if run.over]
     if execution.way != "run" or met or len(runs) < _INTERVALS:
-        return
+        return ()
     begun = [run.enter.t for run in (*runs, execution)]
     usual = statistics.median(later - earlier for earlier, later in itertools.pairwise(begun))
     if any(run.left - run.enter.t >= _INTERVALS * usual for run in runs):
-        verdicts.exercised("R-10.1.3.2-05")
+        return (check.kept(),)
+    return ()
 
 
 @property_at("served", "R-10.1.3.2-17", timed=True)
 def waiting_calls_served(
-    verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, waited: Execution, end: int
-) -> None:
+    check: Property, runtime: ObservedRuntime, call: BusinessCall, waited: Execution, end: int
+) -> Conclusions:
     """Who had to wait for an execution is served when it has ended; ``end`` is 0 if the call never came back."""
     enter = waited.enter
     if protection_of(runtime.scenario.components[enter.component]) in ("", "unprotected"):
-        return
+        return ()
     if end and any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries):
-        verdicts.exercised("R-10.1.3.2-17")
-        return
+        return (check.kept(),)
     ending = runtime.interactions.ends_phases(call.n, end or _NOW)
     if ending or not all(member.serving for member, _ in goals_of(runtime, call)):
-        return  # who is being stopped serves nobody
-    verdicts.violated(
-        "R-10.1.3.2-17",
-        "waiting_calls_served",
-        "refused" if end else "never",
-        f"the call that waits while '{lane(enter.component, enter.instance)}' is executed is carried out afterwards",
-        "it ended without having been carried out" if end else "it did not end",
-        (enter.n, call.n, *((end,) if end else ())),
+        return ()  # who is being stopped serves nobody
+    return (
+        check.fail(
+            "refused" if end else "never",
+            expected=f"the call that waits while '{lane(enter.component, enter.instance)}' is executed is carried out afterwards",
+            observed="it ended without having been carried out" if end else "it did not end",
+            at=(enter.n, call.n, *((end,) if end else ())),
+        ),
     )
 
 
 @property_at("answered", "R-10.1.3.2-07", "R-10.1.3.2-08", "R-10.1.3.2-15", "R-10.1.3.2-21", feature="policies")
-def calls_carried_out(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, end: Return | Raise) -> None:
+def calls_carried_out(check: Property, runtime: ObservedRuntime, call: BusinessCall, end: Result) -> Conclusions:
     """A call through a port that the policy speaks of enters the body once, there, with the value sent; its result comes back."""
     member, port = call.callee, call.port
     if member is None or port is None or not call.possible or not member.serving or member.raises("exchange"):
@@ -175,55 +174,54 @@ def calls_carried_out(verdicts: Verdicts, runtime: ObservedRuntime, call: Busine
     right = [x for e, x in own if e.port == port and e.value == call.value and x is not None]
     if len(own) == len(right) == 1 and isinstance(end, Return) and end.value == right[0].value:
         for requirement in promised:
-            verdicts.exercised(requirement)
+            yield check.kept(requirement)
         return
     entered = ", ".join(f"{e.port} with {e.value}" for e, _ in own) or "nothing"
     came_back = end.value if isinstance(end, Return) else end.error
-    verdicts.violated(
-        promised[0],
-        "calls_carried_out",
+    yield check.fail(
         "not served" if not own else "otherwise",
-        f"exchange({call.value}) through {port} executes '{member.lane}' there, once, and brings back its result",
-        f"it executed {entered}, and brought back {came_back}",
-        (call.n, end.n),
+        expected=f"exchange({call.value}) through {port} executes '{member.lane}' there, once, and brings back its result",
+        observed=f"it executed {entered}, and brought back {came_back}",
+        at=(call.n, end.n),
+        requirement=promised[0],
     )
 
 
 @property_at("called", "R-10.1.3.2-14", "R-10.1.3.2-19", feature="policies")
 def no_self_execution(
-    verdicts: Verdicts,
+    check: Property,
     runtime: ObservedRuntime,
     ongoing: OperationInProgress | None,
     event: Enter,
     call: BusinessCall | None,
-) -> None:
+) -> Conclusions:
     """A passive component is executed because somebody calls it."""
     member = runtime.member_of(event.component, event.instance)
     requirement = _BY_ITSELF.get(protection_of(member.declaration), "") if member is not None else ""
     if member is None or not requirement or member.suspended:
-        return
+        return ()
     if call is not None:
-        verdicts.exercised(requirement)
-        return
-    verdicts.violated(
-        requirement,
-        "no_self_execution",
-        "no caller",
-        f"'{member.lane}' is executed because it is called",
-        f"its {event.port} was entered with {event.value}, and nobody had called",
-        (event.n,),
+        return (check.kept(requirement),)
+    return (
+        check.fail(
+            "no caller",
+            expected=f"'{member.lane}' is executed because it is called",
+            observed=f"its {event.port} was entered with {event.value}, and nobody had called",
+            at=(event.n,),
+            requirement=requirement,
+        ),
     )
 
 
 @property_at("ended", *_SUPPORT.values(), at=("add_component", "start"), feature="policies")
 def policy_supported(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """A component with an execution policy is added and started like any other."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
         if isinstance(end, Raise) and declaration is not None and ongoing.container.started is False:
-            _refused(verdicts, ongoing, declaration, end)
+            yield from _refused(check, ongoing, declaration, end)
         return
     if not isinstance(end, Return) or not ongoing.judged:
         return
@@ -231,76 +229,75 @@ def policy_supported(
         hooks = [c.hook for c in ongoing.by_body.get((member.component, member.instance), ())]
         requirement = _SUPPORT.get(protection_of(member.declaration), "")
         if requirement and "on_startup" in hooks:
-            verdicts.exercised(requirement)
+            yield check.kept(requirement)
 
 
-def _refused(verdicts: Verdicts, ongoing: OperationInProgress, declaration: Declaration, end: Raise) -> None:
+def _refused(check: Property, ongoing: OperationInProgress, declaration: Declaration, end: Raise) -> Conclusions:
     requirement = _SUPPORT.get(protection_of(declaration), "")
     excused = is_contradictory(declaration) or len(managed_ports(declaration)) > 1  # may count as two policies
     excused = excused or bool(policies_of(declaration, *SERVICES))  # may be the reason
     if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
-        verdicts.violated(
-            requirement,
-            "policy_supported",
-            "refused",
-            f"a component with the policy {declaration.policies[0].definition} is added",
-            f"add_component raised {end.error} {end.detail}".rstrip(),
-            (end.n,),
-            ongoing.step_number,
+        return (
+            check.fail(
+                "refused",
+                expected=f"a component with the policy {declaration.policies[0].definition} is added",
+                observed=f"add_component raised {end.error} {end.detail}".rstrip(),
+                at=(end.n,),
+                step=ongoing.step_number,
+                requirement=requirement,
+            ),
         )
+    return ()
 
 
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
 def one_execution_policy(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """A component with two execution policies is refused when it is added, or at the latest when it is to be started."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
         if declaration is not None and is_contradictory(declaration) and isinstance(end, Raise):
-            verdicts.exercised("R-10.1.3-03")
+            yield check.kept()
         return
     members = [m for m in ongoing.container.live_members() if is_contradictory(m.declaration)]
     if members and isinstance(end, Raise):
-        verdicts.exercised("R-10.1.3-03")
+        yield check.kept()
     for member in members if isinstance(end, Return) else ():
-        verdicts.violated(
-            "R-10.1.3-03",
-            "one_execution_policy",
+        yield check.fail(
             "started",
-            f"'{member.lane}', which has two execution policies, is not started",
-            "start returned",
-            (end.n,),
-            ongoing.step_number,
+            expected=f"'{member.lane}', which has two execution policies, is not started",
+            observed="start returned",
+            at=(end.n,),
+            step=ongoing.step_number,
         )
 
 
 @property_at("began", "R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03")
-def run_phases(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
+def run_phases(check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> Conclusions:
     """run is called on an operational component, and needs neither connections nor callers."""
     enter = execution.enter
     member = runtime.member_of(enter.component, enter.instance)
     if enter.hook != "run" or (member is not None and member.suspended):
         return
     if member is not None and runtime.may_run(member):
-        verdicts.exercised("R-10.1.3.2-01")
-        verdicts.exercised("R-10.1.3.2-02")
+        yield check.kept("R-10.1.3.2-01")
+        yield check.kept("R-10.1.3.2-02")
         if not member.connections and not member.served:
-            verdicts.exercised("R-10.1.3.2-03")
+            yield check.kept("R-10.1.3.2-03")
         return
     who = lane(enter.component, enter.instance)
-    verdicts.violated(
-        "R-10.1.3.2-02",
-        "run_phases",
+    yield check.fail(
         "not operational",
-        f"run of '{who}' begins after its on_startup returned and before stop returned",
-        "run began outside the operational phase",
-        (enter.n,),
+        expected=f"run of '{who}' begins after its on_startup returned and before stop returned",
+        observed="run began outside the operational phase",
+        at=(enter.n,),
+        requirement="R-10.1.3.2-02",
     )
 
 
 @property_at("waited", "R-10.1.3.2-01", "R-10.1.3.2-03", timed=True)
-def run_triggered(verdicts: Verdicts, runtime: ObservedRuntime, event: Timeout) -> None:
+def run_triggered(check: Property, runtime: ObservedRuntime, event: Timeout) -> Conclusions:
     """Once started, a self-executing component is executed within the scenario's patience."""
     step = runtime.scenario.steps[event.step]
     if not isinstance(step, s.ReachGate):
@@ -310,13 +307,12 @@ def run_triggered(verdicts: Verdicts, runtime: ObservedRuntime, event: Timeout) 
         if member.serving and not runs and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
             unprompted = not member.connections and not member.served
             for requirement in ("R-10.1.3.2-01", *(("R-10.1.3.2-03",) if unprompted else ())):
-                verdicts.violated(
-                    requirement,
-                    "run_triggered",
+                yield check.fail(
                     "never",
-                    f"run of '{member.lane}', which is ready, is called",
-                    f"it was not within {runtime.scenario.patience} ms",
-                    (event.n,),
-                    event.step,
+                    expected=f"run of '{member.lane}', which is ready, is called",
+                    observed=f"it was not within {runtime.scenario.patience} ms",
+                    at=(event.n,),
+                    step=event.step,
+                    requirement=requirement,
                 )
             return

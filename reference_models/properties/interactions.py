@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Enter, Raise, Reply, Return
-from ucm_cts.reference_models.findings import Arrow
+from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
+from ucm_cts.reference_models.conclusions import Conclusions
+from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, calls_promised
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, lane
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import Member, lane
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 
 @property_at("answered", "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06")
-def stimulus(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, end: Return | Raise) -> None:
+def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end: Result) -> Conclusions:
     """A call through a reference enters an operational body once, with the value sent, and returns its result."""
     member, port = call.callee, call.port
     if member is None or not call.possible or not member.serving or member.raises("exchange"):
@@ -27,48 +28,48 @@ def stimulus(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, e
     if not own or isinstance(end, Raise):
         expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
         observed = f"it raised {end.error} {end.detail}" if isinstance(end, Raise) else "the body was not entered"
-        _violate(verdicts, "R-11.2.1.2-07", "stimulus", "not served", expected, observed, call.n, end.n, member)
+        yield _violate(check, "R-11.2.1.2-07", "not served", expected, observed, call.n, end.n, member)
         return
     enter, exit_ = own[0]
     result = exit_.value if exit_ is not None else None
     if enter.port == port and enter.value == call.value and end.value == result and len(own) == 1:
-        verdicts.exercised("R-11.2.1.2-07", "R-11.2.1.1-02", "R-11.2.2.1-06")
+        yield check.kept("R-11.2.1.2-07")
+        yield check.kept("R-11.2.1.1-02")
+        yield check.kept("R-11.2.2.1-06")
         return
-    verdicts.exercised("R-11.2.1.2-07")
+    yield check.kept("R-11.2.1.2-07")
     if enter.port != port:
         observed = f"it ran {member.lane}'s {enter.port}"
         expected = f"the reference that get_port_element gave for {port} runs {member.lane}'s {port}"
-        _violate(verdicts, "R-11.2.2.1-06", "stimulus", "another port", expected, observed, call.n, end.n, member)
+        yield _violate(check, "R-11.2.2.1-06", "another port", expected, observed, call.n, end.n, member)
         return
     observed = f"the body received {enter.value}, returned {result}, the caller got {end.value}"
     if len(own) > 1:
         observed = f"the body was entered {len(own)} times"
     expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
-    _violate(verdicts, "R-11.2.1.1-02", "stimulus", "wrong value", expected, observed, call.n, end.n, member)
+    yield _violate(check, "R-11.2.1.1-02", "wrong value", expected, observed, call.n, end.n, member)
 
 
 @property_at("replied", "R-11.1.3-01", "R-11.1.2-02")
-def peer_calls(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> None:
+def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Conclusions:
     """A call through a connection enters a connected body with the value sent; its result comes back."""
     request = call.request
     if request is None or reply.raised:
-        return
+        return ()
     providers, fragments, targets = behind_call(runtime, call, request)
     if not providers:
-        return
+        return ()
     requirement = "R-11.1.2-02" if fragments else "R-11.1.3-01"
     wanted = call.value
     if len(call.entries) == 1:  # the common case: it reached one body, the right one
         enter, exit_ = call.entries[0]
         came_to = enter.component, enter.instance, enter.port
         if enter.value == wanted and came_to in targets and (exit_ is None or exit_.value == reply.value):
-            verdicts.exercised(requirement)
-            return
+            return (check.kept(requirement),)
     reached = [(e, x) for e, x in call.entries if e.value == wanted and (e.component, e.instance, e.port) in targets]
     came_back = [x for _, x in reached if x is None or x.value == reply.value]
     if len(reached) == 1 and came_back:
-        verdicts.exercised(requirement)
-        return
+        return (check.kept(requirement),)
     names = " or ".join(sorted(p.lane for p in providers))
     expected = f"{reply.component}'s call of {reply.port} with {call.value} reaches {names} and brings back its result"
     if not reached:
@@ -79,159 +80,155 @@ def peer_calls(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall,
     else:
         observed = f"it was carried out {len(reached)} times"
     cause = "target" if not reached else "result"
-    _violate(verdicts, requirement, "peer_calls", cause, expected, observed, call.n, reply.n, providers[0])
+    return (_violate(check, requirement, cause, expected, observed, call.n, reply.n, providers[0]),)
 
 
 @property_at("replied", "R-11.2.3-03")
-def interactions(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> None:
+def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Conclusions:
     """In the operational phase a call between two components comes back."""
     request = call.request
     if not call.possible or request is None:
-        return
+        return ()
     caller = runtime.bodies.get((reply.component, reply.instance))
     if caller is None or not caller.serving:
-        return
+        return ()
     providers = behind_call(runtime, call, request).providers
     if not providers:
-        return
+        return ()
     for provider in providers:
         if not provider.serving or (provider.declaration.plan and provider.raises("exchange")):
-            return
+            return ()
     if not reply.raised:
-        verdicts.exercised("R-11.2.3-03")
-        return
+        return (check.kept(),)
     expected = f"{caller.lane} and {providers[0].lane} are ready, so the call comes back"
-    _violate(
-        verdicts, "R-11.2.3-03", "interactions", "refused", expected, "the call raised", call.n, reply.n, providers[0]
-    )
+    return (_violate(check, "R-11.2.3-03", "refused", expected, "the call raised", call.n, reply.n, providers[0]),)
 
 
 @property_at("called", "R-11.2.3-02", at=("body", "nobody"))
 def disabled_ports(
-    verdicts: Verdicts,
+    check: Property,
     runtime: ObservedRuntime,
     ongoing: OperationInProgress | None,
     event: Enter,
     call: BusinessCall | None,
-) -> None:
+) -> Conclusions:
     """Before start was called on its container, no component is called by another one or by the framework."""
     member = runtime.bodies.get((event.component, event.instance))
     if member is None:
-        _called_while_added(verdicts, ongoing, event, call)
-        return
+        return _called_while_added(check, ongoing, event, call)
     if member.startups and not member.operational:
-        return
+        return ()
     container = member.container
     starting = ongoing is not None and ongoing.operation == "start"
     if container.started is not False or starting:
         if call is not None and call.caller_hook == "on_startup":
-            verdicts.exercised("R-11.2.3-02")
-        return
+            return (check.kept(),)
+        return ()
     if member.suspended and not (call is not None and call.request is not None):
-        return
+        return ()
     caller = call.request.component if call is not None and call.request is not None else "the framework"
     if call is not None and call.request is not None:
         other = runtime.member_of(call.request.component, call.request.instance)
         if other is not None and other.container is not container and other.container.started is not False:
-            return
+            return ()
         if (call.request.component, call.request.instance) in runtime.startups and ongoing is None:
-            return  # it has kept the reference that it heard of in a start that failed
-    verdicts.violated(
-        "R-11.2.3-02",
-        "disabled_ports",
-        "called before start",
-        f"{member.lane} is not called before its container {container.name} is started",
-        f"{caller} called {member.lane}'s {event.port} during configuration",
-        (event.n,),
-        ongoing.step_number if ongoing else None,
-        (Arrow("test", container.name, "start"), Arrow(caller, member.lane, "exchange")),
+            return ()  # it has kept the reference that it heard of in a start that failed
+    return (
+        check.fail(
+            "called before start",
+            expected=f"{member.lane} is not called before its container {container.name} is started",
+            observed=f"{caller} called {member.lane}'s {event.port} during configuration",
+            at=(event.n,),
+            step=ongoing.step_number if ongoing else None,
+            instead=(Arrow("test", container.name, "start"), Arrow(caller, member.lane, "exchange")),
+        ),
     )
 
 
 @property_at("replied", "R-11.2.3-02")
-def refused_ports(verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> None:
+def refused_ports(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Conclusions:
     """A call that a component makes as soon as it is told to start may be refused: ports were closed until then, too."""
     if call.caller_hook == "on_startup" and reply.raised and not call.entries:
-        verdicts.exercised("R-11.2.3-02")
+        return (check.kept(),)
+    return ()
 
 
 def _called_while_added(
-    verdicts: Verdicts, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
-) -> None:
+    check: Property, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
+) -> Conclusions:
     """The body is one that add_component is just making, in a container that is not started."""
     step = ongoing.step if ongoing is not None else None
     if ongoing is None or not isinstance(step, s.AddComponent) or step.component != event.component:
-        return
+        return ()
     if ongoing.container.started is not False:
-        return
+        return ()
     who = lane(event.component, event.instance)
     caller = call.request.component if call is not None and call.request is not None else "the framework"
-    verdicts.violated(
-        "R-11.2.3-02",
-        "disabled_ports",
-        "called while added",
-        f"{who} is not called before its container {ongoing.container.name} is started",
-        f"{caller} called {who}'s {event.port} during add_component",
-        (event.n,),
-        ongoing.step_number,
-        (Arrow("test", ongoing.container.name, "start"), Arrow(caller, who, "exchange")),
+    return (
+        check.fail(
+            "called while added",
+            expected=f"{who} is not called before its container {ongoing.container.name} is started",
+            observed=f"{caller} called {who}'s {event.port} during add_component",
+            at=(event.n,),
+            step=ongoing.step_number,
+            instead=(Arrow("test", ongoing.container.name, "start"), Arrow(caller, who, "exchange")),
+            requirement="R-11.2.3-02",
+        ),
     )
 
 
 @property_at("called", "R-11.2.3-17", at=("nobody",))
 def nothing_after_stop(
-    verdicts: Verdicts,
+    check: Property,
     runtime: ObservedRuntime,
     ongoing: OperationInProgress | None,
     event: Enter,
     call: BusinessCall | None,
-) -> None:
+) -> Conclusions:
     """After stop returned, no business method begins but those that are called."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended or member.operational or not member.startups:
-        return
+        return ()
     if ongoing is not None and ongoing.operation in ("start", "stop", "add_component"):
-        return
-    verdicts.violated(
-        "R-11.2.3-17",
-        "nothing_after_stop",
-        "called after stop",
-        f"{member.lane} was stopped, so nothing is run on it",
-        f"the framework called {member.lane}'s {event.port} with {event.value}",
-        (event.n,),
-        ongoing.step_number if ongoing else None,
+        return ()
+    return (
+        check.fail(
+            "called after stop",
+            expected=f"{member.lane} was stopped, so nothing is run on it",
+            observed=f"the framework called {member.lane}'s {event.port} with {event.value}",
+            at=(event.n,),
+            step=ongoing.step_number if ongoing else None,
+        ),
     )
 
 
 @property_at("ended", "R-11.2.3-17", at=("get_components", "get_port_element"))
 def quiet_after_stop(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """Counts what nothing_after_stop watched: queries of a container stopped after it had served calls."""
     if ongoing.container.started is not False:
-        return
+        return ()
     if any(m.served and not m.suspended for m in ongoing.container.live_members()):
-        verdicts.exercised("R-11.2.3-17")
+        return (check.kept(),)
+    return ()
 
 
 def _violate(
-    verdicts: Verdicts,
+    check: Property,
     requirement: str,
-    rule_name: str,
     cause: str,
     expected: str,
     observed: str,
     begin: int,
     end: int,
     member: Member,
-) -> None:
-    verdicts.violated(
-        requirement,
-        rule_name,
+) -> Finding:
+    return check.fail(
         cause,
-        expected,
-        observed,
-        (begin, end),
-        None,
-        (Arrow("caller", member.lane, "exchange"), Arrow(member.lane, "caller", "result")),
+        expected=expected,
+        observed=observed,
+        at=(begin, end),
+        instead=(Arrow("caller", member.lane, "exchange"), Arrow(member.lane, "caller", "result")),
+        requirement=requirement,
     )

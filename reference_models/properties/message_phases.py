@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Raise, Return, Timeout
+from ucm_cts.adapters.contract.trace import Raise, Timeout
+from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.messages import (
     CODES,
@@ -21,39 +22,39 @@ from ucm_cts.reference_models.model.messages import (
     was_delivered,
 )
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import Member
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 
 @property_at("delivered", "R-10.1.6.1-09")
-def message_phases(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
+def message_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """No message enters a receiver before start was called on its container, or after stop returned."""
     receiver, call = delivery.receiver, delivery.call
     if receiver is None or receiver.suspended or (call is not None and not call.is_message):
-        return
+        return ()
     if delivery.link is None or delivery.link.connector != s.MESSAGE_CONNECTOR:
-        return
+        return ()
     in_progress = runtime.interactions.in_progress.values()
     if receiver.operational or any(isinstance(o.step, s.Start) for o in in_progress):
         if call is not None and _was_kept_waiting(runtime, call, receiver):
-            verdicts.exercised("R-10.1.6.1-09")
-        return
+            return (check.kept(),)
+        return ()
     if receiver.container.started is not False:
-        return
+        return ()
     when = "after it was stopped" if receiver.startups else "before it was started"
-    verdicts.violated(
-        "R-10.1.6.1-09",
-        "message_phases",
-        when,
-        f"{receiver.lane} gets messages in its operational phase only",
-        f"{list(delivery.enter.arguments or ())} entered it {when}",
-        (delivery.enter.n,),
+    return (
+        check.fail(
+            when,
+            expected=f"{receiver.lane} gets messages in its operational phase only",
+            observed=f"{list(delivery.enter.arguments or ())} entered it {when}",
+            at=(delivery.enter.n,),
+        ),
     )
 
 
 @property_at("delivered", "R-10.1.6.1-09")
-def later_phases(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
+def later_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """A message of an earlier phase comes in a later one only if the vendor has not declared that it does not."""
     call, receiver = delivery.call, delivery.receiver
     if call is None or receiver is None or not call.is_message or not pushed_before_start(runtime, delivery):
@@ -63,22 +64,20 @@ def later_phases(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Deliver
     if not (was_idle or any(ready)):
         return
     option, value = ("receiver-not-ready", "hold") if was_idle else ("pending-at-stop", "keep")
-    if not verdicts.observed(option, value):
-        verdicts.violated(
-            "R-10.1.6.1-09",
-            "later_phases",
+    if not (yield from takes(runtime, option, value)):
+        yield check.fail(
             option,
-            f"{option} was declared as {verdicts.ics.reading(option)}: {name_of(call)} does not come after a start",
-            f"it entered {receiver.lane} after its next start",
-            events_of(call, delivery.enter.n),
+            expected=f"{option} was declared as {runtime.ics.reading(option)}: {name_of(call)} does not come after a start",
+            observed=f"it entered {receiver.lane} after its next start",
+            at=events_of(call, delivery.enter.n),
         )
 
 
 @property_at("waited", "R-10.1.6.1-09", timed=True)
-def kept_for_later_phases(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
+def kept_for_later_phases(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """A message that waits for the next start comes then, where the vendor has declared it."""
     for call in messages(runtime):
-        if call.code != OK or not is_whole(verdicts, runtime, call):
+        if call.code != OK or not is_whole(runtime, call):
             continue
         for end, was_ready in call.targets:
             since, _ = runtime.startups.get((end.member.component, end.member.instance or 0), (0, 0))
@@ -88,62 +87,58 @@ def kept_for_later_phases(verdicts: Verdicts, runtime: ObservedRuntime, timeout:
             if not was_ready and end not in call.idle:
                 continue
             option = "pending-at-stop" if was_ready else "receiver-not-ready"
-            if not verdicts.observed(option, "drop"):
+            if not (yield from takes(runtime, option, "drop")):
                 expected = (
-                    f"{option} was declared as {verdicts.ics.reading(option)}: {name_of(call)} comes after the start"
+                    f"{option} was declared as {runtime.ics.reading(option)}: {name_of(call)} comes after the start"
                 )
-                verdicts.violated(
-                    "R-10.1.6.1-09",
-                    "kept_for_later_phases",
+                yield check.fail(
                     option,
-                    expected,
-                    f"it never came to {end.member.lane}",
-                    events_of(call, timeout.n),
+                    expected=expected,
+                    observed=f"it never came to {end.member.lane}",
+                    at=events_of(call, timeout.n),
                 )
 
 
 @property_at("ended", "R-10.1.6.1-09", at=("stop",), feature="interactions")
 def delivered_at_stop(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """All that had got ok has arrived when stop returns, where the vendor has declared it."""
     if isinstance(end, Raise):
         return
     for call in messages(runtime):
-        for target in of_one_phase(runtime, call) if call.code == OK and is_whole(verdicts, runtime, call) else ():
+        for target in of_one_phase(runtime, call) if call.code == OK and is_whole(runtime, call) else ():
             here = target.member.container is ongoing.container and not counts(target.member)
             if not here or call.request.n > ongoing.call or was_delivered(call, target):
                 continue
-            if verdicts.ics.reading("pending-at-stop") == "deliver":
-                verdicts.violated(
-                    "R-10.1.6.1-09",
-                    "delivered_at_stop",
+            if runtime.ics.reading("pending-at-stop") == "deliver":
+                yield check.fail(
                     "pending-at-stop",
-                    f"pending-at-stop was declared as deliver: {name_of(call)} is delivered when stop returns",
-                    f"it had not come to {target.member.lane}",
-                    events_of(call, end.n),
+                    expected=f"pending-at-stop was declared as deliver: {name_of(call)} is delivered when stop returns",
+                    observed=f"it had not come to {target.member.lane}",
+                    at=events_of(call, end.n),
                 )
 
 
 @property_at("completed", "R-10.1.6.1-09")
-def unready_receivers(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
+def unready_receivers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """What is pushed to a receiver that is not operational is answered as the vendor has declared."""
-    if not call.is_message or not call.idle or not is_whole(verdicts, runtime, call) or not is_quiet(runtime, call):
+    if not call.is_message or not call.idle or not is_whole(runtime, call) or not is_quiet(runtime, call):
         return
     others = [end for end, ready in call.targets if ready and end not in call.idle]
     if len(others) + len(call.idle) < len(call.targets) or not all(is_well(end.member) for end in others):
         return
     refused = call.code in CODES and call.code != OK
-    declared = verdicts.ics.reading("receiver-not-ready")
-    if (refused and not verdicts.observed("receiver-not-ready", "error")) or (declared == "error" and call.code == OK):
+    declared = runtime.ics.reading("receiver-not-ready")
+    if (refused and not (yield from takes(runtime, "receiver-not-ready", "error"))) or (
+        declared == "error" and call.code == OK
+    ):
         expected = f"is answered as receiver-not-ready was declared: {declared}"
-        verdicts.violated(
-            "R-10.1.6.1-09",
-            "unready_receivers",
+        yield check.fail(
             "receiver-not-ready",
-            f"{name_of(call)} {expected}",
-            f"the answer was {call.code}",
-            events_of(call),
+            expected=f"{name_of(call)} {expected}",
+            observed=f"the answer was {call.code}",
+            at=events_of(call),
         )
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Raise, Return, Timeout
+from ucm_cts.adapters.contract.trace import Raise, Timeout
+from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
+from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.links import End, LinkState
 from ucm_cts.reference_models.model.messages import (
@@ -20,14 +22,14 @@ from ucm_cts.reference_models.model.messages import (
     was_delivered,
 )
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.model.values_carried import overwritten
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 
 @property_at("closed", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-08", "R-10.1.6.1-10", "R-10.1.6.1-20")
-def messages_arrived(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def messages_arrived(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Counts what the properties about missing messages checked: messages that reached every receiver they had to."""
     arrived: dict[str, set[Member | None]] = {}
     interfaces = set()
@@ -35,22 +37,22 @@ def messages_arrived(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
         ready = [end for end, was_ready in call.targets if was_ready and not counts(end.member)]
         if call.link is None or not ready or not all(was_delivered(call, end) for end in ready):
             continue
-        verdicts.exercised("R-10.1.6.1-10")
+        yield check.kept("R-10.1.6.1-10")
         arrived.setdefault(call.link.name, set()).add(call.caller)
         interfaces.add(call.link.interface)
         if len(ready) > 1:
-            verdicts.exercised("R-10.1.6.1-08" if is_disturbed(runtime, call) else "R-10.1.6.1-04")
+            yield check.kept("R-10.1.6.1-08" if is_disturbed(runtime, call) else "R-10.1.6.1-04")
     if len(interfaces) > 1:
-        verdicts.exercised("R-10.1.6.1-20")
+        yield check.kept("R-10.1.6.1-20")
     for emitters in arrived.values():
         if len(emitters) > 1:
-            verdicts.exercised("R-10.1.6.1-03")
+            yield check.kept("R-10.1.6.1-03")
 
 
 @property_at("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True)
-def every_receiver(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
+def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """What entered one receiver enters all that are well; one that is slow or fails costs the others nothing."""
-    for call, missing in overdue(verdicts, runtime, timeout):
+    for call, missing in overdue(runtime, timeout):
         refused, disturbed = call.code != OK, is_disturbed(runtime, call)
         if not call.deliveries and (refused or not disturbed):
             continue  # ok_kept's matter
@@ -58,79 +60,71 @@ def every_receiver(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeou
             continue
         requirement = "R-10.1.6.1-08" if disturbed and not refused else "R-10.1.6.1-04"
         got = ", ".join(sorted({d.receiver.lane for d in call.deliveries if d.receiver is not None}))
-        _missing(verdicts, "every_receiver", requirement, call, missing, f"it came to {got or 'nobody'}", timeout)
+        yield _missing(check, requirement, call, missing, f"it came to {got or 'nobody'}", timeout)
 
 
 @property_at("waited", "R-10.1.6.1-08", timed=True)
-def slow_receivers(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
+def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Whether the others have the message while one of its receivers is held."""
     interactions = runtime.interactions
     held = {(event.component, event.instance) for event in interactions.held}
     for call in messages(runtime):
         holding = {d.receiver for d in call.deliveries if d.receiver is not None and d.exit is None}
         own = {(member.component, member.instance or 0) for member in holding}
-        if (
-            not held
-            or not held <= own
-            or not is_whole(verdicts, runtime, call)
-            or (call.reply is not None and call.code != OK)
-        ):
+        if not held or not held <= own or not is_whole(runtime, call) or (call.reply is not None and call.code != OK):
             continue
         if timeout.t - call.request.t < runtime.scenario.patience * 900_000:
             continue
         others = [end for end in lasting(runtime, call) if end.member not in holding and is_well(end.member)]
         missing = [end for end in others if not was_delivered(call, end)]
-        if missing and not verdicts.observed("slow-receiver", "shared"):
-            _missing(
-                verdicts, "slow_receivers", "R-10.1.6.1-08", call, missing, "they wait for one that is slow", timeout
-            )
+        if missing and not (yield from takes(runtime, "slow-receiver", "shared")):
+            yield _missing(check, "R-10.1.6.1-08", call, missing, "they wait for one that is slow", timeout)
         elif others and not missing:
-            verdicts.observed("slow-receiver", "independent")
+            yield Taken("slow-receiver", "independent")
 
 
 @property_at("waited", "R-10.1.6.1-03", timed=True)
-def many_emitters(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
+def many_emitters(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Messages of each emitter arrive, not of one only."""
-    for call, missing in overdue(verdicts, runtime, timeout):
+    for call, missing in overdue(runtime, timeout):
         if call.code != OK or call.deliveries:
             continue
         arrived = {c.caller for c in messages(runtime) if c.link is call.link and c.deliveries}
         if arrived and call.caller not in arrived:
-            _missing(verdicts, "many_emitters", "R-10.1.6.1-03", call, missing, "only another emitter's came", timeout)
+            yield _missing(check, "R-10.1.6.1-03", call, missing, "only another emitter's came", timeout)
 
 
 @property_at("waited", "R-10.1.6.1-20", timed=True)
-def message_template(verdicts: Verdicts, runtime: ObservedRuntime, timeout: Timeout) -> None:
+def message_template(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Messages of each type arrive, not of one only."""
-    for call, missing in overdue(verdicts, runtime, timeout):
+    for call, missing in overdue(runtime, timeout):
         arrived = {c.link.interface for c in messages(runtime) if c.link is not None and c.deliveries}
         if call.code != OK or call.link is None or not arrived or call.link.interface in arrived:
             continue
-        _missing(verdicts, "message_template", "R-10.1.6.1-20", call, missing, "only another type's came", timeout)
+        yield _missing(check, "R-10.1.6.1-20", call, missing, "only another type's came", timeout)
 
 
 @property_at("delivered", "R-10.1.6.1-05")
-def at_most_once(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
+def at_most_once(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """One push enters each receiver once."""
     call = delivery.call
     if call is None or not call.is_message or delivery.receiver is None:
-        return
+        return ()
     if delivery.fit != "repeated":
-        verdicts.exercised("R-10.1.6.1-05")
-        return
+        return (check.kept(),)
     times = len(call.delivered_to(delivery.receiver, delivery.enter.port))
-    verdicts.violated(
-        "R-10.1.6.1-05",
-        "at_most_once",
-        "repeated",
-        f"{name_of(call)} enters {delivery.receiver.lane} once",
-        f"it was entered {times} times",
-        events_of(call, delivery.enter.n),
+    return (
+        check.fail(
+            "repeated",
+            expected=f"{name_of(call)} enters {delivery.receiver.lane} once",
+            observed=f"it was entered {times} times",
+            at=events_of(call, delivery.enter.n),
+        ),
     )
 
 
 @property_at("closed", "R-10.1.6.1-06")
-def message_origin(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def message_origin(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Whatever enters a receiver was pushed before by an emitter of its connection."""
     for delivery in runtime.interactions.deliveries:
         receiver, link, enter = delivery.receiver, delivery.link, delivery.enter
@@ -138,32 +132,28 @@ def message_origin(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
             continue
         call = delivery.call
         if call is not None and runtime.interactions.has_left(delivery):
-            verdicts.violated(
-                "R-10.1.6.1-06",
-                "message_origin",
+            yield check.fail(
                 "no receiver any more",
-                f"{receiver.lane} gets nothing that is pushed when it is no longer a receiver",
-                f"it got {name_of(call)}",
-                events_of(call, enter.n),
+                expected=f"{receiver.lane} gets nothing that is pushed when it is no longer a receiver",
+                observed=f"it got {name_of(call)}",
+                at=events_of(call, enter.n),
             )
             continue
         if delivery.fit != "stray":
-            verdicts.exercised("R-10.1.6.1-06")
+            yield check.kept()
             continue
         elsewhere = [c for c in messages(runtime) if c.request.arguments == enter.arguments and c.link is not link]
         what = "which was pushed through another connection" if elsewhere else "which nobody had pushed"
-        verdicts.violated(
-            "R-10.1.6.1-06",
-            "message_origin",
+        yield check.fail(
             "another connection" if elsewhere else "invented",
-            f"{receiver.lane} gets what emitters of its connection pushed, and nothing else",
-            f"it got {list(enter.arguments or ())}, {what}",
-            (enter.n,),
+            expected=f"{receiver.lane} gets what emitters of its connection pushed, and nothing else",
+            observed=f"it got {list(enter.arguments or ())}, {what}",
+            at=(enter.n,),
         )
 
 
 @property_at("delivered", "R-10.1.6.1-07")
-def message_order(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
+def message_order(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """Do an emitter's messages come in the order in which they were pushed one after the other?"""
     call = delivery.call
     if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
@@ -172,55 +162,54 @@ def message_order(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delive
     came = [c for c in others if c.delivered_to(delivery.receiver, delivery.enter.port)]
     overtaken = [c for c in came if call.reply is not None and call.reply.n < c.request.n]
     if overtaken:
-        verdicts.exercised("R-10.1.6.1-07")
-        if not verdicts.observed("message-order", "unordered"):
-            verdicts.violated(
-                "R-10.1.6.1-07",
-                "message_order",
+        yield check.kept()
+        if not (yield from takes(runtime, "message-order", "unordered")):
+            yield check.fail(
                 "overtaken",
-                f"{name_of(call)} comes before {name_of(overtaken[0])}, which was pushed later",
-                "it came after it",
-                events_of(call, overtaken[0].request.n, delivery.enter.n),
+                expected=f"{name_of(call)} comes before {name_of(overtaken[0])}, which was pushed later",
+                observed="it came after it",
+                at=events_of(call, overtaken[0].request.n, delivery.enter.n),
             )
     elif any(c.reply is not None and c.reply.n < call.request.n for c in came):
-        verdicts.exercised("R-10.1.6.1-07")
-        verdicts.observed("message-order", "fifo")
+        yield check.kept()
+        yield Taken("message-order", "fifo")
 
 
 @property_at("delivered", "R-10.1.6.1-19")
-def values_isolated(verdicts: Verdicts, runtime: ObservedRuntime, delivery: Delivery) -> None:
+def values_isolated(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """Who overwrites what he pushed or got changes what nobody else sees."""
     call = delivery.call
     if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
-        return
+        return ()
     enter = delivery.enter
     earlier = [d for d in call.deliveries if d is not delivery and d.exit is not None and d.exit.n < enter.n]
     owners = [d.receiver.lane for d in earlier if d.receiver is not None and _overwrites(d.receiver)]
     if call.reply is not None and call.reply.n < enter.n and call.caller is not None:
         owners.append(call.caller.lane)
     if not owners:
-        return
+        return ()
     pushed, got = list(call.request.arguments or ()), list(enter.arguments or ())
     if delivery.fit == "same":
-        verdicts.exercised("R-10.1.6.1-19")
-    elif got in overwritten(pushed):
-        verdicts.violated(
-            "R-10.1.6.1-19",
-            "values_isolated",
-            "overwritten",
-            f"{enter.component} gets {pushed} as it was pushed",
-            f"it got {got}, after {' and '.join(owners)} had overwritten what is theirs",
-            events_of(call, enter.n),
+        return (check.kept(),)
+    if got in overwritten(pushed):
+        return (
+            check.fail(
+                "overwritten",
+                expected=f"{enter.component} gets {pushed} as it was pushed",
+                observed=f"it got {got}, after {' and '.join(owners)} had overwritten what is theirs",
+                at=events_of(call, enter.n),
+            ),
         )
+    return ()
 
 
 @property_at("linked", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-10", "R-10.1.6.1-20")
 def message_connector(
-    verdicts: Verdicts, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Result
+) -> Conclusions:
     """A message connector can be had for each type, and any number of emitters and receivers can be joined by it."""
     if not isinstance(end, Raise) or any(c.started is not False for c in runtime.containers.values()):
-        return
+        return ()
     if isinstance(step, s.Link) and step.connector == s.MESSAGE_CONNECTOR:
         others = {o.interface for o in runtime.interactions.links.values() if o.connector == step.connector}
         requirement = "R-10.1.6.1-20" if others - {step.interface} else "R-10.1.6.1-10"
@@ -230,40 +219,47 @@ def message_connector(
         ports = {"emitter": member.declaration.requires, "receiver": member.declaration.provides} if member else {}
         known = step.port in ports.get(step.role, ())
         if member is None or member.gone or member.suspended or not known or _is_taken(member, step.port):
-            return
+            return ()
         if step.role == "emitter" and not link.live("receiver") and end.error in ("UCM_ERROR", "BAD_PARAMETER"):
-            return  # refused_attachment's matter
+            return ()  # refused_attachment's matter
         several = "R-10.1.6.1-03" if step.role == "emitter" else "R-10.1.6.1-04"
         requirement = several if link.live(step.role) else "R-10.1.6.1-10"
         what = f"{step.port} of {member.lane} as {step.role} of {link.name}, which has {len(link.live(step.role))}"
     else:
-        return
+        return ()
     observed = f"it raised {end.error} {end.detail}"
-    verdicts.violated(requirement, "message_connector", s.operation(step), what, observed, (end.n,), end.step)
+    return (
+        check.fail(
+            s.operation(step), expected=what, observed=observed, at=(end.n,), step=end.step, requirement=requirement
+        ),
+    )
 
 
 @property_at("ended", "R-10.1.6.1-10", at=("start",), feature="interactions")
 def joined_and_started(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """Whoever is joined by a message connector can be started."""
     if not isinstance(end, Raise) or ongoing.forgiving:
-        return
+        return ()
     members = ongoing.container.live_members()
-    if any(m.raises("on_startup") or not m.connected or m.operational or m.suspended for m in members):
-        return
+    if any(
+        m.raises("on_startup") or not m.connected or m.operational or ongoing.outcome.is_unknown(m) for m in members
+    ):
+        return ()
     links = [link for link in runtime.interactions.links.values() if link.connector == s.MESSAGE_CONNECTOR]
     joined = [link.name for link in links if any(e.member in members for e in link.live("emitter", "receiver"))]
     if joined:
-        verdicts.violated(
-            "R-10.1.6.1-10",
-            "joined_and_started",
-            "start",
-            f"what is joined by {joined[0]} is started",
-            f"start raised {end.error} {end.detail}",
-            (ongoing.call, end.n),
-            ongoing.step_number,
+        return (
+            check.fail(
+                "start",
+                expected=f"what is joined by {joined[0]} is started",
+                observed=f"start raised {end.error} {end.detail}",
+                at=(ongoing.call, end.n),
+                step=ongoing.step_number,
+            ),
         )
+    return ()
 
 
 def _is_taken(member: Member, port: str) -> bool:
@@ -276,21 +272,19 @@ def _overwrites(receiver: Member) -> bool:
 
 
 def _missing(
-    verdicts: Verdicts,
-    rule_name: str,
+    check: Property,
     requirement: str,
     call: MethodCall,
     missing: list[End],
     observed: str,
     timeout: Timeout,
-) -> None:
+) -> Finding:
     names = ", ".join(sorted(end.member.lane for end in missing))
-    verdicts.violated(
-        requirement,
-        rule_name,
+    return check.fail(
         "missing",
-        f"{name_of(call)} comes to {names}",
-        f"it did not come; {observed}",
-        events_of(call, timeout.n),
-        timeout.step,
+        expected=f"{name_of(call)} comes to {names}",
+        observed=f"it did not come; {observed}",
+        at=events_of(call, timeout.n),
+        step=timeout.step,
+        requirement=requirement,
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Raise, Return, Timeout
+from ucm_cts.reference_models.conclusions import Conclusions, takes
 from ucm_cts.reference_models.model.executions import (
     CALL_EXCLUSIONS,
     BusinessCall,
@@ -16,54 +17,54 @@ from ucm_cts.reference_models.model.executions import (
 )
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress, lane, raises
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import Member, lane, raises
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _MILLISECOND = 1_000_000
 
 
 @property_at("ended", "R-10.1.3-02", at=("add_component", "start"), feature="policies")
 def execution_policy_given(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """A component that says nothing of its execution is refused, or is given a policy by the framework."""
     declarations = runtime.scenario.components
     if not any(protection_of(declaration) for declaration in declarations.values()):
-        return  # a scenario of profile container, which knows no policies
+        return ()  # a scenario of profile container, which knows no policies
     if ongoing.operation == "add_component":
         component = getattr(ongoing.step, "component", "")
         declaration = declarations.get(component)
         if declaration is None or protection_of(declaration) or not isinstance(end, Raise) or declaration.plan:
-            return
-        _note(verdicts, ongoing, component, "refuse", end)
-        return
+            return ()
+        return _note(check, runtime, ongoing, component, "refuse", end)
     without = [m for m in ongoing.container.live_members() if not protection_of(m.declaration)]
     if not without or not ongoing.judged or isinstance(end, Raise):
-        return
-    _note(verdicts, ongoing, without[0].lane, "default", end)
+        return ()
+    return _note(check, runtime, ongoing, without[0].lane, "default", end)
 
 
-def _note(verdicts: Verdicts, ongoing: OperationInProgress, who: str, reading: str, end: Return | Raise) -> None:
-    if verdicts.observed("missing-execution-policy", reading):
-        verdicts.exercised("R-10.1.3-02")
+def _note(
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, who: str, reading: str, end: Result
+) -> Conclusions:
+    if (yield from takes(runtime, "missing-execution-policy", reading)):
+        yield check.kept("R-10.1.3-02")
         return
     refuses = reading == "refuse"
-    verdicts.violated(
-        "R-10.1.3-02",
-        "execution_policy_given",
+    yield check.fail(
         reading,
-        f"'{who}', which has no execution policy, is {'given a default one' if refuses else 'refused'}, as declared",
-        f"it was {'refused' if refuses else 'started'}",
-        (end.n,),
-        ongoing.step_number,
+        expected=f"'{who}', which has no execution policy, is {'given a default one' if refuses else 'refused'}, as declared",
+        observed=f"it was {'refused' if refuses else 'started'}",
+        at=(end.n,),
+        step=ongoing.step_number,
+        requirement="R-10.1.3-02",
     )
 
 
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
 def active_policies(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """A component with the active policy on several ports is refused, or started, as declared."""
     declarations = runtime.scenario.components
     if ongoing.operation == "add_component":
@@ -71,11 +72,12 @@ def active_policies(
         declaration = declarations.get(component)
         is_open = declaration is not None and _is_active_twice(declaration) and ongoing.container.started is False
         if is_open and isinstance(end, Raise):
-            _note_active(verdicts, ongoing, component, "refuse", end)
-        return
+            return _note_active(check, runtime, ongoing, component, "refuse", end)
+        return ()
     twice = [m for m in ongoing.container.live_members() if _is_active_twice(m.declaration)]
     if twice and ongoing.judged and isinstance(end, Return):
-        _note_active(verdicts, ongoing, twice[0].lane, "allow", end)
+        return _note_active(check, runtime, ongoing, twice[0].lane, "allow", end)
+    return ()
 
 
 def _is_active_twice(declaration: Declaration) -> bool:
@@ -85,41 +87,40 @@ def _is_active_twice(declaration: Declaration) -> bool:
     return is_active and not fails and len(managed_ports(declaration)) > 1
 
 
-def _note_active(verdicts: Verdicts, ongoing: OperationInProgress, who: str, reading: str, end: Return | Raise) -> None:
-    if verdicts.observed("second-active-policy", reading):
+def _note_active(
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, who: str, reading: str, end: Result
+) -> Conclusions:
+    if (yield from takes(runtime, "second-active-policy", reading)):
         return
     allows = reading == "refuse"
-    verdicts.violated(
-        "R-10.1.3-03",
-        "active_policies",
+    yield check.fail(
         reading,
-        f"'{who}', of which two ports are active, is {'allowed' if allows else 'refused'}, as declared",
-        f"it was {'refused' if allows else 'started'}",
-        (end.n,),
-        ongoing.step_number,
+        expected=f"'{who}', of which two ports are active, is {'allowed' if allows else 'refused'}, as declared",
+        observed=f"it was {'refused' if allows else 'started'}",
+        at=(end.n,),
+        step=ongoing.step_number,
+        requirement="R-10.1.3-03",
     )
 
 
 @property_at("began", "R-10.1.3.2-01")
-def runs_again(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
+def runs_again(check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> Conclusions:
     """run is called more than once a start, unless the vendor declares that it is called once."""
     enter = execution.enter
     if execution.way != "run" or met:
         return
     since = _runs_since_start(runtime, enter.component, enter.instance)
-    if len(since) > 1 and not verdicts.observed("run-trigger", "repeated"):
-        verdicts.violated(
-            "R-10.1.3.2-01",
-            "runs_again",
+    if len(since) > 1 and not (yield from takes(runtime, "run-trigger", "repeated")):
+        yield check.fail(
             "repeated",
-            f"run of '{lane(enter.component, enter.instance)}' is called once a start, as declared",
-            "it was called again",
-            (since[0].enter.n, enter.n),
+            expected=f"run of '{lane(enter.component, enter.instance)}' is called once a start, as declared",
+            observed="it was called again",
+            at=(since[0].enter.n, enter.n),
         )
 
 
 @property_at("waited", "R-10.1.3.2-01", timed=True)
-def runs_no_more(verdicts: Verdicts, runtime: ObservedRuntime, event: Timeout) -> None:
+def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> Conclusions:
     """run was called once and not again within most of the scenario's patience, although it returned."""
     step = runtime.scenario.steps[event.step]
     patience = runtime.scenario.patience
@@ -131,15 +132,13 @@ def runs_no_more(verdicts: Verdicts, runtime: ObservedRuntime, event: Timeout) -
         if not member.serving or len(runs) != 1 or s.HoldAtGate(step.gate) not in plan or s.RaiseError() in plan:
             continue
         is_long_over = runs[0].over and event.t - runs[0].left > patience * _MILLISECOND / 2
-        if is_long_over and not verdicts.observed("run-trigger", "once"):
-            verdicts.violated(
-                "R-10.1.3.2-01",
-                "runs_no_more",
+        if is_long_over and not (yield from takes(runtime, "run-trigger", "once")):
+            yield check.fail(
                 "once",
-                f"run of '{member.lane}' is called again and again, as declared",
-                f"it was called once, and not again within {patience} ms",
-                (runs[0].enter.n, event.n),
-                event.step,
+                expected=f"run of '{member.lane}' is called again and again, as declared",
+                observed=f"it was called once, and not again within {patience} ms",
+                at=(runs[0].enter.n, event.n),
+                step=event.step,
             )
 
 
@@ -150,53 +149,64 @@ def _runs_since_start(runtime: ObservedRuntime, component: str, instance: int) -
 
 
 @property_at("began", *CALL_EXCLUSIONS)
-def circle_entered(verdicts: Verdicts, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> None:
+def circle_entered(
+    check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]
+) -> Conclusions:
     """A call came back to the component whose execution waits for it, and was let in, which is the framework's choice."""
     body = execution.enter.component, execution.enter.instance
     callers = execution.call.callers() if execution.call is not None else ()
     waiting = [c for c in callers if (c.enter.component, c.enter.instance) == body]
     member = runtime.member_of(*body)
     if waiting and member is not None:
-        _came_round(verdicts, member, waiting[0], execution.way, "enter", (waiting[0].enter.n, execution.enter.n))
+        return _came_round(
+            check, runtime, member, waiting[0], execution.way, "enter", (waiting[0].enter.n, execution.enter.n)
+        )
+    return ()
 
 
 @property_at("completed", *CALL_EXCLUSIONS)
-def circle_refused(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
+def circle_refused(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """A call came back to the component whose execution waits for it, and was refused."""
     reply = call.reply
     if reply is not None and reply.raised and not call.deliveries:
-        _look_round(verdicts, runtime, call.business, "refuse", (call.business.n, reply.n))
+        return _look_round(check, runtime, call.business, "refuse", (call.business.n, reply.n))
+    return ()
 
 
 @property_at("closed", *CALL_EXCLUSIONS)
-def circle_waits(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def circle_waits(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call came back to the component whose execution waits for it, and both were still waiting in the end."""
     for call in runtime.executions.on_their_way:
-        _look_round(verdicts, runtime, call, "wait", (call.n,))
+        yield from _look_round(check, runtime, call, "wait", (call.n,))
 
 
 def _look_round(
-    verdicts: Verdicts, runtime: ObservedRuntime, call: BusinessCall, reading: str, events: tuple[int, ...]
-) -> None:
+    check: Property, runtime: ObservedRuntime, call: BusinessCall, reading: str, events: tuple[int, ...]
+) -> Conclusions:
     callers = list(call.callers())
     for member, port in goals_of(runtime, call):
         body = member.component, member.instance
         for caller in callers:
             if (caller.enter.component, caller.enter.instance) == body:
-                _came_round(verdicts, member, caller, port, reading, events)
+                yield from _came_round(check, runtime, member, caller, port, reading, events)
                 return
 
 
 def _came_round(
-    verdicts: Verdicts, member: Member, waiting: Execution, port: str, reading: str, events: tuple[int, ...]
-) -> None:
-    requirement = exclusion(member.declaration, verdicts.ics, waiting.way, port)
-    if requirement and not verdicts.observed("protected-recursion", reading):
-        verdicts.violated(
-            requirement,
-            "circle",
+    check: Property,
+    runtime: ObservedRuntime,
+    member: Member,
+    waiting: Execution,
+    port: str,
+    reading: str,
+    events: tuple[int, ...],
+) -> Conclusions:
+    requirement = exclusion(member.declaration, runtime.ics, waiting.way, port)
+    if requirement and not (yield from takes(runtime, "protected-recursion", reading)):
+        yield check.fail(
             reading,
-            f"calls that come back to '{member.lane}' while it waits for them fare as declared",
-            {"enter": "one was let in", "refuse": "one was refused", "wait": "one waited for ever"}[reading],
-            events,
+            expected=f"calls that come back to '{member.lane}' while it waits for them fare as declared",
+            observed={"enter": "one was let in", "refuse": "one was refused", "wait": "one waited for ever"}[reading],
+            at=events,
+            requirement=requirement,
         )

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Raise, Reply, Return
-from ucm_cts.reference_models.findings import Arrow
+from ucm_cts.adapters.contract.trace import Raise, Reply
+from ucm_cts.reference_models.conclusions import Conclusions, takes
+from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import OperationInProgress, lane
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.service_call import ServiceCall
 from ucm_cts.reference_models.model.services import (
     Trouble,
@@ -23,8 +25,7 @@ from ucm_cts.reference_models.model.services import (
     what_sets_apart,
 )
 from ucm_cts.reference_models.model.values_carried import altered_calls
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _CALLS, _CLIENTS, _OWN, _ONE_SERVER = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-05"
 _DIRECTIONS, _INHERITED, _EXCEPTIONS = "R-10.1.5.1-08", "R-10.1.5.1-09", "R-10.1.5.1-10"
@@ -49,37 +50,37 @@ def _undisturbed(runtime: ObservedRuntime) -> list[tuple[ServiceCall, Trouble]]:
 
 
 @property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE)
-def service_call(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def service_call(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call enters the connected server once, at the method called, and comes back as the server was left."""
     judged = _undisturbed(runtime)
     good = [one for one, trouble in judged if not trouble]
     for one in good:
-        verdicts.exercised(_CALLS)
+        yield check.kept(_CALLS)
         if one.is_inherited:
-            verdicts.exercised(_INHERITED)
+            yield check.kept(_INHERITED)
         if len({id(other.client) for other in good if other.link is one.link}) > 1:
-            verdicts.exercised(_CLIENTS)
+            yield check.kept(_CLIENTS)
         if len({other.link.interface for other in good}) > 1:
-            verdicts.exercised(_TEMPLATE)
+            yield check.kept(_TEMPLATE)
     expected = "enters the server once and comes back as the server was left"
     for one, trouble in judged:
         if trouble == "twice":
             observed = f"the server was entered {len(one.served)} times"
-            _violate(verdicts, _CALLS, "service_call", trouble, one, expected, observed)
+            yield _violate(check, _CALLS, trouble, one, expected, observed)
         elif trouble in ("not served", "elsewhere", "failed"):
             observed = _what_failed(runtime, one, trouble)
-            _violate(verdicts, _concerned(runtime, one, good), "service_call", trouble, one, expected, observed)
+            yield _violate(check, _concerned(runtime, one, good), trouble, one, expected, observed)
 
 
 @property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE, timed=True)
-def service_call_ends(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def service_call_ends(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call that nothing disturbs ends when its server has been left, if that waits for nobody."""
     for one in service_calls(runtime):
         if one.call.reply is None and _may_be_expected(one) and _hangs(runtime, one, disturbed_at(runtime, one)):
             good = [other for other, trouble in _undisturbed(runtime) if not trouble]
             observed = "the server was left, and it did not end" if one.exit else "it did not end"
             requirement = _concerned(runtime, one, good)
-            _violate(verdicts, requirement, "service_call_ends", "hangs", one, "ends", observed)
+            yield _violate(check, requirement, "hangs", one, "ends", observed)
 
 
 def _hangs(runtime: ObservedRuntime, one: ServiceCall, until: int | None = None) -> bool:
@@ -113,7 +114,7 @@ def _may_be_expected(one: ServiceCall) -> bool:
 
 
 @property_at("closed", _OWN, _DIRECTIONS, _CALLS)
-def service_values(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def service_values(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """What the client sends reaches the server, and what the server gives reaches the client that asked."""
     judged = _undisturbed(runtime)
     for one, trouble in judged:
@@ -122,19 +123,19 @@ def service_values(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
         beside = [other for other, _ in judged if one.meets(other) and other.exit is not None]
         if not trouble and given is not None and not given.raised:
             if several and given.exception is None:
-                verdicts.exercised(_DIRECTIONS)
+                yield check.kept(_DIRECTIONS)
             if any(_outcome(other) != _outcome(one) for other in beside):
-                verdicts.exercised(_OWN)
+                yield check.kept(_OWN)
         elif trouble == "arguments":
             observed = f"it got {_values(one.served[0].enter.arguments)}"
             expected = f"reaches the server with {_values(one.call.request.arguments)}"
-            _violate(verdicts, _DIRECTIONS if several else _CALLS, "service_values", trouble, one, expected, observed)
+            yield _violate(check, _DIRECTIONS if several else _CALLS, trouble, one, expected, observed)
         elif trouble == "results" and given is not None and one.call.reply is not None:
             got = one.call.reply.results
             others = [other for other in beside if other.exit is not None and other.exit.results == got]
             requirement = _OWN if others else _DIRECTIONS if several else _CALLS
             expected = f"brings back what the server gave for it, {_values(given.results)}"
-            _violate(verdicts, requirement, "service_values", trouble, one, expected, f"it brought {_values(got)}")
+            yield _violate(check, requirement, trouble, one, expected, f"it brought {_values(got)}")
 
 
 def _outcome(one: ServiceCall) -> object:
@@ -146,7 +147,7 @@ def _values(values: object) -> str:
 
 
 @property_at("closed", _EXCEPTIONS)
-def service_exceptions(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def service_exceptions(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """An exception of the server's is one for the client: the same one, unless it may be any."""
     for one, trouble in _undisturbed(runtime):
         left, reply = one.exit, one.call.reply
@@ -155,8 +156,8 @@ def service_exceptions(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
         if left.raised and trouble != "swallowed":
             continue  # arrives as any exception
         reading = "full" if not trouble else "system-error"
-        if trouble in ("", "translated") and verdicts.observed("exception-transport", reading):
-            verdicts.exercised(_EXCEPTIONS)
+        if trouble in ("", "translated") and (yield from takes(runtime, "exception-transport", reading)):
+            yield check.kept()
             continue
         if trouble not in ("swallowed", "", "translated"):
             continue
@@ -164,26 +165,26 @@ def service_exceptions(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
         got = f"{reply.exception} with {_values(reply.results)}" if reply.exception else "some other exception"
         observed = f"it returned {_values(reply.results)}" if trouble == "swallowed" else f"it ended with {got}"
         expected = f"ends as the server did, with {gave}"
-        _violate(verdicts, _EXCEPTIONS, "service_exceptions", trouble or "full", one, expected, observed)
+        yield _violate(check, _EXCEPTIONS, trouble or "full", one, expected, observed)
 
 
 @property_at("closed", _BLOCKING)
-def service_blocks(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def service_blocks(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """No call comes back with an answer before its server's method was left."""
     settled = runtime.interactions.settled
     for one, trouble in _undisturbed(runtime):
         left = one.exit
         if trouble == "early":
             expected = "comes back when the server's method has been left"
-            _violate(verdicts, _BLOCKING, "service_blocks", trouble, one, expected, "it came back before")
+            yield _violate(check, _BLOCKING, trouble, one, expected, "it came back before")
             continue
         seen = [e for e in settled if e.worker == one.call.business.worker and e.where != "done"]
         if left is not None and one.served[0].was_held and any(one.served[0].enter.n < e.n < left.n for e in seen):
-            verdicts.exercised(_BLOCKING)
+            yield check.kept()
 
 
 @property_at("closed", _IN_FLIGHT)
-def call_in_flight_ends(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def call_in_flight_ends(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call whose client or server is stopped, or whose connection is undone, brings what its server gave, or an exception."""
     for one in service_calls(runtime):
         ending = ended_by(runtime, one)
@@ -191,17 +192,17 @@ def call_in_flight_ends(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
             continue
         reading = _how_it_ended(one, one.call.reply)
         was_inside = bool(one.served) and one.served[0].enter.n < min(o.begin.n for o in ending)
-        if reading and (not was_inside or verdicts.observed("call-in-flight", reading)):
-            verdicts.exercised(_IN_FLIGHT)
+        if reading and (not was_inside or (yield from takes(runtime, "call-in-flight", reading))):
+            yield check.kept()
             continue
-        declared = verdicts.ics.reading("call-in-flight")
+        declared = runtime.ics.reading("call-in-flight")
         expected = f"{declared} as declared" if reading else "ends with what the server gave, or with an exception"
         observed = "it was otherwise" if reading else f"it returned {_values(one.call.reply.results)}"
-        _violate(verdicts, _IN_FLIGHT, "call_in_flight_ends", reading or "invented", one, expected, observed)
+        yield _violate(check, _IN_FLIGHT, reading or "invented", one, expected, observed)
 
 
 @property_at("closed", _IN_FLIGHT, timed=True)
-def nobody_is_left_hanging(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def nobody_is_left_hanging(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Neither the call nor what stops its client or server, or undoes its connection, waits for ever."""
     for one in service_calls(runtime):
         ending = ended_by(runtime, one)
@@ -209,11 +210,11 @@ def nobody_is_left_hanging(verdicts: Verdicts, runtime: ObservedRuntime) -> None
             if operation.end is None and is_left_hanging(runtime, operation.step.thread, operation.begin.n):
                 expected = f"and {s.operation(operation.step)}, called meanwhile, end once the server is let go"
                 observed = f"{s.operation(operation.step)} did not end"
-                _violate(verdicts, _IN_FLIGHT, "nobody_is_left_hanging", "operation", one, expected, observed)
+                yield _violate(check, _IN_FLIGHT, "operation", one, expected, observed)
         began = min((o.begin.n for o in ending), default=None)
         if began is not None and one.call.reply is None and not _hangs(runtime, one, began) and _hangs(runtime, one):
             expected = "ends once the server is let go"
-            _violate(verdicts, _IN_FLIGHT, "nobody_is_left_hanging", "hangs", one, expected, "it did not end")
+            yield _violate(check, _IN_FLIGHT, "hangs", one, expected, "it did not end")
 
 
 def _how_it_ended(one: ServiceCall, reply: Reply) -> str:
@@ -226,7 +227,7 @@ def _how_it_ended(one: ServiceCall, reply: Reply) -> str:
 
 
 @property_at("closed", _CALLS)
-def service_uncalled(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def service_uncalled(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A server is entered because a client of its own connection called."""
     explained = [led_astray(runtime, one) for one, trouble in _undisturbed(runtime) if trouble == "elsewhere"]
     for delivery in strays(runtime):
@@ -234,18 +235,16 @@ def service_uncalled(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
             continue
         enter = delivery.enter
         who = lane(enter.component, enter.instance)
-        verdicts.violated(
-            _CALLS,
-            "service_uncalled",
+        yield check.fail(
             "no caller",
-            f"'{who}' is entered at {enter.port} when a client calls it",
-            f"{enter.method} was entered with {_values(enter.arguments)}, and no client had called that",
-            (enter.n,),
+            expected=f"'{who}' is entered at {enter.port} when a client calls it",
+            observed=f"{enter.method} was entered with {_values(enter.arguments)}, and no client had called that",
+            at=(enter.n,),
         )
 
 
 @property_at("closed", _CALLS)
-def servers_that_left(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def servers_that_left(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Who is no longer a server of the connection is not entered by calls through it."""
     interactions = runtime.interactions
     for delivery in interactions.deliveries:
@@ -253,13 +252,11 @@ def servers_that_left(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
         if link is None or link.connector != s.SERVICE_CONNECTOR or call is None or call.link is not link:
             continue
         if delivery.fit == "same" and interactions.has_left(delivery):
-            verdicts.violated(
-                _CALLS,
-                "servers_that_left",
+            yield check.fail(
                 "no server any more",
-                f"'{lane(enter.component, enter.instance)}' is not called through {link.name}, which it was detached from",
-                f"a later call of {call.request.component} entered {enter.method}",
-                (call.request.n, enter.n),
+                expected=f"'{lane(enter.component, enter.instance)}' is not called through {link.name}, which it was detached from",
+                observed=f"a later call of {call.request.component} entered {enter.method}",
+                at=(call.request.n, enter.n),
             )
 
 
@@ -271,35 +268,35 @@ def _may_be_late(runtime: ObservedRuntime, moment: int) -> bool:
 
 @property_at("linked", _CALLS, _CLIENTS, _ONE_SERVER, _TEMPLATE)
 def connector_takes_its_ends(
-    verdicts: Verdicts, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Result
+) -> Conclusions:
     """While nothing is started, a connector can be had for each interface, and takes one server and any number of clients."""
     if any(container.started is not False for container in runtime.containers.values()):
-        return
+        return ()
     if isinstance(step, s.Link):
         if step.connector == s.SERVICE_CONNECTOR and isinstance(end, Raise):
             others = [k for k in runtime.interactions.links.values() if k.connector == step.connector]
             if not others or not new_types(runtime, step):  # otherwise a matter of its types
-                _refused(verdicts, _TEMPLATE if others else _CALLS, step, end, "made")
-        return
+                return (_refused(check, _TEMPLATE if others else _CALLS, step, end, "made"),)
+        return ()
     if isinstance(step, s.Attach) and link is not None and link.connector == s.SERVICE_CONNECTOR:
-        _attached(verdicts, runtime, link, step, end)
+        return _attached(check, runtime, link, step, end)
+    return ()
 
 
-def _attached(
-    verdicts: Verdicts, runtime: ObservedRuntime, link: LinkState, step: s.Attach, end: Return | Raise
-) -> None:
+def _attached(check: Property, runtime: ObservedRuntime, link: LinkState, step: s.Attach, end: Result) -> Conclusions:
     member = runtime.members.get(step.id)
     if member is None or member.suspended or member.declaration.ports.get(step.port) != link.interface:
-        return
+        return ()
     before = [e for e in link.ends if e.until is None and (e.member, e.port) != (member, step.port)]
     servers = [e for e in before if e.role == "server"]
     if step.role == "server" and servers and step.port in member.declaration.provides:
         if isinstance(end, Raise):
-            _refused_second_server(verdicts, step, end)
+            return _refused_second_server(check, runtime, step, end)
     elif isinstance(end, Raise) and _fits(link, step, bool(servers)):
         clients = [e for e in before if e.role == "client"]
-        _refused(verdicts, _CLIENTS if step.role == "client" and clients else _CALLS, step, end, "attached")
+        return (_refused(check, _CLIENTS if step.role == "client" and clients else _CALLS, step, end, "attached"),)
+    return ()
 
 
 def _fits(link: LinkState, step: s.Attach, has_server: bool) -> bool:
@@ -308,36 +305,34 @@ def _fits(link: LinkState, step: s.Attach, has_server: bool) -> bool:
     return not known and (step.role == "server" or (step.role == "client" and has_server))
 
 
-def _refused(verdicts: Verdicts, requirement: str, step: s.Link | s.Attach, end: Raise, done: str) -> None:
+def _refused(check: Property, requirement: str, step: s.Link | s.Attach, end: Raise, done: str) -> Finding:
     what = f"a connector for {step.interface}" if isinstance(step, s.Link) else f"{step.role} {step.id}"
-    verdicts.violated(
-        requirement,
-        "connector_takes_its_ends",
+    return check.fail(
         f"not {done}",
-        f"{what} is {done}",
-        f"{s.operation(step)} raised {end.error} {end.detail}".rstrip(),
-        (end.n,),
-        end.step,
+        expected=f"{what} is {done}",
+        observed=f"{s.operation(step)} raised {end.error} {end.detail}".rstrip(),
+        at=(end.n,),
+        step=end.step,
+        requirement=requirement,
     )
 
 
-def _refused_second_server(verdicts: Verdicts, step: s.Attach, end: Raise) -> None:
-    if end.error in _REFUSALS and verdicts.observed("second-server", "at-connect"):
-        verdicts.exercised(_ONE_SERVER)
+def _refused_second_server(check: Property, runtime: ObservedRuntime, step: s.Attach, end: Raise) -> Conclusions:
+    if end.error in _REFUSALS and (yield from takes(runtime, "second-server", "at-connect")):
+        yield check.kept(_ONE_SERVER)
         return
-    verdicts.violated(
-        _ONE_SERVER,
-        "connector_takes_its_ends",
+    yield check.fail(
         "refused otherwise",
-        "a second server is refused with BAD_PARAMETER or UCM_ERROR, unless at-start was declared",
-        f"attach raised {end.error} {end.detail}".rstrip(),
-        (end.n,),
-        end.step,
+        expected="a second server is refused with BAD_PARAMETER or UCM_ERROR, unless at-start was declared",
+        observed=f"attach raised {end.error} {end.detail}".rstrip(),
+        at=(end.n,),
+        step=end.step,
+        requirement=_ONE_SERVER,
     )
 
 
 @property_at("ended", _ONE_SERVER, at=("start",), feature="interactions")
-def one_server(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def one_server(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
     """Two servers of one connection never are operational together."""
     links = runtime.interactions.improper()
     for link in (k for k in links if k.connector == s.SERVICE_CONNECTOR):
@@ -346,39 +341,34 @@ def one_server(verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationI
             continue
         started = [e for e in servers if e.member.container is ongoing.container or e.member.container.started]
         if isinstance(end, Raise):
-            if end.error == "UCM_ERROR" and verdicts.observed("second-server", "at-start"):
-                verdicts.exercised(_ONE_SERVER)
+            if end.error == "UCM_ERROR" and (yield from takes(runtime, "second-server", "at-start")):
+                yield check.kept()
             elif end.error == "UCM_ERROR":
-                _started(verdicts, ongoing, "it was to be refused at connect, as declared", end.n)
+                yield _started(check, ongoing, "it was to be refused at connect, as declared", end.n)
         elif len(started) == len(servers):
-            _started(verdicts, ongoing, "start returned", end.n)
+            yield _started(check, ongoing, "start returned", end.n)
 
 
-def _started(verdicts: Verdicts, ongoing: OperationInProgress, observed: str, end: int) -> None:
-    verdicts.violated(
-        _ONE_SERVER,
-        "one_server",
+def _started(check: Property, ongoing: OperationInProgress, observed: str, end: int) -> Finding:
+    return check.fail(
         "two",
-        "a connection with two servers is not started",
-        observed,
-        (ongoing.call, end),
-        ongoing.step_number,
+        expected="a connection with two servers is not started",
+        observed=observed,
+        at=(ongoing.call, end),
+        step=ongoing.step_number,
+        requirement=_ONE_SERVER,
     )
 
 
-def _violate(
-    verdicts: Verdicts, requirement: str, rule_name: str, cause: str, one: ServiceCall, expected: str, observed: str
-) -> None:
+def _violate(check: Property, requirement: str, cause: str, one: ServiceCall, expected: str, observed: str) -> Finding:
     request, reply = one.call.request, one.call.reply
     client, server = lane(request.component, request.instance), one.server.member.lane
     events = (request.n, *(d.enter.n for d in one.served), *((reply.n,) if reply is not None else ()))
-    verdicts.violated(
-        requirement,
-        rule_name,
+    return check.fail(
         cause,
-        f"the call of {request.method} by '{client}' {expected}",
-        observed,
-        events,
-        None,
-        (Arrow(client, server, request.method or ""), Arrow(server, client, "result")),
+        expected=f"the call of {request.method} by '{client}' {expected}",
+        observed=observed,
+        at=events,
+        instead=(Arrow(client, server, request.method or ""), Arrow(server, client, "result")),
+        requirement=requirement,
     )

@@ -1,13 +1,13 @@
-"""The table of properties by moment, as far as a scenario uses what they are about."""
+"""The table of all properties, by the moment at which they are checked."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import get_args
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.executions import Caller
-from ucm_cts.reference_models.properties import (
+from ucm_cts.reference_models.model.operation import DECLARED_ERRORS
+from ucm_cts.reference_models.properties import (  # noqa: F401 - importing these registers all properties
     bursts,
     callbacks,
     claims,
@@ -25,59 +25,34 @@ from ucm_cts.reference_models.properties import (
     trace,
     values,
 )
-from ucm_cts.reference_models.properties.declaration import PROPERTIES, Feature, checks
-
-_MODULES = (
-    operations,
-    dependencies,
-    interactions,
-    callbacks,
-    claims,
-    execution,
-    policies,
-    stress,
-    messages,
-    message_phases,
-    return_codes,
-    services,
-    clock,
-    trace,
-    bursts,
-    values,
-)
-"""Importing these registers all properties; those of one moment are checked in this order."""
-
-_PLACES = {module.__name__: number for number, module in enumerate(_MODULES)}
-for _name in sorted(PROPERTIES, key=lambda name: _PLACES[PROPERTIES[name].check.__module__]):
-    PROPERTIES[_name] = PROPERTIES.pop(_name)
+from ucm_cts.reference_models.properties.declaration import PROPERTIES, Bound, Feature, checked_at
 
 __all__ = ["PROPERTIES", "PropertyTable", "features_of"]
 
-Check = Callable[..., None]
-
 
 class PropertyTable:
-    """The checks of the properties that apply to scenarios with these ``features``, by moment."""
+    """The properties that apply to scenarios with these ``features``, by moment."""
 
     def __init__(self, features: frozenset[Feature]) -> None:
         interacting = "interactions" in features
-        self.ended = {op: checks("ended", op, features) for op in operations.DECLARED}
-        self.entered = {hook: checks("entered", hook, features) for hook in get_args(s.Hook)}
-        self.called: dict[Caller, tuple[Check, ...]] = {
-            who: checks("called", who, features) for who in get_args(Caller)
+        self.ended = {op: checked_at("ended", op, features) for op in DECLARED_ERRORS}
+        self.entered = {hook: checked_at("entered", hook, features) for hook in get_args(s.Hook)}
+        self.unclear = {hook: checked_at("unclear", hook, features) for hook in get_args(s.Hook)}
+        self.called: dict[Caller, tuple[Bound, ...]] = {
+            who: checked_at("called", who, features) for who in get_args(Caller)
         }
-        self.answered = checks("answered", "exchange", features)
-        self.replied = checks("replied", "exchange", features)
-        self.noted = checks("noted", "siblings", features)
-        self.began = checks("began") if interacting else ()
-        self.over = checks("over") if interacting else ()
-        self.served = checks("served") if interacting else ()
-        self.waited = checks("waited") if interacting else ()
-        self.linked = checks("linked") if interacting else ()
-        self.delivered = checks("delivered") if interacting else ()
-        self.completed = checks("completed") if interacting else ()
-        self.told = checks("told") if interacting else ()
-        self.closed = checks("closed") if interacting else ()
+        self.answered = checked_at("answered", "exchange", features)
+        self.replied = checked_at("replied", "exchange", features)
+        self.noted = checked_at("noted", "siblings", features)
+        self.began = checked_at("began") if interacting else ()
+        self.over = checked_at("over") if interacting else ()
+        self.served = checked_at("served") if interacting else ()
+        self.waited = checked_at("waited") if interacting else ()
+        self.linked = checked_at("linked") if interacting else ()
+        self.delivered = checked_at("delivered") if interacting else ()
+        self.completed = checked_at("completed") if interacting else ()
+        self.told = checked_at("told") if interacting else ()
+        self.closed = checked_at("closed") if interacting else ()
 
 
 def features_of(scenario: s.Scenario) -> frozenset[Feature]:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
+
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Enter, Paused, Pushed, Raise, Return, Stressed
+from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
+from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.log_contents import (
@@ -16,7 +20,8 @@ from ucm_cts.reference_models.model.log_contents import (
     severities_shown,
 )
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.runtime import OperationInProgress, lane
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.service_policies import (
     TRACES,
     has_several_clocks,
@@ -24,8 +29,7 @@ from ucm_cts.reference_models.model.service_policies import (
     policies_of,
     policy_elements,
 )
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _REFERENCES = {s.CLOCK: "R-10.1.4.1-06", s.COMPONENT_TRACE: "R-10.1.4.2-03"}
 _SEVERAL = "R-10.1.4.2-02"
@@ -35,12 +39,12 @@ _SHOWN = 60
 
 @property_at("entered", *_REFERENCES.values(), _SEVERAL, at=("on_startup",), feature="policies")
 def policy_references(
-    verdicts: Verdicts,
+    check: Property,
     runtime: ObservedRuntime,
     ongoing: OperationInProgress | None,
     event: Enter,
     history: CallbackHistory,
-) -> None:
+) -> Conclusions:
     """on_startup hands over a reference for each port element that a component requires by its policies, at every start."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or has_several_clocks(member.declaration) or member.operational:
@@ -50,172 +54,167 @@ def policy_references(
     for element, definition in elements.items():
         if element in given:
             if definition == s.COMPONENT_TRACE:
-                verdicts.exercised(_REFERENCES[definition])
+                yield check.kept(_REFERENCES[definition])
             continue
         others = [e for e, d in elements.items() if d == definition and e in given]
         named = any(dependency.port == element for dependency in event.dependencies or ())
-        verdicts.violated(
-            _SEVERAL if others else _REFERENCES[definition],
-            "policy_references",
+        yield check.fail(
             f"{definition} {'null' if named else 'missing'}",
-            f"on_startup of '{member.lane}' hands over a reference for {element}, which its {definition} provides",
-            f"it handed over {'a null reference' if named else 'none of that name'}",
-            (event.n,),
-            ongoing.step_number if ongoing else None,
+            expected=f"on_startup of '{member.lane}' hands over a reference for {element}, which its {definition} provides",
+            observed=f"it handed over {'a null reference' if named else 'none of that name'}",
+            at=(event.n,),
+            step=ongoing.step_number if ongoing else None,
+            requirement=_SEVERAL if others else _REFERENCES[definition],
         )
 
 
 @property_at("completed", "R-10.1.4.2-25")
-def log_returns(verdicts: Verdicts, runtime: ObservedRuntime, call: MethodCall) -> None:
+def log_returns(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """A call of log comes back, whichever severity it has, from on_startup to on_shutdown."""
     request, reply, caller = call.request, call.reply, call.caller
     if reply is None or caller is None or caller.suspended or request.method != "log":
-        return
+        return ()
     if request.port not in policy_elements(caller.declaration, s.COMPONENT_TRACE) or not request.arguments:
-        return
+        return ()
     severity, text = str(request.arguments[0]), str(request.arguments[-1])
-    if not Threshold.declared(verdicts.ics).knows(severity) or not _is_sendable(verdicts, text):
-        return
+    if not Threshold.declared(runtime.ics).knows(severity) or not _is_sendable(runtime, text):
+        return ()
     if not reply.raised and reply.exception is None:
-        verdicts.exercised("R-10.1.4.2-25")
-        return
-    verdicts.violated(
-        "R-10.1.4.2-25",
-        "log_returns",
-        "raises",
-        f"log({severity}, {_shown(text)}) of '{caller.lane}' returns",
-        "it raised" if reply.raised else f"it raised {reply.exception}",
-        (request.n, reply.n),
+        return (check.kept(),)
+    return (
+        check.fail(
+            "raises",
+            expected=f"log({severity}, {_shown(text)}) of '{caller.lane}' returns",
+            observed="it raised" if reply.raised else f"it raised {reply.exception}",
+            at=(request.n, reply.n),
+        ),
     )
 
 
 @property_at("ended", _SEVERAL, at=("add_component",), feature="policies")
 def traces_supported(
-    verdicts: Verdicts, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
     """A component may have any number of trace policies."""
     step = ongoing.step
     declaration = runtime.scenario.components.get(step.component) if isinstance(step, s.AddComponent) else None
     if declaration is None or not isinstance(end, Raise) or ongoing.container.started is not False:
-        return
+        return ()
     if only_service(declaration, *TRACES):
         names = ", ".join(policy.definition for policy in policies_of(declaration, *TRACES))
-        verdicts.violated(
-            _SEVERAL,
-            "traces_supported",
-            "refused",
-            f"a component with the policies {names} is added",
-            f"add_component raised {end.error} {end.detail}".rstrip(),
-            (end.n,),
-            ongoing.step_number,
+        return (
+            check.fail(
+                "refused",
+                expected=f"a component with the policies {names} is added",
+                observed=f"add_component raised {end.error} {end.detail}".rstrip(),
+                at=(end.n,),
+                step=ongoing.step_number,
+            ),
         )
+    return ()
 
 
 Told = Return | Pushed | Counted | Paused | Stressed
 
 
 @property_at("told", "R-10.1.4.2-26", "R-10.1.4.2-47", _SEVERAL, timed=True)
-def log_recorded(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
+def log_recorded(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
     """Each call of log leaves one record, from the declared threshold on and none below it."""
-    contents = _contents(verdicts, runtime, event)
+    contents = _contents(runtime, event)
     if contents is None:
         return
     for message in contents.missing:
         requirement = "R-10.1.4.2-26" if message.is_narrow else "R-10.1.4.2-47"
         expected = f"a record of log({message.severity}, {_shown(message.text)})"
-        _violated(verdicts, contents, message, requirement, "log_recorded", "none", expected, "there was none")
+        yield _violated(check, runtime, contents, message, requirement, "none", expected, "there was none")
     for message, record in contents.surplus:
         observed = f"there was another one: {record.severity} {_shown(record.message)}"
         expected = f"one record of log({message.severity}, {_shown(message.text)})"
-        _violated(verdicts, contents, message, "R-10.1.4.2-26", "log_recorded", "more than one", expected, observed)
+        yield _violated(check, runtime, contents, message, "R-10.1.4.2-26", "more than one", expected, observed)
     for message in (m for m in contents.messages if m.barred and m.record is not None):
-        expected = f"no record below the threshold {verdicts.ics.reading('log-threshold')}"
+        expected = f"no record below the threshold {runtime.ics.reading('log-threshold')}"
         observed = f"there was one of log({message.severity}, {_shown(message.text)})"
-        verdicts.violated(
-            "R-10.1.4.2-26",
-            "log_recorded",
+        yield check.fail(
             "threshold",
-            expected,
-            observed,
-            (message.call.request.n, contents.reading.end.n),
-            contents.reading.end.step,
+            expected=expected,
+            observed=observed,
+            at=(message.call.request.n, contents.reading.end.n),
+            step=contents.reading.end.step,
+            requirement="R-10.1.4.2-26",
         )
     if any(m.due and m.record for m in contents.messages) and not (contents.missing or contents.surplus):
-        verdicts.exercised("R-10.1.4.2-26")
+        yield check.kept("R-10.1.4.2-26")
 
 
 @property_at("told", "R-10.1.4.2-47", "R-10.1.4.2-53")
-def log_text(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
+def log_text(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
     """A record has the text that log was called with."""
-    contents = _contents(verdicts, runtime, event)
+    contents = _contents(runtime, event)
     for message in (m for m in contents.messages if m.due) if contents is not None else ():
         requirement = "R-10.1.4.2-53" if message.is_narrow else "R-10.1.4.2-47"
         if message.record is not None:
-            verdicts.exercised(requirement)
+            yield check.kept(requirement)
         elif message.altered is not None and contents is not None:
-            verdicts.violated(
-                requirement,
-                "log_text",
+            yield check.fail(
                 "altered",
-                f"a record with the text {_shown(message.text)}, {len(message.text)} characters",
-                f"its text is {_shown(message.altered.message)}, {len(message.altered.message)} characters",
-                (message.call.request.n, contents.reading.end.n),
-                contents.reading.end.step,
+                expected=f"a record with the text {_shown(message.text)}, {len(message.text)} characters",
+                observed=f"its text is {_shown(message.altered.message)}, {len(message.altered.message)} characters",
+                at=(message.call.request.n, contents.reading.end.n),
+                step=contents.reading.end.step,
+                requirement=requirement,
             )
 
 
 @property_at("told", "R-10.1.4.2-51")
-def log_severity_kept(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
+def log_severity_kept(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
     """A record has the severity that log was called with."""
-    contents = _contents(verdicts, runtime, event)
+    contents = _contents(runtime, event)
     for message in (m for m in contents.messages if m.due) if contents is not None else ():
         record = message.record or message.altered
         if record is None or contents is None:
             continue
         if record.severity == message.severity:
-            verdicts.exercised("R-10.1.4.2-51")
+            yield check.kept()
             continue
-        verdicts.violated(
-            "R-10.1.4.2-51",
-            "log_severity_kept",
+        yield check.fail(
             message.severity,
-            f"the record of log({message.severity}, {_shown(message.text)}) has this severity",
-            f"it has severity {record.severity}",
-            (message.call.request.n, contents.reading.end.n),
-            contents.reading.end.step,
+            expected=f"the record of log({message.severity}, {_shown(message.text)}) has this severity",
+            observed=f"it has severity {record.severity}",
+            at=(message.call.request.n, contents.reading.end.n),
+            step=contents.reading.end.step,
         )
 
 
 @property_at("told", "R-10.1.4.2-04", "R-10.1.4.2-32", timed=True)
-def port_trace_recorded(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
+def port_trace_recorded(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
     """Each call of a method that methods_to_trace names has one record with the method's name, or one for each way."""
-    contents = _contents(verdicts, runtime, event)
+    contents = _contents(runtime, event)
     for tracing in contents.tracings.values() if contents is not None else ():
         if contents is None or not tracing.is_traced:
             continue
-        problem = _number_problem(verdicts, contents, tracing)
+        problem = yield from _number_problem(runtime, contents, tracing)
         if problem == _TOO_MANY and _may_be_of_others(tracing):
             continue  # another property's matter
         if problem:
-            _wrong_number(verdicts, contents, tracing, problem)
+            yield _wrong_number(check, contents, tracing, problem)
         elif tracing.due and len(tracing.records) >= tracing.due:
-            verdicts.exercised("R-10.1.4.2-04")
-            verdicts.exercised("R-10.1.4.2-32")
+            yield check.kept("R-10.1.4.2-04")
+            yield check.kept("R-10.1.4.2-32")
 
 
-def _number_problem(verdicts: Verdicts, contents: Contents, tracing: Tracing) -> str:
+def _number_problem(runtime: ObservedRuntime, contents: Contents, tracing: Tracing) -> Generator[Taken, None, str]:
     """What is wrong with the number of records; empty if nothing is, or more may come."""
     found, due, possible = len(tracing.records), tracing.due, tracing.due + tracing.possible
     in_vain = contents.reading.in_vain
     if in_vain and found < due:
         return "too few" if found else "none"
-    if _has_too_many(verdicts, contents, tracing):
+    if _has_too_many(runtime, contents, tracing):
         return _TOO_MANY
     if found > 2 * possible:
         return "threshold"
     if found > possible or (in_vain and found == possible > 0):
         for reading in _readings_of_number(found, possible, in_vain):
-            if not verdicts.observed("port-trace-records", reading):
+            if not (yield from takes(runtime, "port-trace-records", reading)):
                 return f"{reading}, which is not what is declared"
     return ""
 
@@ -227,12 +226,12 @@ def _readings_of_number(found: int, calls: int, in_vain: bool) -> list[str]:
     return ["call-and-return", "call"] if in_vain and found < 2 * calls else ["call-and-return"]
 
 
-def _has_too_many(verdicts: Verdicts, contents: Contents, tracing: Tracing) -> bool:
+def _has_too_many(runtime: ObservedRuntime, contents: Contents, tracing: Tracing) -> bool:
     """Are there more records with the method's name than one, or two, for each call that is traced at a port?"""
     found, most = len(tracing.records), tracing.most
     no_more_to_come = contents.reading.in_vain and not tracing.possible
     between = most < found < 2 * most and found - tracing.due not in tracing.pairs
-    one_a_call = verdicts.ics.reading("port-trace-records") == "call"
+    one_a_call = runtime.ics.reading("port-trace-records") == "call"
     return found > 2 * most or (between and no_more_to_come) or (one_a_call and most < found < 2 * most)
 
 
@@ -242,56 +241,51 @@ def _may_be_of_others(tracing: Tracing) -> bool:
     return tracing.others > 0 and (not tracing.is_traced or len(tracing.records) <= most)
 
 
-def _wrong_number(verdicts: Verdicts, contents: Contents, tracing: Tracing, problem: str) -> None:
+def _wrong_number(check: Property, contents: Contents, tracing: Tracing, problem: str) -> Finding:
     beside = [t for t in contents.tracings.values() if t.ports.keys() & tracing.ports.keys()]
     nothing = problem == "none" and not any(t.records for t in beside)
-    verdicts.violated(
-        "R-10.1.4.2-04" if nothing else "R-10.1.4.2-32",
-        "port_trace_recorded",
+    return check.fail(
         problem,
-        f"one record for each of {tracing.due} traced calls of {tracing.method}, or two",
-        f"{len(tracing.records)} records contain its name",
-        (contents.reading.begin.n, contents.reading.end.n),
-        contents.reading.end.step,
+        expected=f"one record for each of {tracing.due} traced calls of {tracing.method}, or two",
+        observed=f"{len(tracing.records)} records contain its name",
+        at=(contents.reading.begin.n, contents.reading.end.n),
+        step=contents.reading.end.step,
+        requirement="R-10.1.4.2-04" if nothing else "R-10.1.4.2-32",
     )
 
 
 @property_at("told", "R-10.1.4.2-33")
-def port_trace_selective(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
+def port_trace_selective(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
     """Methods that are not named, and ports without port_trace, leave no record."""
-    contents = _contents(verdicts, runtime, event)
+    contents = _contents(runtime, event)
     if contents is None:
         return
     works = any(t.is_traced and t.records for t in contents.tracings.values())
     for tracing in (t for t in contents.tracings.values() if _may_be_of_others(t)):
-        if not _has_too_many(verdicts, contents, tracing):
+        if not _has_too_many(runtime, contents, tracing):
             others_show = tracing.others > tracing.due  # with theirs, there would be more than two records a call
             if works and len(tracing.records) <= tracing.due * (1 + others_show):
-                verdicts.exercised("R-10.1.4.2-33")
+                yield check.kept()
             continue
-        verdicts.violated(
-            "R-10.1.4.2-33",
-            "port_trace_selective",
+        yield check.fail(
             "port" if tracing.is_traced else "method",
-            f"records of the {tracing.most} traced calls of {tracing.method}, and of none of the {tracing.others} others",
-            f"{len(tracing.records)} records contain its name",
-            (contents.reading.begin.n, contents.reading.end.n),
-            contents.reading.end.step,
+            expected=f"records of the {tracing.most} traced calls of {tracing.method}, and of none of the {tracing.others} others",
+            observed=f"{len(tracing.records)} records contain its name",
+            at=(contents.reading.begin.n, contents.reading.end.n),
+            step=contents.reading.end.step,
         )
-    unexplained = _unexplained(verdicts, runtime, contents)
+    unexplained = _unexplained(runtime, contents)
     if unexplained:
-        verdicts.violated(
-            "R-10.1.4.2-33",
-            "port_trace_selective",
+        yield check.fail(
             "unexplained",
-            "no record, as only methods were called that are not traced",
-            f"{unexplained} new records",
-            (contents.reading.begin.n, contents.reading.end.n),
-            contents.reading.end.step,
+            expected="no record, as only methods were called that are not traced",
+            observed=f"{unexplained} new records",
+            at=(contents.reading.begin.n, contents.reading.end.n),
+            step=contents.reading.end.step,
         )
 
 
-def _unexplained(verdicts: Verdicts, runtime: ObservedRuntime, contents: Contents) -> int:
+def _unexplained(runtime: ObservedRuntime, contents: Contents) -> int:
     """How many records have come that nobody can explain, while nothing happened but calls that are not traced."""
     interactions = runtime.interactions
     readings = log_readings(interactions)
@@ -304,41 +298,39 @@ def _unexplained(verdicts: Verdicts, runtime: ObservedRuntime, contents: Content
     written = [c for c in calls if c.request.port in policy_elements(components.get(c.request.component), *TRACES)]
     if not calls or written or any(isinstance(step, s.ContainerCall) for step in between):
         return 0
-    earlier = contents_of(before, interactions, components, verdicts.ics)
+    earlier = contents_of(before, interactions, components, runtime.ics)
     if sum(t.most for t in contents.tracings.values()) > sum(t.most for t in earlier.tracings.values()):
         return 0
     return max(len(contents.strays) - len(earlier.strays), 0)
 
 
 @property_at("told", "R-10.1.4.2-35")
-def port_trace_severity(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
+def port_trace_severity(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
     """What a port trace records has the severity of its log_severity."""
-    contents = _contents(verdicts, runtime, event)
+    contents = _contents(runtime, event)
     for tracing in contents.tracings.values() if contents is not None else ():
         if contents is None or not tracing.is_traced or not tracing.records:
             continue
-        if _has_too_many(verdicts, contents, tracing):
+        if _has_too_many(runtime, contents, tracing):
             continue  # nobody knows which of them are of traced calls
         if {record.severity for record in tracing.records} <= tracing.severities:
-            verdicts.exercised("R-10.1.4.2-35")
+            yield check.kept()
             continue
-        verdicts.violated(
-            "R-10.1.4.2-35",
-            "port_trace_severity",
+        yield check.fail(
             " or ".join(sorted(tracing.severities)),
-            f"records of calls of {tracing.method} with severity {' or '.join(sorted(tracing.severities))}",
-            f"records: {severities_shown(tracing.records)}",
-            (contents.reading.begin.n, contents.reading.end.n),
-            contents.reading.end.step,
+            expected=f"records of calls of {tracing.method} with severity {' or '.join(sorted(tracing.severities))}",
+            observed=f"records: {severities_shown(tracing.records)}",
+            at=(contents.reading.begin.n, contents.reading.end.n),
+            step=contents.reading.end.step,
         )
 
 
 @property_at("told", _SEVERAL)
-def several_traces(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> None:
+def several_traces(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
     """Counts components of which more than one trace policy has been seen to work."""
-    contents = _contents(verdicts, runtime, event)
+    contents = _contents(runtime, event)
     if contents is None or contents.surplus:
-        return
+        return ()
     working: dict[str, set[str]] = {}
     for message in (m for m in contents.messages if m.due and m.record is not None):
         working.setdefault(message.call.request.component, set()).add(message.call.request.port)
@@ -346,10 +338,11 @@ def several_traces(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) ->
         for component, port in tracing.ports:
             working.setdefault(component, set()).add(port)
     if any(len(ways) > 1 for ways in working.values()):
-        verdicts.exercised(_SEVERAL)
+        return (check.kept(),)
+    return ()
 
 
-def _contents(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> Contents | None:
+def _contents(runtime: ObservedRuntime, event: Told) -> Contents | None:
     """What was read of the log, if that is what the event tells."""
     if not isinstance(event, Return) or event.records is None:
         return None
@@ -357,38 +350,37 @@ def _contents(verdicts: Verdicts, runtime: ObservedRuntime, event: Told) -> Cont
     last = next((reading for reading in readings if reading.end is event), None)
     if last is None:
         return None
-    return contents_of(last, runtime.interactions, runtime.scenario.components, verdicts.ics)
+    return contents_of(last, runtime.interactions, runtime.scenario.components, runtime.ics)
 
 
 def _violated(
-    verdicts: Verdicts,
+    check: Property,
+    runtime: ObservedRuntime,
     contents: Contents,
     message: Message,
     requirement: str,
-    name: str,
     cause: str,
     expected: str,
     observed: str,
-) -> None:
+) -> Finding:
     """A message has another number of records than one; of a component with several traces this is their matter."""
     request = message.call.request
-    declaration = verdicts.scenario.components.get(request.component)
+    declaration = runtime.scenario.components.get(request.component)
     several = len(policies_of(declaration, s.COMPONENT_TRACE)) > 1
-    verdicts.violated(
-        _SEVERAL if several else requirement,
-        name,
+    return check.fail(
         f"{cause}, several traces" if several else cause,
-        f"{expected} of '{lane(request.component, request.instance)}'",
-        observed,
-        (request.n, contents.reading.begin.n, contents.reading.end.n),
-        contents.reading.end.step,
+        expected=f"{expected} of '{lane(request.component, request.instance)}'",
+        observed=observed,
+        at=(request.n, contents.reading.begin.n, contents.reading.end.n),
+        step=contents.reading.end.step,
+        requirement=_SEVERAL if several else requirement,
     )
 
 
-def _is_sendable(verdicts: Verdicts, text: str) -> bool:
+def _is_sendable(runtime: ObservedRuntime, text: str) -> bool:
     """Is it a message under the declared reading of what a message is?"""
     narrow = text.isascii() and len(text) <= 255
-    return narrow or verdicts.ics.reading("log-message") != "narrow-255"
+    return narrow or runtime.ics.reading("log-message") != "narrow-255"
 
 
 def _shown(text: str) -> str:

@@ -13,6 +13,8 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Datum, Float
 from ucm_cts.adapters.contract.data_values import kind_name, misfit
 from ucm_cts.adapters.contract.trace import Raise, Return
+from ucm_cts.reference_models.conclusions import Conclusions, Taken
+from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.service_call import ServiceCall
@@ -34,47 +36,42 @@ from ucm_cts.reference_models.model.value_transport import (
     requirements_of,
 )
 from ucm_cts.reference_models.model.values_carried import Carried, method_of, values_carried
-from ucm_cts.reference_models.properties.declaration import property_at
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _LONGEST = 70
 
 
 @property_at("closed", *REQUIREMENTS)
-def exact_values(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def exact_values(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """What a connector carries arrives as it was sent, bit by bit, and back again."""
     wrong: list[tuple[Carried, Difference]] = []
     well: list[Carried] = []
     for carried in values_carried(runtime):
-        different = [d for d in carried.differences if not _is_permitted(verdicts, d)]
+        if any(d.is_nan for d in carried.differences):
+            yield Taken("nan", "any")
+        different = [d for d in carried.differences if not (d.is_nan and runtime.ics.permits("nan", "any"))]
         if different:
             wrong.append((carried, different[0]))
             continue
         well.append(carried)
         for requirement in requirements_of(carried.of, carried.sent):
-            verdicts.exercised(requirement)
+            yield check.kept(requirement)
     evidence = Evidence()
     for carried in well if wrong else ():
         evidence.add(carried.of, carried.sent)
     for carried, difference in wrong:
-        _accuse(verdicts, carried, difference, evidence.to_blame(difference.part))
+        yield _accuse(check, carried, difference, evidence.to_blame(difference.part))
 
 
-def _is_permitted(verdicts: Verdicts, difference: Difference) -> bool:
-    """Another NaN may arrive, unless exactness is declared."""
-    return difference.is_nan and verdicts.observed("nan", "any")
-
-
-def _accuse(verdicts: Verdicts, carried: Carried, difference: Difference, requirement: str) -> None:
+def _accuse(check: Property, carried: Carried, difference: Difference, requirement: str) -> Finding:
     part = difference.part
     kind = kind_name(part.of)
-    verdicts.violated(
-        requirement,
-        "exact_values",
+    return check.fail(
         f"{_sort_of(part.of, part.value)}{kind} as {carried.way}",
-        f"{kind} {told(part.of, part.value)}{_place(part)} arrives as sent",
-        f"it arrived as {told(part.of, difference.got)}",
-        carried.events,
+        expected=f"{kind} {told(part.of, part.value)}{_place(part)} arrives as sent",
+        observed=f"it arrived as {told(part.of, difference.got)}",
+        at=carried.events,
+        requirement=requirement,
     )
 
 
@@ -115,7 +112,7 @@ def told(of: AnyType, value: object) -> str:
 
 
 @property_at("closed", *REQUIREMENTS)
-def values_accepted(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
+def values_accepted(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A service call is not refused for its values, while others are served."""
     interactions = runtime.interactions
     if not any(call.reply is not None and call.reply.raised for call in interactions.calls):
@@ -134,7 +131,7 @@ def values_accepted(verdicts: Verdicts, runtime: ObservedRuntime) -> None:
         return
     alone = [of for _, values in refused for of, _ in values[:1]]
     for one, values in refused:
-        _accuse_of_refusal(verdicts, one, *values[0], alone)
+        yield _accuse_of_refusal(check, one, *values[0], alone)
 
 
 def _may_be_carried(
@@ -176,43 +173,43 @@ def _typed(types: Sequence[AnyType], given: Sequence[Datum] | None) -> Iterator[
 
 
 def _accuse_of_refusal(
-    verdicts: Verdicts, one: ServiceCall, of: AnyType, value: Datum, alone: Sequence[AnyType]
-) -> None:
+    check: Property, one: ServiceCall, of: AnyType, value: Datum, alone: Sequence[AnyType]
+) -> Finding:
     """To blame is the innermost part whose type was refused by itself as well."""
     suspects = [part for part in inside(Part(of, value)) if not part.around or part.of in alone]
     suspect = max(suspects, key=lambda part: len(part.around))
     reply = one.call.reply
-    verdicts.violated(
-        requirement_of(suspect.of),
-        "values_accepted",
+    return check.fail(
         f"{kind_name(suspect.of)} refused",
-        f"a call with {kind_name(of)} {told(of, value)} is carried out, as others are",
-        "it ended with an exception that the server did not raise",
-        (one.call.request.n, reply.n if reply is not None else one.call.request.n),
+        expected=f"a call with {kind_name(of)} {told(of, value)} is carried out, as others are",
+        observed="it ended with an exception that the server did not raise",
+        at=(one.call.request.n, reply.n if reply is not None else one.call.request.n),
+        requirement=requirement_of(suspect.of),
     )
 
 
 @property_at("linked", *REQUIREMENTS)
 def types_accepted(
-    verdicts: Verdicts, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
-) -> None:
+    check: Property, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
+) -> Conclusions:
     """A connector that can be bound to one interface can be bound to another one with other data types."""
     interactions = runtime.interactions
     if not isinstance(step, s.Link) or isinstance(end, Return):
-        return
+        return ()
     if not any(other.connector == step.connector for other in interactions.links.values()):
-        return
+        return ()
     if any(container.started is not False for container in runtime.containers.values()):
-        return
+        return ()
     types = new_types(runtime, step)
     if not types:
-        return
-    verdicts.violated(
-        requirement_of(types[0]),
-        "types_accepted",
-        f"{kind_name(types[0])} refused by {step.connector}",
-        f"{step.connector} can be bound to an interface with {kind_name(types[0])}, as it is to another one",
-        f"it ended with {end.error} {end.detail}".rstrip(),
-        (end.n,),
-        end.step,
+        return ()
+    return (
+        check.fail(
+            f"{kind_name(types[0])} refused by {step.connector}",
+            expected=f"{step.connector} can be bound to an interface with {kind_name(types[0])}, as it is to another one",
+            observed=f"it ended with {end.error} {end.detail}".rstrip(),
+            at=(end.n,),
+            step=end.step,
+            requirement=requirement_of(types[0]),
+        ),
     )

@@ -12,8 +12,8 @@ from ucm_cts.harness.purposes.systematic.settings import Input, Setting
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.prediction import Prediction, Way
-from ucm_cts.reference_models.model.runtime import OperationInProgress
 
 State = tuple[object, ...]
 """The part of a runtime that decides its further behaviour: phases, members, connections."""

@@ -12,11 +12,11 @@ from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks,
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.prediction import Way
 from ucm_cts.reference_models.model.row_selection import undone_by
-from ucm_cts.reference_models.model.runtime import Member, OperationInProgress
-from ucm_cts.reference_models.properties.table import PROPERTIES
-from ucm_cts.reference_models.verdicts import Verdicts
+from ucm_cts.reference_models.model.runtime import Member
+from ucm_cts.reference_models.properties.claims import undeclared_choice
 
 
 class Permission:
@@ -38,16 +38,14 @@ class Permission:
 
     def permits(self, runtime: ObservedRuntime, ongoing: OperationInProgress, way: Way) -> bool:
         """Does each instance go a way that its row permits, and none one that its vendor has ruled out?"""
-        verdicts = Verdicts(runtime.scenario, self._expected, ics=self._ics)
-        ongoing.fitted = []
-        for (member, row), heard in zip(ongoing.roles, way.callbacks, strict=True):
-            fit = self._expected.fit(row, way.answer, listener_of(ongoing, member), heard)
+        fitted = []
+        for (member, row), hooks in zip(ongoing.roles, way.callbacks, strict=True):
+            fit = self._expected.fit(row, way.answer, listener_of(ongoing, member), hooks)
             if fit is None:
                 return False
-            ongoing.fitted.append((member, row, fit))
+            fitted.append((member, row, fit))
         end = Return(0, 0, 0, 0) if way.answer == "return" else Raise(0, 0, 0, 0, way.answer)  # type: ignore[arg-type]
-        PROPERTIES["declared_choices"].check(verdicts, runtime, ongoing, end)
-        return not verdicts.findings
+        return undeclared_choice(self._ics, ongoing, end, fitted) is None
 
     def seen(self, runtime: ObservedRuntime, ongoing: OperationInProgress, way: Way) -> Iterator[Observation]:
         """The output of the operation if it goes this ``way``; a list may be shorter or longer."""

@@ -1,0 +1,175 @@
+"""An operation of Container or ContainerManager: in progress, and how it ended (11.2.2, 12.10)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ucm_cts.adapters.contract.scenario import Hook, Step
+from ucm_cts.adapters.contract.trace import Enter, Raise, Return
+from ucm_cts.reference_models.model.expected_callbacks import Deviation, Fit
+from ucm_cts.reference_models.model.life_cycle import Row
+from ucm_cts.reference_models.model.runtime import Connection, Container, Member
+
+DECLARED_ERRORS: dict[str, tuple[str, ...]] = {
+    "add_component": ("UCM_ERROR",),
+    "remove_component": ("NOT_FOUND", "UCM_ERROR"),
+    "get_port_element": ("NOT_FOUND", "UCM_ERROR"),
+    "connect": ("NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"),
+    "disconnect": ("NOT_FOUND", "UCM_ERROR"),
+    "start": ("UCM_ERROR",),
+    "stop": ("UCM_ERROR",),
+    "get_components": ("UCM_ERROR",),
+    "create_container": ("UCM_ERROR",),
+    "remove_container": ("NOT_FOUND", "UCM_ERROR"),
+    "destroy": ("UCM_ERROR",),
+}
+"""The exceptions that 12.10 declares for each operation."""
+
+
+Result = Return | Raise
+
+Fitted = tuple[Member | None, Row, Fit]
+"""The instance that a row stands for, None if it does not exist, or not yet; and how its callbacks fit the row."""
+
+
+class Deviating(NamedTuple):
+    """An instance received callbacks that its row does not permit.
+
+    ``member``: the instance; None where the row is about one that does not exist, or not yet.
+    ``who``: the name of its body, for findings.
+    ``events``: the life-cycle callbacks it received.
+    """
+
+    member: Member | None
+    row: Row
+    who: str
+    events: list[Enter]
+    deviation: Deviation
+
+
+class Intrusion(NamedTuple):
+    """A ``member`` that the operation does not concern received the callbacks ``events``, which breaks ``requirement``."""
+
+    member: Member
+    events: list[Enter]
+    requirement: str
+    elsewhere: bool
+
+
+class OperationEnd:
+    """How the end of an operation and its callbacks fit the life-cycle table.
+
+    ``answer``: ``return`` or the error.
+    ``permitting``: the rows that permit the answer, up to the one that does not.
+    ``forbidding``: the role that does not permit the answer, with the answers it permits.
+    ``permitted``: whether the operation was judged and every row permits the answer.
+    ``initialised``: the on_init of bodies that add_component has made, and whether it was the ``right_body``.
+    ``intrusions``: instances that were not concerned and received callbacks.
+    ``others_undisturbed``: whether an instance of another container was not concerned and received nothing.
+    ``reached_own``: whether a start or stop of the manager reached its own members; None if it had none to reach.
+    ``not_reached``: the manager's own members if it reached none of them.
+    ``fitted``, ``deviating``: how it went for each role; both empty if that cannot be judged.
+    """
+
+    permitting: Sequence[Row] = ()
+    forbidding: tuple[Member | None, Row, frozenset[str]] | None = None
+    permitted: bool = False
+    initialised: Sequence[Enter] = ()
+    right_body: bool = False
+    intrusions: Sequence[Intrusion] = ()
+    others_undisturbed: bool = False
+    reached_own: bool = False
+    not_reached: Sequence[Member] = ()
+    fitted: Sequence[Fitted] = ()
+    deviating: Sequence[Deviating] = ()
+
+    def __init__(self, answer: str) -> None:
+        self.answer = answer
+
+    @property
+    def is_plain(self) -> bool:
+        """Is there nothing to say about callbacks but how they fit?"""
+        peculiar = self.intrusions or self.deviating or self.not_reached
+        return not (peculiar or self.reached_own or self.others_undisturbed)
+
+    def is_unknown(self, member: Member) -> bool:
+        """Is the state of ``member`` not known, or not any more because of what it received?"""
+        return (
+            member.suspended
+            or member in self.not_reached
+            or any(intrusion.member is member for intrusion in self.intrusions)
+            or any(role.member is member for role in self.deviating)
+        )
+
+
+_NOT_ENDED = OperationEnd("")
+
+
+class OperationInProgress:
+    """One operation of Container or ContainerManager, from call to return.
+
+    ``roles``: each instance concerned with the row of the life-cycle table that stands for it (the instance is None where
+    the row is about one that does not exist).
+    ``judged``: False where the model cannot predict.
+    ``lost``: the state that it leaves is not known.
+    ``forgiving``: it may end in UCM_ERROR for a reason that the rows do not show.
+    ``created``: the bodies made meanwhile.
+    ``call``: the ``n`` of the call event.
+    ``outcome``: how it ended, as soon as it has.
+    """
+
+    __slots__ = (
+        "by_body",
+        "call",
+        "callbacks",
+        "connection",
+        "container",
+        "created",
+        "forgiving",
+        "hooks",
+        "judged",
+        "lost",
+        "operation",
+        "outcome",
+        "roles",
+        "step",
+        "step_number",
+        "subject",
+    )
+
+    def __init__(self, step_number: int, step: Step, operation: str, container: Container, call: int = 0) -> None:
+        self.step_number = step_number
+        self.step = step
+        self.operation = operation
+        self.container = container
+        self.call = call
+        self.roles: list[tuple[Member | None, Row]] = []
+        self.judged = True
+        self.forgiving = False
+        self.lost = False
+        self.callbacks: list[Enter] = []
+        self.hooks: set[Hook] = set()
+        self.by_body: dict[tuple[str, int | None], list[Enter]] = {}
+        self.created: list[tuple[str, int]] = []
+        self.subject: Member | None = None
+        self.connection: Connection | None = None
+        self.outcome = _NOT_ENDED
+
+    def hear(self, callback: Enter) -> None:
+        """A body was entered while the operation was in progress."""
+        self.callbacks.append(callback)
+        self.hooks.add(callback.hook)
+        body = callback.component, callback.instance
+        callbacks = self.by_body.get(body)
+        if callbacks is None:
+            self.by_body[body] = [callback]
+        else:
+            callbacks.append(callback)
+
+    def received(self, member: Member, hook: Hook) -> list[Enter]:
+        """The ``hook`` callbacks that the body of ``member`` received meanwhile."""
+        if hook not in self.hooks:
+            return []
+        callbacks = self.by_body.get((member.component, member.instance))
+        return [c for c in callbacks if c.hook == hook] if callbacks is not None else []

@@ -1,0 +1,64 @@
+"""Properties are pure: in whichever order they are checked, a trace has the same verdicts."""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from collections.abc import Iterator
+
+import pytest
+from performing import answer
+
+from ucm_cts.adapters.contract.messages import Traced
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.adapters.contract.trace import Trace
+from ucm_cts.adapters.mutants.python.registry import CONTAINER, POLICIES, mutants_of
+from ucm_cts.harness.catalogue.requirements import load_life_cycle
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.reference_models.monitor import Monitor
+from ucm_cts.reference_models.properties.table import PROPERTIES
+
+SCENARIOS, MUTANTS = 6, 8
+
+
+@pytest.fixture(scope="module")
+def traces() -> list[tuple[Scenario, Trace]]:
+    """What some mutants do in scenarios for container and policies."""
+    chosen = random.Random(1)
+    found = []
+    for clauses, profile in ((CONTAINER, "container"), (POLICIES, "core")):
+        purposes = [p for p in load_purposes(profile) if p.clause.startswith(clauses)]
+        for name in chosen.sample(sorted(mutants_of(clauses)), MUTANTS):
+            adapter = mutants_of(clauses)[name].adapter
+            for purpose in chosen.sample(purposes, min(SCENARIOS, len(purposes))):
+                _, scenario = purpose.scenarios[0]
+                reply = answer(scenario, adapter)
+                if isinstance(reply, Traced) and not reply.stuck:
+                    found.append((scenario, reply.events))
+    return found
+
+
+@pytest.fixture
+def in_their_order() -> Iterator[None]:
+    usual = dict(PROPERTIES)
+    yield
+    PROPERTIES.clear()
+    PROPERTIES.update(usual)
+
+
+def verdicts_on(traces: list[tuple[Scenario, Trace]]) -> list[object]:
+    monitor = Monitor(load_life_cycle())
+    found = [monitor.judge(scenario, trace) for scenario, trace in traces]
+    return [(Counter(v.findings), v.exercises, v.readings, v.measures, v.rows) for v in found]
+
+
+@pytest.mark.usefixtures("in_their_order")
+def test_the_order_of_properties_does_not_matter(traces: list[tuple[Scenario, Trace]]) -> None:
+    expected = verdicts_on(traces)
+    assert sum(bool(findings) for findings, *_ in expected) > 2
+    for seed in range(3):
+        shuffled = list(PROPERTIES.items())
+        random.Random(seed).shuffle(shuffled)
+        PROPERTIES.clear()
+        PROPERTIES.update(shuffled)
+        assert verdicts_on(traces) == expected, f"seed {seed}"
