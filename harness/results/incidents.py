@@ -14,7 +14,7 @@ from ucm_cts.adapters.contract.trace import Call, Create, Enter, Exit, Raise, Re
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS
-from ucm_cts.reference_models.properties.operations import DECLARED
+from ucm_cts.reference_models.properties.clause_11_2_2 import DECLARED
 
 FREE_LOOKS = 0.25
 """The part of the incident time in which every incident gets a second run."""

@@ -1,7 +1,7 @@
 """What became of a value on its way: where it differs from what was sent, and which type is to blame (10.1.1).
 
 The innermost type that differs is to blame, unless the same value of it was carried well elsewhere with no more around it:
-then what is around it is. Pure comparison of data; rules_values.py says what is compared.
+then what is around it is. Pure comparison of data; clause_10_1_1.py says what is compared.
 """
 
 from __future__ import annotations

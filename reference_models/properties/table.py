@@ -8,22 +8,22 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.executions import Caller
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS
 from ucm_cts.reference_models.properties import (  # noqa: F401 - importing these registers all properties
-    bursts,
-    callbacks,
-    claims,
-    clock,
-    dependencies,
-    execution,
-    interactions,
-    message_phases,
-    messages,
-    operations,
-    policies,
-    return_codes,
-    services,
-    stress,
-    trace,
-    values,
+    clause_10_1_1,
+    clause_10_1_2,
+    clause_10_1_2_bursts,
+    clause_10_1_3,
+    clause_10_1_3_2,
+    clause_10_1_4_1,
+    clause_10_1_4_2,
+    clause_10_1_5,
+    clause_10_1_6,
+    clause_10_1_6_phases,
+    clause_11_2_1,
+    clause_11_2_1_2,
+    clause_11_2_2,
+    clause_11_2_3,
+    clause_11_2_3_calls,
+    declared_choices,
 )
 from ucm_cts.reference_models.properties.declaration import PROPERTIES, Bound, Feature, checked_at
 

@@ -16,7 +16,7 @@ from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.prediction import Way
 from ucm_cts.reference_models.model.row_selection import undone_by
 from ucm_cts.reference_models.model.runtime import Member
-from ucm_cts.reference_models.properties.claims import undeclared_choice
+from ucm_cts.reference_models.properties.declared_choices import undeclared_choice
 
 
 class Permission:

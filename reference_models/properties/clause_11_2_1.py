@@ -1,0 +1,238 @@
+"""Properties about what callbacks are given: attributes, names, references, the container's interface (11.2.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_values import read_spelled, spell
+from ucm_cts.adapters.contract.trace import Enter, Reference, Return, Siblings
+from ucm_cts.reference_models.conclusions import Conclusions
+from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.model.callback_history import CallbackHistory
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.runtime import lane
+from ucm_cts.reference_models.properties.clause_11_2_2 import listing_problem
+from ucm_cts.reference_models.properties.clause_11_2_3 import outside_life
+from ucm_cts.reference_models.properties.declaration import Property, property_at
+
+_UNDOING = ("disconnect", "remove_component", "remove_container", "destroy")
+_SHOWN = 3
+"""So many attributes are told of."""
+
+
+@property_at("entered", "R-11.2.1.2-05", "R-10.1.1-06", at=("on_init",), feature="attributes")
+def attributes_before_init(
+    check: Property,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
+) -> Conclusions:
+    """On entry to on_init the body holds the configured attribute values."""
+    if history.initialised:
+        return
+    declaration = runtime.scenario.components.get(event.component)
+    if declaration is None or not declaration.attributes:
+        return
+    held = event.attributes or {}
+    wrong = [a for a, value in declaration.attributes.items() if not _is_configured(held.get(a), value)]
+    if not wrong:
+        yield check.kept("R-11.2.1.2-05")
+    else:
+        yield _holds_others(check, "R-11.2.1.2-05", declaration, wrong, held, event, ongoing)
+    typed = {a for a, value in declaration.attributes.items() if read_spelled(value) is not None}
+    if typed and not typed.intersection(wrong):
+        yield check.kept("R-10.1.1-06")
+    elif typed:
+        yield _holds_others(check, "R-10.1.1-06", declaration, [a for a in wrong if a in typed], held, event, ongoing)
+
+
+def _is_configured(held: str | None, configured: str) -> bool:
+    """Is it what was configured? A value of a type may have been read, and spelled anew."""
+    value, own = read_spelled(configured), read_spelled(held)
+    return held == configured or (value is not None and own is not None and spell(value) == spell(own))
+
+
+def _holds_others(
+    check: Property,
+    requirement: str,
+    declaration: s.Declaration,
+    wrong: list[str],
+    held: Mapping[str, str],
+    event: Enter,
+    ongoing: OperationInProgress | None,
+) -> Finding:
+    some = wrong[:_SHOWN]
+    return check.fail(
+        "missing" if all(a not in held for a in wrong) else "another value",
+        expected="on_init finds " + ", ".join(f"{a}={declaration.attributes[a]}" for a in some),
+        observed="on_init found " + ", ".join(f"{a}={held[a]}" if a in held else f"{a} unset" for a in some),
+        at=(event.n,),
+        step=ongoing.step_number if ongoing else None,
+        requirement=requirement,
+    )
+
+
+@property_at("ended", "R-11.2.1.2-08", at=("start",))
+def configuration_first(
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
+) -> Conclusions:
+    """Once start has started a member, nothing of the container is initialised or connected any more."""
+    if not isinstance(end, Return):
+        return ()
+    own = [m for m in ongoing.container.live_members() if m.instance is not None] if ongoing.callbacks else []
+    late = [c for m in own for c in (*ongoing.received(m, "on_init"), *ongoing.received(m, "on_connect"))]
+    if late:
+        return (
+            check.fail(
+                late[0].hook,
+                expected="when start is called, every member is initialised and connected",
+                observed=f"{late[0].component} received {late[0].hook} during start",
+                at=tuple(c.n for c in late),
+                step=ongoing.step_number,
+            ),
+        )
+    if sum(bool(ongoing.received(m, "on_startup")) for m in own) > 1:
+        return (check.kept(),)
+    return ()
+
+
+@property_at("entered", "R-11.2.1.3-04", at=("on_connect",))
+def connect_arguments(
+    check: Property,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
+) -> Conclusions:
+    """on_connect is given the port element's name and the reference that connect was given."""
+    if ongoing is None or not isinstance(ongoing.step, s.Connect):
+        return ()
+    member = ongoing.subject
+    if (
+        member is None
+        or member.suspended
+        or outside_life(runtime, ongoing, event, history)
+        or (member.component, member.instance) != (event.component, event.instance)
+    ):
+        return ()
+    reference, _ = runtime.reference(ongoing.step.to)
+    wrong = event.port != ongoing.step.port
+    wrong_reference = event.reference is None or (
+        isinstance(event.reference, Reference) and isinstance(reference, Reference) and event.reference != reference
+    )
+    if not wrong and not wrong_reference:
+        return (check.kept(),)
+    return (
+        check.fail(
+            "name" if wrong else "reference",
+            expected=f"on_connect({ongoing.step.port}, {_show(reference)})",
+            observed=f"on_connect({event.port}, {_show(event.reference)})",
+            at=(event.n,),
+            step=ongoing.step_number,
+            instead=(
+                Arrow(ongoing.container.name, member.lane, f"on_connect({ongoing.step.port}, {_show(reference)})"),
+            ),
+        ),
+    )
+
+
+@property_at("entered", "R-11.2.1.3-06", at=("on_disconnect",))
+def disconnect_arguments(
+    check: Property,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
+) -> Conclusions:
+    """on_disconnect is given the name of the port element whose connection is undone."""
+    if ongoing is None:
+        return ()
+    member = runtime.member_of(event.component, event.instance)
+    if member is None or member.suspended or outside_life(runtime, ongoing, event, history):
+        return ()
+    if ongoing.operation not in _UNDOING:  # that it came at all is then the fault
+        return ()
+    undone = [ongoing.connection] if ongoing.connection is not None else member.connections
+    ports = {c.port for c in undone if c.live is not False}
+    if not ports:
+        return ()
+    if event.port in ports:
+        return (check.kept(),)
+    wanted = " or ".join(sorted(ports))
+    return (
+        check.fail(
+            "name",
+            expected=f"on_disconnect({wanted})",
+            observed=f"on_disconnect({event.port})",
+            at=(event.n,),
+            step=ongoing.step_number,
+            instead=(Arrow(ongoing.container.name, member.lane, f"on_disconnect({wanted})"),),
+        ),
+    )
+
+
+@property_at("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"), feature="fragments")
+def container_interface(
+    check: Property,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress | None,
+    event: Enter,
+    history: CallbackHistory,
+) -> Conclusions:
+    """A fragment gets its container's interface exactly once, before on_startup."""
+    declaration = runtime.scenario.components.get(event.component)
+    if declaration is None or not declaration.fragment:
+        return ()
+    given = history.interfaces
+    first_start = event.hook == "on_startup" and not history.begun
+    again = event.hook == "set_container_interface" and given > 0
+    if first_start and given == 1:
+        return (check.kept(),)
+    if again or (first_start and given == 0):
+        return (
+            check.fail(
+                "twice" if again else "never",
+                expected="set_container_interface comes once, before on_startup",
+                observed="set_container_interface came again"
+                if again
+                else "on_startup came without set_container_interface",
+                at=(event.n,) if again else tuple(sorted({history.first_at or event.n, event.n})),
+                step=ongoing.step_number if ongoing else None,
+                instead=(
+                    Arrow(ongoing.container.name if ongoing else "manager", event.component, "set_container_interface"),
+                ),
+            ),
+        )
+    return ()
+
+
+@property_at("noted", "R-11.2.1.4-03")
+def siblings(
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress | None, event: Siblings
+) -> Conclusions:
+    """What a fragment learns of its container's members is what they are, unless an operation is changing that."""
+    member = runtime.member_of(event.component, event.instance)
+    if ongoing is not None or member is None or not member.declaration.fragment:
+        return ()
+    if member.suspended or not member.operational:
+        return ()
+    problem = "the query failed" if event.raised else listing_problem(runtime, member.container, event.ids)
+    if problem is None:
+        return (check.kept(),)
+    return (
+        check.fail(
+            problem.split()[0],
+            expected=f"the fragment sees {[m.id for m in member.container.live_members()]}",
+            observed=f"the fragment sees {list(event.ids)}: {problem}",
+            at=(event.n,),
+        ),
+    )
+
+
+def _show(reference: object) -> str:
+    if isinstance(reference, Reference):
+        return f"{lane(reference.component, reference.instance)}.{reference.port}"
+    return "nil" if reference is None else str(reference)
