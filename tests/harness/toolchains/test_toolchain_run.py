@@ -22,8 +22,8 @@ from ucm_cts.harness.toolchains.corpus.selection import Question, differing_line
 pytestmark = pytest.mark.slow
 
 FAKE = SUPPORT / "fake_toolchain.py"
-CASE = "structure"
-"""Models of one kind are enough to tell behaviours apart."""
+CASE = "R-9.2.4.3-02"
+"""The models of one requirement are enough to tell behaviours apart."""
 
 
 @pytest.fixture(autouse=True)
