@@ -27,6 +27,7 @@ def test_committed_files_are_what_the_generator_makes(path: Path) -> None:
     assert path.read_text() == generating.rendered(generating.FILES[path])
 
 
+@pytest.mark.native
 def test_every_message_survives_cpp(tmp_path: Path) -> None:
     source = tmp_path / "round_trip.cpp"
     source.write_text(generating.rendered("round_trip.cpp.jinja", [SUPPORT / "native"]))

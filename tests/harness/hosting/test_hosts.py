@@ -31,7 +31,7 @@ REFERENCE = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 CALM = Scenario({"calm": Declaration()}, (s.AddComponent("calm"), s.Start()))
 TRIGGER = Scenario({"calm": Declaration(), "trigger": Declaration()}, (s.AddComponent("trigger"),))
 IN_THREAD = Scenario({"trigger": Declaration()}, (s.AddComponent("trigger", thread="w"),), patience=20)
-LIMITS = Limits(seconds=0.3, memory=200, line=1 << 20, welcome_seconds=0.5)
+LIMITS = Limits(seconds=2, memory=200, line=1 << 20, welcome_seconds=2)
 PATIENT = Limits(seconds=20, memory=200, line=1 << 20)
 
 
@@ -95,7 +95,7 @@ def test_end_of_a_host_is_an_incident(adapter: str, kind: str, detail: str, stac
 @pytest.mark.usefixtures("no_leaks")
 def test_hang_is_an_incident_with_stacks(adapter: str) -> None:
     incident = incident_of(f"misbehaving:{adapter}", LIMITS)
-    assert (incident.kind, incident.detail) == ("hang", "no answer within 0.3 s")
+    assert (incident.kind, incident.detail) == ("hang", "no answer within 2 s")
     assert "in misbehave" in incident.stacks
 
 
@@ -160,7 +160,7 @@ def test_stream_without_end_is_a_hang(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("speaker", "kind", "detail"),
     [
-        (speakers.SaysNothing, "hang", "does not answer hello: hang, no answer within 0.5 s"),
+        (speakers.SaysNothing, "hang", "does not answer hello: hang, no answer within 2 s"),
         (speakers.SpeaksAnotherProtocol, "protocol", "speaks protocol 2, the harness 1"),
         (speakers.HasNoName, "protocol", "Expected `str` of length >= 1 - at `$.product`"),
         (speakers.DiesAtOnce, "exit", "exit status 4\ncannot read my configuration"),
@@ -227,13 +227,14 @@ def test_answers_nobody_waits_for_are_not_mixed_up() -> None:
 
 @pytest.mark.usefixtures("no_leaks")
 def test_fresh_host_after_a_crash_costs_little() -> None:
+    begun = time.monotonic()
     with Hosts(locate("misbehaving:Aborts"), PATIENT) as hosts:
         assert hosts.welcome.product
-        began = time.monotonic()
+        first = time.monotonic() - begun
         answers = list(hosts.run(Run(n, TRIGGER) for n in range(20)))
-        each = (time.monotonic() - began) / 20
+        each = (time.monotonic() - begun - first) / 20
     assert all(isinstance(answer.reply, Incident) for answer in answers)
-    assert each < 0.1  # 4 ms when the machine has nothing else to do
+    assert each < first / 2, "a busy machine slows down both"
 
 
 def test_lost_template_is_replaced() -> None:
