@@ -35,7 +35,8 @@ class Part(Value, frozen=True):
 class Script(Value, frozen=True):
     """One scenario as a person writes it: its name, its test purpose, the requirements it means to exercise.
 
-    ``messages`` are further interfaces: message_intf (10.1.6.2), bound to these types.
+    ``messages`` are further interfaces: message_intf (10.1.6.2), bound to these types. ``under`` are conditions on the
+    vendor's readings, as in ``TestPurpose``.
     """
 
     scenario: str
@@ -47,6 +48,7 @@ class Script(Value, frozen=True):
     interfaces: dict[str, Interface] = {}
     messages: dict[str, AnyType] = {}
     may_stay: tuple[str, ...] = ()
+    under: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -66,6 +66,7 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
             script.purpose,
             script.exercises,
             ((script.scenario, to_scenario(script, probes)),),
+            under=script.under,
         )
         for script in load_scripts()
         if script.exercises[0] in clauses

@@ -18,7 +18,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import SCALARS, kind_name, parts, spell
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook, Scenario, Step
 from ucm_cts.harness.purposes.connections import PROVIDER, REQUIRER, provided_end, required_end
-from ucm_cts.harness.purposes.data.catalogue import CATALOGUE, ULONG, TypesUnderTest
+from ucm_cts.harness.purposes.data.catalogue import TypesUnderTest, load_types
 from ucm_cts.harness.purposes.data.corner_values import UNDECLARED, Readings, corners
 from ucm_cts.harness.purposes.data.typed_values import draw
 from ucm_cts.harness.purposes.scripts import TestPurpose
@@ -45,7 +45,7 @@ class Load:
 
 def data_purposes(readings: Readings = UNDECLARED) -> list[TestPurpose]:
     """A purpose for each sort of types and one for attributes, within what the vendor declares of unclear places."""
-    return [*(_purpose(types, readings) for types in CATALOGUE), _attributes(readings)]
+    return [*(_purpose(types, readings) for types in load_types()), _attributes(readings)]
 
 
 def _purpose(types: TypesUnderTest, readings: Readings) -> TestPurpose:
@@ -156,7 +156,7 @@ def messages(loads: Sequence[Load], pause: int = 0) -> Scenario:
     """
     planned: list[_Planned] = []
     for load in loads:
-        numbered = d.Structure("numbered", {"number": ULONG, "value": load.of})
+        numbered = d.Structure("numbered", {"number": d.Integer("ULONG"), "value": load.of})
         values = [[number, value] for number, value in enumerate(load.values, 1000 * (len(planned) + 1))]
         planned.append(_emitter_and_receiver(load.name, numbered, values))
         planned.append(_emitter_and_receiver(f"{load.name} alone", load.of, load.values[-1:]))
@@ -231,7 +231,7 @@ def _attributes(readings: Readings) -> TestPurpose:
 def _attribute_scenarios(seed: int | None, readings: Readings = UNDECLARED) -> tuple[tuple[str, Scenario], ...]:
     """Several components of each type's corner values, and all types side by side."""
     given: dict[str, list[d.Datum]] = {}
-    for sort in CATALOGUE:
+    for sort in load_types():
         for name, of in sort.types.items():
             drawn = draw(of, DRAWN, f"attribute {sort.sort}/{name} of {seed}", readings) if seed is not None else []
             given[f"{sort.sort} {name}"] = corners(of, readings) + drawn

@@ -7,14 +7,13 @@ waited for are looked for again after a pause.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import msgspec
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.data_types import Integer, Interface, Method, message_interface
+from ucm_cts.adapters.contract.data_types import Interface, Method
 from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
-from ucm_cts.harness.purposes.connections import MESSAGE, SERVICE, provided_end, required_end
 from ucm_cts.harness.purposes.scripts import TestPurpose
 
 _CLAUSE = "10.1.4.2"
@@ -51,7 +50,6 @@ assert len(_NARROW[-1]) == _NARROW_LIMIT
 assert len(_WIDE[-1]) == _LONG
 
 _CALLS = Interface({"alpha": Method(), "beta": Method(), "gamma": Method(), "alphabet": Method()})
-_NUMBERS = message_interface(Integer("ULONG"))
 
 
 def container_service_purposes() -> list[TestPurpose]:
@@ -137,7 +135,6 @@ class _Configuration:
     traces: Mapping[str, tuple[Policy, ...]]
     execution: Policy = _UNPROTECTED
     places: Mapping[str, str] = field(default_factory=dict)
-    through_connectors: bool = False
 
     def scenario(self, *reading: Step) -> Scenario:
         """The client is called; then comes ``reading``."""
@@ -158,29 +155,21 @@ class _Configuration:
             components[server] = Declaration(
                 ("in.api",), ports={"in.api": "calls"}, policies=(self.execution, *self.traces.get(server, ()))
             )
-            steps += [s.AddComponent(server, place), *self._connected(port, server, place)]
+            goal = f"goal of {port}"
+            steps += [
+                s.AddComponent(server, place),
+                s.GetPortElement(server, "in.api", goal, place),
+                s.Connect("client", port, goal, f"connection of {port}"),
+            ]
         containers = [*self.places.values(), s.MANAGER]
         steps += [s.GetPortElement("client", "in.api", "api"), *map(s.Start, containers), s.Invoke("api", 1), *reading]
         return Scenario(components, (*steps, *map(s.Stop, reversed(containers))), interfaces={"calls": _CALLS})
-
-    def _connected(self, port: str, server: str, place: str) -> list[Step]:
-        if self.through_connectors:
-            link = f"link of {port}"
-            return [
-                s.Link(SERVICE, "calls", link),
-                provided_end(SERVICE, link, server, container=place),
-                required_end(SERVICE, link, "client", port),
-            ]
-        goal = f"goal of {port}"
-        to_goal = s.Connect("client", port, goal, f"connection of {port}")
-        return [s.GetPortElement(server, "in.api", goal, place), to_goal]
 
 
 _ONE = {"out.api": "server"}
 _THREE_CALLS = (("out.api", "beta"), ("out.api", "alpha"), ("out.api", "alpha"))
 _RECORDED = ("R-10.1.4.2-04", "R-10.1.4.2-32", "R-10.1.4.2-33", "R-10.1.4.2-35")
 _ON_PORTS = ("port-trace-parameters=both", "port-trace-applicability=onPort|onBoth")
-_ON_COMPONENTS = ("port-trace-parameters=both", "port-trace-applicability=onComponent|onBoth")
 
 
 def _port_purposes() -> list[TestPurpose]:
@@ -201,41 +190,6 @@ def _port_purposes() -> list[TestPurpose]:
             tuple(_ways_of_execution()),
             under=_ON_PORTS,
         ),
-        _purpose(
-            "port trace/all of it",
-            "Who reads the log waits for more records than there will be.",
-            _RECORDED,
-            _both_ends().scenario(s.ReadLog(4 * 2 + 1)),
-            under=_ON_PORTS,
-        ),
-        _purpose(
-            "port trace/other ports",
-            "One of two servers is traced, and the other one is called, too.",
-            ("R-10.1.4.2-33", "R-10.1.4.2-32"),
-            _other_ports(),
-            under=_ON_PORTS,
-        ),
-        _purpose(
-            "port trace/nothing to trace",
-            "After what is traced has been read, only a method is called that is not.",
-            ("R-10.1.4.2-33",),
-            _nothing_to_trace(),
-            under=_ON_PORTS,
-        ),
-        _purpose(
-            "port trace/after a restart",
-            "A method is traced, and traced again when all have been stopped and started again.",
-            _RECORDED,
-            _restarted(),
-            under=_ON_PORTS,
-        ),
-        _purpose(
-            "port trace/through a connector",
-            "A method that is called through a connector is traced at both ends.",
-            _RECORDED,
-            replace(_both_ends(), through_connectors=True).scenario(*_read(4)),
-            under=_ON_PORTS,
-        ),
         TestPurpose(
             "port trace/names in names",
             _CLAUSE,
@@ -244,37 +198,12 @@ def _port_purposes() -> list[TestPurpose]:
             tuple(_names_in_names()),
             under=_ON_PORTS,
         ),
-        _purpose(
-            "port trace/several methods",
-            "Two of three methods are traced.",
-            _RECORDED,
-            _Configuration(
-                [("out.api", method) for method in ("alpha", "beta", "gamma", "alpha")],
-                _ONE,
-                {"server": (_trace("in.api", "alpha,gamma", "info"),)},
-            ).scenario(*_read(3)),
-            under=(*_ON_PORTS, "methods-to-trace=list"),
-        ),
-        _purpose(
-            "port trace/of a component",
-            "All ports of a component are traced by one policy.",
-            _RECORDED,
-            _Configuration(_THREE_CALLS, _ONE, {"server": (_trace(None, "alpha", "error"),)}).scenario(*_read(2)),
-            under=_ON_COMPONENTS,
-        ),
         TestPurpose(
             "several traces",
             _CLAUSE,
             "A component has several trace policies, of both kinds or on several ports.",
             ("R-10.1.4.2-02", "R-10.1.4.2-32"),
             (("several traces/both kinds", _both_kinds()), ("several traces/two ports", _two_ports())),
-            under=_ON_PORTS,
-        ),
-        _purpose(
-            "port trace/messages",
-            "Messages are traced where they are pushed and where they arrive.",
-            ("R-10.1.4.2-04", "R-10.1.4.2-32"),
-            _messages(),
             under=_ON_PORTS,
         ),
         _purpose(
@@ -304,12 +233,6 @@ def _both_ends() -> _Configuration:
     return _Configuration(_THREE_CALLS, _ONE, both)
 
 
-def _restarted() -> Scenario:
-    first = _both_ends().scenario(*_read(4))
-    again: tuple[Step, ...] = (s.Start(), s.Invoke("api", 2), *_read(8), s.Stop())
-    return msgspec.structs.replace(first, steps=(*first.steps, *again))
-
-
 def _names_in_names() -> Iterator[tuple[str, Scenario]]:
     calls = [("out.api", method) for method in ("alpha", "alphabet", "alpha", "alphabet")]
     for traced in ("alpha", "alphabet"):
@@ -331,30 +254,6 @@ def _ways_of_execution() -> list[tuple[str, Scenario]]:
     return [*scenarios, ("port trace/elsewhere", elsewhere.scenario(*_read(2)))]
 
 
-def _other_ports() -> Scenario:
-    calls = [("out.api", "alpha"), *[("aux.api", "alpha")] * 3]
-    servers = {"out.api": "server", "aux.api": "other"}
-    return _Configuration(calls, servers, {"server": (_trace("in.api", "alpha", "info"),)}).scenario(*_read(1))
-
-
-def _nothing_to_trace() -> Scenario:
-    """The client is called once for what is traced, and a second client for what is not."""
-    whole = _Configuration([("out.api", "alpha")], _ONE, {"server": (_trace("in.api", "alpha", "info"),)}).scenario()
-    calls = (s.CallMethod("out.api", "beta"), s.CallMethod("out.api", "beta"))
-    other = Declaration(
-        ("in.api",), ("out.api",), plan={"exchange": calls}, policies=(_UNPROTECTED,), ports={"out.api": "calls"}
-    )
-    first = next(index for index, step in enumerate(whole.steps) if isinstance(step, s.Start))
-    added: tuple[Step, ...] = (
-        s.AddComponent("other"),
-        s.Connect("other", "out.api", "goal of out.api", "connection of other"),
-        s.GetPortElement("other", "in.api", "other api"),
-    )
-    called: tuple[Step, ...] = (*_read(1), s.Invoke("other api", 2), s.Pause(_LATER), s.ReadLog(1))
-    steps = (*whole.steps[:first], *added, *whole.steps[first:-1], *called, whole.steps[-1])
-    return Scenario(whole.components | {"other": other}, steps, interfaces=whole.interfaces)
-
-
 def _both_kinds() -> Scenario:
     """The client writes to the trace itself, too."""
     traces = (Policy(s.COMPONENT_TRACE, element=_TRACE), _trace("out.api", "alpha", "warning"))
@@ -369,34 +268,6 @@ def _two_ports() -> Scenario:
     calls = [("out.api", "alpha"), *[("aux.api", "beta")] * 2, *[("aux.api", "alpha")] * 2, *[("out.api", "beta")] * 3]
     traces = (_trace("out.api", "alpha", "info"), _trace("aux.api", "beta", "error"))
     return _Configuration(calls, {"out.api": "server", "aux.api": "other"}, {"client": traces}).scenario(*_read(3))
-
-
-def _messages() -> Scenario:
-    push = _trace("out.api", s.PUSH, "info"), _trace("in.api", s.PUSH, "info")
-    calls = tuple(s.CallMethod("out.api", s.PUSH, (number,)) for number in (7, 8))
-    components = {
-        "emitter": Declaration(
-            ("go.api",),
-            ("out.api",),
-            plan={"exchange": calls},
-            policies=(_UNPROTECTED, push[0]),
-            ports={"out.api": "n"},
-        ),
-        "receiver": Declaration(("in.api",), policies=(_UNPROTECTED, push[1]), ports={"in.api": "n"}),
-    }
-    steps = (
-        s.AddComponent("emitter"),
-        s.AddComponent("receiver"),
-        s.Link(MESSAGE, "n", "link"),
-        required_end(MESSAGE, "link", "emitter"),
-        provided_end(MESSAGE, "link", "receiver"),
-        s.GetPortElement("emitter", "go.api", "api"),
-        s.Start(),
-        s.Invoke("api", 1),
-        *_read(4),
-        s.Stop(),
-    )
-    return Scenario(components, steps, interfaces={"n": _NUMBERS})
 
 
 def _own_method() -> Scenario:

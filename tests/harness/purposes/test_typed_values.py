@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Iterator
+from typing import get_args
 
 import msgspec
 import pytest
@@ -21,6 +22,7 @@ from ucm_cts.adapters.contract.data_types import (
     Enumeration,
     Float,
     Integer,
+    IntegerKind,
     Sequence,
     String,
     Structure,
@@ -30,7 +32,7 @@ from ucm_cts.adapters.contract.data_types import (
 )
 from ucm_cts.adapters.contract.data_values import SCALARS, misfit, parts, read_spelled, spell
 from ucm_cts.adapters.mutants.python.altering import rebuilt
-from ucm_cts.harness.purposes.data.catalogue import CATALOGUE, COLOUR, KINDS, LONG, NAME, POINT
+from ucm_cts.harness.purposes.data.catalogue import load_types
 from ucm_cts.harness.purposes.data.corner_values import LONG_SEQUENCE, LONG_STRING, LONGEST_STRING, UNDECLARED, corners
 from ucm_cts.harness.purposes.data.typed_values import draw, values
 from ucm_cts.reference_models.model.value_transport import (
@@ -42,7 +44,11 @@ from ucm_cts.reference_models.model.value_transport import (
     requirements_of,
 )
 
-TYPES = {f"{sort.sort}: {name}": of for sort in CATALOGUE for name, of in sort.types.items()}
+TYPES = {f"{sort.sort}: {name}": of for sort in load_types() for name, of in sort.types.items()}
+KINDS: tuple[IntegerKind, ...] = get_args(IntegerKind)
+LONG, NAME = Integer("LONG"), String("CHAR8", 16)
+COLOUR = Enumeration("colour", "ULONG", {"red": 0, "green": 1, "blue": 2})
+POINT = Structure("point", {"x": LONG, "y": LONG, "z": LONG})
 EVERY_TYPE = pytest.mark.parametrize("of", TYPES.values(), ids=TYPES.keys())
 NARROW = {"byte": "unsigned", "bounded-sequence": "full-only", "char32": "bmp", "char8": "byte"}
 
@@ -212,7 +218,7 @@ def test_values_exercise_what_they_are_made_of() -> None:
     assert requirements_of(POINT, [1, 2, 3]) == {"R-10.1.1-13", "R-10.1.1-07"}
     assert requirements_of(Sequence(POINT), []) == {"R-10.1.1-16"}
     assert requirements_of(Sequence(POINT), [[1, 2, 3]]) == {"R-10.1.1-16", "R-10.1.1-18", "R-10.1.1-13", "R-10.1.1-07"}
-    for sort in CATALOGUE:
+    for sort in load_types():
         for of in sort.types.values():
             assert any(sort.requirement in requirements_of(of, value) for value in corners(of))
 
