@@ -173,3 +173,7 @@ class OperationInProgress:
             return []
         callbacks = self.by_body.get((member.component, member.instance))
         return [c for c in callbacks if c.hook == hook] if callbacks is not None else []
+
+
+Ongoing = OperationInProgress | None
+"""The operation in progress, if there is one."""

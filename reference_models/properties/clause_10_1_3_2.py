@@ -23,7 +23,7 @@ from ucm_cts.reference_models.model.executions import (
 )
 from ucm_cts.reference_models.model.interactions import Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import lane, raises
 from ucm_cts.reference_models.model.service_policies import SERVICES, policies_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -191,7 +191,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: BusinessC
 def no_self_execution(
     check: Property,
     runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
+    ongoing: Ongoing,
     event: Enter,
     call: BusinessCall | None,
 ) -> Conclusions:

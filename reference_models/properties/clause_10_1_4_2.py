@@ -20,7 +20,7 @@ from ucm_cts.reference_models.model.log_contents import (
     severities_shown,
 )
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.service_policies import (
     TRACES,
@@ -39,11 +39,7 @@ _SHOWN = 60
 
 @property_at("entered", *_REFERENCES.values(), _SEVERAL, at=("on_startup",), feature="policies")
 def policy_references(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """on_startup hands over a reference for each port element that a component requires by its policies, at every start."""
     member = runtime.member_of(event.component, event.instance)

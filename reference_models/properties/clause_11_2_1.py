@@ -11,7 +11,7 @@ from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.properties.clause_11_2_2 import listing_problem
 from ucm_cts.reference_models.properties.clause_11_2_3 import outside_life
@@ -24,11 +24,7 @@ _SHOWN = 3
 
 @property_at("entered", "R-11.2.1.2-05", "R-10.1.1-06", at=("on_init",), feature="attributes")
 def attributes_before_init(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """On entry to on_init the body holds the configured attribute values."""
     if history.initialised:
@@ -62,7 +58,7 @@ def _holds_others(
     wrong: list[str],
     held: Mapping[str, str],
     event: Enter,
-    ongoing: OperationInProgress | None,
+    ongoing: Ongoing,
 ) -> Finding:
     some = wrong[:_SHOWN]
     return check.fail(
@@ -101,11 +97,7 @@ def configuration_first(
 
 @property_at("entered", "R-11.2.1.3-04", at=("on_connect",))
 def connect_arguments(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """on_connect is given the port element's name and the reference that connect was given."""
     if ongoing is None or not isinstance(ongoing.step, s.Connect):
@@ -141,11 +133,7 @@ def connect_arguments(
 
 @property_at("entered", "R-11.2.1.3-06", at=("on_disconnect",))
 def disconnect_arguments(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """on_disconnect is given the name of the port element whose connection is undone."""
     if ongoing is None:
@@ -176,11 +164,7 @@ def disconnect_arguments(
 
 @property_at("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"), feature="fragments")
 def container_interface(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """A fragment gets its container's interface exactly once, before on_startup."""
     declaration = runtime.scenario.components.get(event.component)
@@ -210,9 +194,7 @@ def container_interface(
 
 
 @property_at("noted", "R-11.2.1.4-03")
-def siblings(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress | None, event: Siblings
-) -> Conclusions:
+def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Siblings) -> Conclusions:
     """What a fragment learns of its container's members is what they are, unless an operation is changing that."""
     member = runtime.member_of(event.component, event.instance)
     if ongoing is not None or member is None or not member.declaration.fragment:

@@ -7,7 +7,7 @@ from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import OperationInProgress
+from ucm_cts.reference_models.model.operation import Ongoing
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -23,11 +23,7 @@ def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
 
 @property_at("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
 def dependencies(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """on_startup names each connected required port element and gives the reference it was connected to."""
     member = runtime.member_of(event.component, event.instance)
@@ -98,11 +94,7 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
 
 @property_at("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
 def no_dangling_reference(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
     if ongoing is not None and ongoing.operation == "connect":

@@ -10,7 +10,14 @@ from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.expected_callbacks import CONNECTABLE_HOOKS, LIFE_CYCLE_HOOKS
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import Deviating, Intrusion, OperationEnd, OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import (
+    Deviating,
+    Intrusion,
+    Ongoing,
+    OperationEnd,
+    OperationInProgress,
+    Result,
+)
 from ucm_cts.reference_models.model.operation_end import OF_ALL_MEMBERS
 from ucm_cts.reference_models.model.runtime import Member, lane, raises
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -121,7 +128,7 @@ def _reaches_nobody(check: Property, ongoing: OperationInProgress, members: Sequ
     )
 
 
-def _is_stray(runtime: ObservedRuntime, ongoing: OperationInProgress | None, event: Enter, member: Member) -> bool:
+def _is_stray(runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, member: Member) -> bool:
     """Does a life-cycle callback come while no operation of the container is in progress?"""
     if ongoing is not None or member.suspended or member.gone:
         return False  # whoever is joined by a connector is connected, too
@@ -130,11 +137,7 @@ def _is_stray(runtime: ObservedRuntime, ongoing: OperationInProgress | None, eve
 
 @property_at("entered", "R-11.1.1-01", "R-11.1.2-01", at=LIFE_CYCLE_HOOKS)
 def whole_life(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """Life-cycle callbacks come during operations of the container; a whole life has them in order."""
     if ongoing is not None and event.hook != "on_remove":
@@ -159,9 +162,7 @@ def whole_life(
     return ()
 
 
-def outside_life(
-    runtime: ObservedRuntime, ongoing: OperationInProgress | None, event: Enter, history: CallbackHistory
-) -> str:
+def outside_life(runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory) -> str:
     """When a callback comes that is not to come before on_init or after on_remove; empty if it may come."""
     early, late = event.hook != "on_init" and not history.initialised, history.removed
     if not (early or late) or (early and ongoing is not None and not ongoing.judged):
@@ -178,11 +179,7 @@ def outside_life(
 
 @property_at("entered", "R-11.2.1.2-01", at=LIFE_CYCLE_HOOKS)
 def nothing_outside_life(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """No callback before on_init or after on_remove."""
     if event.hook == "on_remove" and history.first == "on_init" and not history.removed:
@@ -203,11 +200,7 @@ def nothing_outside_life(
 
 @property_at("unclear", "R-11.2.3-09", "R-11.2.1.2-10", at=("on_startup", "on_shutdown"))
 def alternation(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """No second on_startup without on_shutdown between, no on_shutdown without on_startup before: whatever else is unclear."""
     started_again, not_started = check.stands_for
@@ -233,11 +226,7 @@ def alternation(
 
 @property_at("entered", "R-12.10-22", at=LIFE_CYCLE_HOOKS)
 def discarded(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """What a failed add_component made hears nothing more but its on_remove."""
     if (event.component, event.instance) not in runtime.discarded or event.hook == "on_remove":

@@ -8,7 +8,7 @@ from ucm_cts.reference_models.conclusions import Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, calls_promised
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -108,7 +108,7 @@ def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, 
 def disabled_ports(
     check: Property,
     runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
+    ongoing: Ongoing,
     event: Enter,
     call: BusinessCall | None,
 ) -> Conclusions:
@@ -153,9 +153,7 @@ def refused_ports(check: Property, runtime: ObservedRuntime, call: BusinessCall,
     return ()
 
 
-def _called_while_added(
-    check: Property, ongoing: OperationInProgress | None, event: Enter, call: BusinessCall | None
-) -> Conclusions:
+def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: BusinessCall | None) -> Conclusions:
     """The body is one that add_component is just making, in a container that is not started."""
     step = ongoing.step if ongoing is not None else None
     if ongoing is None or not isinstance(step, s.AddComponent) or step.component != event.component:
@@ -181,7 +179,7 @@ def _called_while_added(
 def nothing_after_stop(
     check: Property,
     runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
+    ongoing: Ongoing,
     event: Enter,
     call: BusinessCall | None,
 ) -> Conclusions:

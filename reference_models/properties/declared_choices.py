@@ -14,7 +14,7 @@ from ucm_cts.reference_models.model.expected_callbacks import Fit
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import Fitted, OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import Fitted, Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -161,11 +161,7 @@ def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: Operation
 
 @property_at("entered", "R-11.2.2.1-13", at=("on_startup",))
 def declared_order(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """Who declares that members are started one by one does not start them at a time, by several threads."""
     member = runtime.member_of(event.component, event.instance)
@@ -184,11 +180,7 @@ def declared_order(
 
 @property_at("entered", "R-11.2.2.1-13", at=("on_startup",), timed=True)
 def declared_meeting(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress | None,
-    event: Enter,
-    history: CallbackHistory,
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
 ) -> Conclusions:
     """Who declares that members are started at once does not let one wait until another one's on_startup has ended.
 
