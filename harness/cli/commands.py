@@ -32,10 +32,9 @@ from ucm_cts.harness.purposes.scripts import TestPurpose, read_scripts, to_scena
 from ucm_cts.harness.purposes.selection import select
 from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
 from ucm_cts.harness.report.sequence_text import failure_text, replay_text
-from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import prepare_folder, save_report
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean, one_line
-from ucm_cts.harness.results.known_failures import known_today, stale, succeeded
+from ucm_cts.harness.results.known_failures import known_today
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import check_subject, stated_by
@@ -136,7 +135,7 @@ def run(
                         continue
                     if not reports:
                         check_subject(statement, driver.identity, profile)
-                        _tell_who(driver.identity, profile, drawn, console)
+                        options.greet(console, _name(driver.identity), profile, drawn)
                         prepare_folder(out)
                     campaign = Campaign(driver, profile, known, statement)
                     try:
@@ -155,22 +154,7 @@ def run(
             interrupted = interrupted or isinstance(problem, KeyboardInterrupt)
             report = repeated(reports, lambda failed, seed: None)
         save_report(report, out)
-    console.print(summary(report, out))
-    outdated = stale(known, report.requirements) if not expression and not interrupted else []
-    for entry in outdated:
-        console.print(
-            f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it",
-            markup=False,
-            soft_wrap=True,
-        )
-    if interrupted:
-        console.print("interrupted: the report holds what was measured so far")
-    if cut_short:
-        console.print(f"{cut_short}; the report holds the runs before", markup=False, soft_wrap=True)
-    status = (
-        options.NOT_CONFORMANT if outdated or interrupted or cut_short or not succeeded(report) else options.CONFORMANT
-    )
-    options.leave(console, status, f"; the report is in {out}")
+    options.leave_with(console, report, out, known, not expression, interrupted, cut_short)
 
 
 def _is_given(context: click.Context, parameter: str) -> bool:
@@ -193,11 +177,6 @@ def _is_of(identity: Welcome, report: FrameworkReport) -> bool:
 
 def _name(identity: Welcome) -> str:
     return one_line(f"{identity.product} {identity.version}", 80)
-
-
-def _tell_who(identity: Welcome, profile: str, seed: int, console: Output) -> None:
-    text = f"UCM-CTS {ucm_cts.__version__}: {_name(identity)}, profile {profile}, seed {seed}"
-    console.print(text, markup=False, soft_wrap=True)
 
 
 def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output, which: str = "") -> None:
@@ -240,7 +219,7 @@ def ics(context: click.Context, adapter: str, out: Path, toolchain: Path | None,
             identity = driver.identity
         write_statement(out, identity, adapter, force)
     console = Output()
-    console.print(f"{out} is written; edit it, then: ucm-cts run {subject} --ics {out}", markup=False, soft_wrap=True)
+    console.say(f"{out} is written; edit it, then: ucm-cts run {subject} --ics {out}")
     options.leave(console, options.CONFORMANT)
 
 

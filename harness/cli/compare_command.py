@@ -41,12 +41,8 @@ def compare(reports: Sequence[Path], out: Path) -> None:
     for column in comparison.columns:
         counts = count(column.report.requirements)
         summary = ", ".join(f"{number} {verdict}" for verdict, number in counts.items() if number)
-        console.print(f"{one_line(column.name, 80)}: {summary}", markup=False, soft_wrap=True)
+        console.say(f"{one_line(column.name, 80)}: {summary}")
     shared = comparison.shared
     apart = sum(row.differs for row in shared)
-    console.print(
-        f"{len(shared)} requirements are asked of all; on {apart} they differ. {out} shows it",
-        markup=False,
-        soft_wrap=True,
-    )
+    console.say(f"{len(shared)} requirements are asked of all; on {apart} they differ. {out} shows it")
     leave(console, CONFORMANT)

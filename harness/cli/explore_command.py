@@ -13,7 +13,6 @@ from typing import Any
 import click
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-import ucm_cts
 from ucm_cts.harness.cli import options
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
 from ucm_cts.harness.execution.driver import Driver, Limits
@@ -115,12 +114,8 @@ def explore(
         prepare_folder(out)
         database = open_databases(databases or [str(out / "examples")])
         memory = Memory(database, identity.product, profile)
-        name = one_line(f"{identity.product} {identity.version}", 80)
-        console.print(
-            f"UCM-CTS {ucm_cts.__version__}: exploring {name}, profile {profile}, seed {drawn}",
-            markup=False,
-            soft_wrap=True,
-        )
+        name = one_line(f"exploring {identity.product} {identity.version}", 80)
+        options.greet(console, name, profile, drawn)
         exploration = Exploration(driver, profile, statement, memory)
         known, far, interrupted = _explore(exploration, memory, budget, console)
         report = exploration.report()

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
 import click
 
+import ucm_cts
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PROFILES
 from ucm_cts.harness.catalogue.requirements import in_the_making
 from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.execution.driver import Limits
+from ucm_cts.harness.report.summary import summary
+from ucm_cts.harness.results.known_failures import KnownFailure, stale, succeeded
+from ucm_cts.harness.results.values import Report
 
 CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
 """Exit statuses; NOT_CONFORMANT includes inconclusive runs."""
@@ -65,6 +70,33 @@ toolchain_option = click.option(
 timeout_option = click.option(
     "--timeout", type=Seconds(min=0.1), default=Limits.seconds, show_default=True, help="Seconds a scenario may take."
 )
+
+
+def greet(console: Output, what: str, profile: str, seed: int) -> None:
+    """Say what is examined."""
+    console.say(f"UCM-CTS {ucm_cts.__version__}: {what}, profile {profile}, seed {seed}")
+
+
+def leave_with(
+    console: Output,
+    report: Report,
+    out: Path,
+    known: Sequence[KnownFailure],
+    is_whole: bool,
+    interrupted: bool,
+    cut_short: str = "",
+) -> NoReturn:
+    """Print the end of a run, and end with its status. Of ``known`` failures that are gone it tells if the run ``is_whole``."""
+    console.print(summary(report, out))
+    outdated = stale(known, report.requirements) if is_whole and not interrupted else []
+    for entry in outdated:
+        console.say(f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it")
+    if interrupted:
+        console.print("interrupted: the report holds what was measured so far")
+    if cut_short:
+        console.say(f"{cut_short}; the report holds the runs before")
+    failed = outdated or interrupted or cut_short or not succeeded(report)
+    leave(console, NOT_CONFORMANT if failed else CONFORMANT, f"; the report is in {out}")
 
 
 def leave(console: Output, status: int, remainder: str = "") -> NoReturn:

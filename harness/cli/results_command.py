@@ -36,7 +36,7 @@ def results(sources: Sequence[Path], out: Path) -> None:
     for path, text in written.items():
         write_whole(path, text.encode())
     for path in (*kept, *written):
-        console.print(str(path), markup=False, soft_wrap=True)
+        console.say(str(path))
     leave(console, CONFORMANT)
 
 

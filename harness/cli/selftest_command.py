@@ -94,7 +94,7 @@ def selftest(
     write_matrix(conduct.matrix, out)
     console.print(summary(conduct.matrix))
     _tell_the_rest(conduct.matrix, console)
-    console.print(f"{out / 'matrix.html'} shows the kill matrix", markup=False, soft_wrap=True)
+    console.say(f"{out / 'matrix.html'} shows the kill matrix")
     if interrupted:
         console.print("interrupted: the matrix holds what was found so far")
     sys.exit(0 if conduct.matrix.is_proved and not interrupted else 1)
@@ -105,11 +105,11 @@ def _list(
 ) -> None:
     for subject in chosen:
         text = f"breaks {', '.join(subject.breaks)}: {subject.lie}" if subject.breaks else "is conformant"
-        console.print(f"{subject.name} {text}", markup=False, soft_wrap=True)
+        console.say(f"{subject.name} {text}")
     for name in cheats:
-        console.print(f"{name} cheats: {all_cheats()[name].lie}", markup=False, soft_wrap=True)
+        console.say(f"{name} cheats: {all_cheats()[name].lie}")
     for requirement in models:
-        console.print(f"models of {requirement} are spoilt, in every way", markup=False, soft_wrap=True)
+        console.say(f"models of {requirement} are spoilt, in every way")
 
 
 def _conduct(conduct: SelfTest, console: Output) -> bool:
@@ -185,6 +185,6 @@ def _tell_the_rest(matrix: Matrix, console: Output) -> None:
         *(f"{v.name} is conformant: {v.trouble or ', '.join(v.incidents)}" for v in matrix.wronged if not v.failed),
     ]
     for line in lines[:LISTED]:
-        console.print(line, markup=False, soft_wrap=True)
+        console.say(line)
     if len(lines) > LISTED:
         console.print(f"and {len(lines) - LISTED} more")

@@ -27,6 +27,10 @@ class Output(Console):
         self._stream = _Stream()
         super().__init__(file=cast(IO[str], self._stream))
 
+    def say(self, text: str) -> None:
+        """Print ``text`` as it is, without markup, as one line however long."""
+        self.print(text, markup=False, soft_wrap=True)
+
     @property
     def error(self) -> str:
         """Why something was lost; empty if nothing was, or if the reader went away."""

@@ -5,15 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NoReturn
 
-import ucm_cts
 from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
-from ucm_cts.harness.cli.options import CONFORMANT, NOT_CONFORMANT, leave
+from ucm_cts.harness.cli.options import greet, leave_with
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import prepare_folder, save_report
 from ucm_cts.harness.results.foreign import one_line
-from ucm_cts.harness.results.known_failures import known_today, stale, succeeded
+from ucm_cts.harness.results.known_failures import known_today
 from ucm_cts.harness.results.statement import default_statement
 from ucm_cts.harness.statement.files import check_subject, read_statement
 from ucm_cts.harness.toolchains.campaign import TASKS, ToolChainCampaign
@@ -44,10 +42,7 @@ def certify_toolchain(
     if not examination.models:
         raise WrongUse(f"no model matches -k '{expression}'; try a requirement or a part of its id")
     console = Output()
-    name = one_line(f"{toolchain.product} {toolchain.version}", 80)
-    console.print(
-        f"UCM-CTS {ucm_cts.__version__}: {name}, profile {profile}, seed {seed}", markup=False, soft_wrap=True
-    )
+    greet(console, one_line(f"{toolchain.product} {toolchain.version}", 80), profile, seed)
     prepare_folder(out)
     campaign = ToolChainCampaign(
         processor,
@@ -62,15 +57,7 @@ def certify_toolchain(
     interrupted = _conduct(campaign, len(examination.models), console)
     report = campaign.report()
     save_report(report, out)
-    console.print(summary(report, out))
-    outdated = stale(known, report.requirements) if not expression and not interrupted else []
-    for entry in outdated:
-        text = f"known failure of {entry.requirement} no longer occurs ({entry.observed}): remove it"
-        console.print(text, markup=False, soft_wrap=True)
-    if interrupted:
-        console.print("interrupted: the report holds what was measured so far")
-    status = NOT_CONFORMANT if outdated or interrupted or not succeeded(report) else CONFORMANT
-    leave(console, status, f"; the report is in {out}")
+    leave_with(console, report, out, known, not expression, interrupted)
 
 
 def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:

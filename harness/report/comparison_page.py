@@ -7,16 +7,11 @@ from collections.abc import Callable
 from pathlib import Path
 from urllib.parse import quote
 
-import jinja2
-from markupsafe import Markup
-
 from ucm_cts.harness.report.comparison import Column, Comparison, Row, first_finding
 from ucm_cts.harness.report.json_report import ReportEntry
 from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, count
-from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.report.page import rendered
 from ucm_cts.harness.results.values import Verdict
-
-_TEMPLATES = Path(__file__).parent / "templates"
 
 _ORDER: tuple[Verdict, ...] = ("pass", *(verdict for verdict in VERDICTS if verdict != "pass"))
 
@@ -33,15 +28,8 @@ _FACTS: tuple[tuple[str, Callable[[ReportEntry], str]], ...] = (
 
 def to_html(comparison: Comparison, folder: Path) -> str:
     """The whole page, with links to the reports as they are found from ``folder``, where the page will be."""
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(_TEMPLATES),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["one_line"] = one_line
-    return environment.get_template("comparison.html.jinja").render(
+    return rendered(
+        "comparison.html.jinja",
         comparison=comparison,
         kept_by_all=_unanimous(comparison, "pass"),
         broken_by_all=_unanimous(comparison, "fail"),
@@ -57,7 +45,6 @@ def to_html(comparison: Comparison, folder: Path) -> str:
         first=first_finding,
         order=_ORDER,
         symbols=SYMBOLS,
-        style=Markup((_TEMPLATES / "report.css").read_text(encoding="utf-8")),
     )
 
 

@@ -6,15 +6,12 @@ import base64
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-
-import jinja2
-from markupsafe import Markup
 
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.report.framework_body import TraceShown, framework_body, trace_shown
 from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, clause_key, count, counted, to_fix
+from ucm_cts.harness.report.page import part, rendered
 from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.toolchain_body import FactShown, fact_shown
 from ucm_cts.harness.results.failures import (
@@ -23,7 +20,6 @@ from ucm_cts.harness.results.failures import (
     replay_command,
     shortest_first,
 )
-from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import (
     FactEvidence,
     FrameworkReport,
@@ -39,8 +35,6 @@ FINDINGS = 3
 
 BUDGET = 1_000_000
 """The bytes that all evidence together may take; evidence beyond them is shown without diagrams."""
-
-_TEMPLATES = Path(__file__).parent / "templates"
 
 
 @dataclass(frozen=True)
@@ -65,19 +59,12 @@ def to_html(
     report: Report, catalogue: Sequence[Requirement], table: LifeCycleTable, interpretations: Mapping[str, str]
 ) -> str:
     """The whole page. The report must be clean (``foreign.clean_report``)."""
-    script = _read("report.js")
+    script = part("report.js")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
     readings = report.readings if isinstance(report, FrameworkReport) else {}
     reported = {result.id for result in report.requirements}
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(_TEMPLATES),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["one_line"] = one_line
-    return environment.get_template("report.html.jinja").render(
+    return rendered(
+        "report.html.jinja",
         report=report,
         counts=count(report.requirements),
         verdicts=VERDICTS,
@@ -91,16 +78,11 @@ def to_html(
         framework=framework_body(report, table) if isinstance(report, FrameworkReport) else None,
         stated=stated(report.statement, readings, PARTS[report.profile]),
         shortest_first=shortest_first,
-        style=Markup(_read("report.css")),
-        script=Markup(script),
+        script=script,
         digest=digest,
         repeat=repeat_command(report),
         counted=counted(report),
     )
-
-
-def _read(name: str) -> str:
-    return (_TEMPLATES / name).read_text(encoding="utf-8")
 
 
 def _items(report: Report, catalogue: Sequence[Requirement], interpretations: Mapping[str, str]) -> list[Item]:

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import jinja2
 import msgspec
 from markupsafe import Markup, escape
 
 from ucm_cts.harness.report.order import clause_key
+from ucm_cts.harness.report.page import rendered
 from ucm_cts.harness.report.write import prepare_folder, write_whole
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, by_clause
@@ -19,8 +19,6 @@ CELL = 4
 """Pixels of one mutant against one requirement."""
 
 LEFT, TOP = 70, 18
-
-_TEMPLATES = Path(__file__).parents[1] / "report" / "templates"
 
 
 @dataclass(frozen=True)
@@ -47,17 +45,10 @@ def write_matrix(matrix: Matrix, out: Path) -> None:
 
 def to_html(matrix: Matrix) -> str:
     """The whole page."""
-    loader = jinja2.FileSystemLoader(_TEMPLATES)
-    environment = jinja2.Environment(
-        loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
-    environment.filters["one_line"] = one_line
-    style = Markup((_TEMPLATES / "report.css").read_text(encoding="utf-8"))
     killers = matrix.killers
-    page = environment.get_template("matrix.html.jinja")
     covered = sum(bool(killers[requirement]) for requirement in matrix.testable)
-    return page.render(
-        matrix=matrix, style=style, rows=rows(matrix), killers=killers, covered=covered, picture=picture(matrix)
+    return rendered(
+        "matrix.html.jinja", matrix=matrix, rows=rows(matrix), killers=killers, covered=covered, picture=picture(matrix)
     )
 
 

@@ -1,0 +1,30 @@
+"""Makes pages of the templates beside this module: each is one file that needs nothing else."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import jinja2
+from markupsafe import Markup
+
+from ucm_cts.harness.results.foreign import one_line
+
+_TEMPLATES = Path(__file__).parent / "templates"
+
+
+def rendered(template: str, **values: object) -> str:
+    """The page that ``template`` makes of ``values`` and of the style that all pages share."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["one_line"] = one_line
+    return environment.get_template(template).render(style=part("report.css"), **values)
+
+
+def part(name: str) -> Markup:
+    """A file that pages contain as it is."""
+    return Markup((_TEMPLATES / name).read_text(encoding="utf-8"))
