@@ -15,7 +15,7 @@ from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_capabilities, load_options
 from ucm_cts.reference_models.model.ics import TOLERANCES, Ics
 
-HOOKS = ("transport-fault", "connector-fault", "trace-sink")
+HOOKS = ("transport-fault", "connector-fault", "trace-sink", "virtual-time")
 """Options by which a vendor claims what the adapter offers for tests only; without it something stays undecided."""
 
 
