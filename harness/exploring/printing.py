@@ -14,18 +14,13 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.exploring.exploration import Fate, Progress, Replayed
 from ucm_cts.harness.exploring.memory import Remembered
+from ucm_cts.harness.report.summary import cut
 from ucm_cts.harness.report.write import write_whole
+from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, replay_command, shortest_first
 from ucm_cts.harness.results.foreign import clean_report, one_line
 from ucm_cts.harness.results.incident_causes import cause_of_incident, during
 from ucm_cts.harness.results.incidents import is_waiting
-from ucm_cts.harness.results.values import (
-    Execution,
-    FrameworkReport,
-    IncidentReport,
-    ReportedFinding,
-    RequirementResult,
-)
 
 FILE = "exploration.json"
 
@@ -109,12 +104,12 @@ class Found(Value, frozen=True):
     known: tuple[Known, ...]
 
 
-def is_found(report: FrameworkReport) -> bool:
+def is_found(report: v.FrameworkReport) -> bool:
     """Whether anything failed, or hung where waiting for ever is not permitted."""
     return bool(mishaps(report)) or any(result.verdict == "fail" for result in report.requirements)
 
 
-def mishaps(report: FrameworkReport) -> list[tuple[int, IncidentReport]]:
+def mishaps(report: v.FrameworkReport) -> list[tuple[int, v.IncidentReport]]:
     """The numbered incidents, without scenarios left out and without calls that may wait for a start that never comes.
 
     Once such calls have been seen waiting, a hang of which nothing more is known is taken for another one.
@@ -129,13 +124,13 @@ def mishaps(report: FrameworkReport) -> list[tuple[int, IncidentReport]]:
     ]
 
 
-def write_exploration(report: FrameworkReport, far: Progress, known: Sequence[Replayed], out: Path) -> None:
+def write_exploration(report: v.FrameworkReport, far: Progress, known: Sequence[Replayed], out: Path) -> None:
     """Write ``exploration.json`` into ``out``."""
     content = msgspec.json.encode(_found(clean_report(report), far, known))
     write_whole(out / FILE, msgspec.json.format(content, indent=2) + b"\n")
 
 
-def _found(report: FrameworkReport, far: Progress, known: Sequence[Replayed]) -> Found:
+def _found(report: v.FrameworkReport, far: Progress, known: Sequence[Replayed]) -> Found:
     return Found(
         report.product,
         report.version,
@@ -154,7 +149,7 @@ def _found(report: FrameworkReport, far: Progress, known: Sequence[Replayed]) ->
     )
 
 
-def _mishap(report: FrameworkReport, number: int, item: IncidentReport) -> Mishap:
+def _mishap(report: v.FrameworkReport, number: int, item: v.IncidentReport) -> Mishap:
     cause, file = cause_of_incident(item.execution), incident_file(number)
     fields = item.incident.kind, item.incident.detail, cause.operation, item.occurrences, _steps(item.execution)
     return Mishap(*fields, file, replay_command(file, report))
@@ -166,7 +161,7 @@ def _known(replayed: Replayed) -> Known:
     return Known(one.requirement, "" if one.requirement else one.rule, one.cause, is_there)
 
 
-def _failures(report: FrameworkReport) -> tuple[Failure, ...]:
+def _failures(report: v.FrameworkReport) -> tuple[Failure, ...]:
     return tuple(
         _failure(report, result, number, failed)
         for result in report.requirements
@@ -174,14 +169,14 @@ def _failures(report: FrameworkReport) -> tuple[Failure, ...]:
     )
 
 
-def _failure(report: FrameworkReport, result: RequirementResult, number: int, failed: ReportedFinding) -> Failure:
+def _failure(report: v.FrameworkReport, result: v.RequirementResult, number: int, failed: v.ReportedFinding) -> Failure:
     finding, file = failed.finding, file_name(result.id, number)
     fields = result.id, result.clause, result.title, finding.rule, finding.cause, finding.expected, finding.observed
     steps = _steps(failed.execution) if failed.execution is not None else ()
     return Failure(*fields, failed.occurrences, steps, file, replay_command(file, report), failed.unstable)
 
 
-def _steps(execution: Execution) -> tuple[str, ...]:
+def _steps(execution: v.Execution) -> tuple[str, ...]:
     return tuple(s.operation(step) for step in execution.scenario.steps)
 
 
@@ -193,7 +188,7 @@ def known_text(known: Sequence[Replayed], unreadable: int) -> RenderableType:
     ]
     if unreadable:
         lines.append(Text(f"{unreadable} remembered failures cannot be read by this version and are left alone", "dim"))
-    return Group(*map(_cut, lines))
+    return Group(*map(cut, lines))
 
 
 def _name(one: Remembered) -> str:
@@ -205,7 +200,7 @@ def _observed(replayed: Replayed) -> str:
     return replayed.remembered.observed + (during(incident) if incident is not None else "")
 
 
-def found_text(report: FrameworkReport, far: Progress, out: Path) -> RenderableType:
+def found_text(report: v.FrameworkReport, far: Progress, out: Path) -> RenderableType:
     """The end of an exploration: how much was run, then each cause of failure in a few lines."""
     failures = _failures(report)
     standing = [failure for failure in failures if not failure.unstable]
@@ -227,7 +222,7 @@ def found_text(report: FrameworkReport, far: Progress, out: Path) -> RenderableT
     if len(standing) > SHOWN:
         lines += [Text(), Text(f"and {len(standing) - SHOWN} more causes of failure")]
     lines += [
-        _cut(Text.assemble(("? ", "yellow"), (f.requirement, "bold"), f"  {one_line(f.unstable, 300)}"))
+        cut(Text.assemble(("? ", "yellow"), (f.requirement, "bold"), f"  {one_line(f.unstable, 300)}"))
         for f in failures
         if f.unstable
     ][:SHOWN]
@@ -237,7 +232,7 @@ def found_text(report: FrameworkReport, far: Progress, out: Path) -> RenderableT
         often = f"{item.occurrences} times" if item.occurrences > 1 else "once"
         what = f"{one_line(item.incident.detail, 160)}{during(cause_of_incident(item.execution))}"
         text = f"  {often}  {incident_file(number)}  {what}"
-        lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), text)))
+        lines.append(cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), text)))
     if len(incidents) > SHOWN:
         lines.append(Text(f"and {len(incidents) - SHOWN} more causes of incidents"))
     waiting = sum(item.occurrences for item in report.incidents if is_waiting(item.execution))
@@ -250,20 +245,14 @@ def found_text(report: FrameworkReport, far: Progress, out: Path) -> RenderableT
     return Group(*lines)
 
 
-def _told(failure: Failure, report: FrameworkReport, out: Path) -> list[Text]:
+def _told(failure: Failure, report: v.FrameworkReport, out: Path) -> list[Text]:
     steps = ", ".join(failure.steps[:_STEPS]) + (", ..." if len(failure.steps) > _STEPS else "")
     statement = f" --ics {shlex.quote(str(out / 'failures' / 'ics.toml'))}" if report.statement.source else ""
     replay = f"ucm-cts replay {shlex.quote(str(out / failure.file))} {shlex.quote(one_line(report.adapter))}{statement}"
     return [
-        _cut(Text.assemble(("✗ ", "red"), (failure.requirement, "bold"), f"  {one_line(failure.title)}")),
-        _cut(Text.assemble(("  expected  ", "green"), one_line(failure.expected, 300))),
-        _cut(Text.assemble(("  observed  ", "red"), one_line(failure.observed, 300))),
-        _cut(Text.assemble(("  shortest  ", "dim"), f"{len(failure.steps)} steps: {steps}")),
+        cut(Text.assemble(("✗ ", "red"), (failure.requirement, "bold"), f"  {one_line(failure.title)}")),
+        cut(Text.assemble(("  expected  ", "green"), one_line(failure.expected, 300))),
+        cut(Text.assemble(("  observed  ", "red"), one_line(failure.observed, 300))),
+        cut(Text.assemble(("  shortest  ", "dim"), f"{len(failure.steps)} steps: {steps}")),
         Text.assemble(("  replay    ", "dim"), replay, overflow="fold"),
     ]
-
-
-def _cut(text: Text) -> Text:
-    """One line stays one line."""
-    text.no_wrap, text.overflow = True, "ellipsis"
-    return text

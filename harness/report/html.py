@@ -14,19 +14,12 @@ from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, clause_key, count, c
 from ucm_cts.harness.report.page import part, rendered
 from ucm_cts.harness.report.stated import stated
 from ucm_cts.harness.report.toolchain_body import FactShown, fact_shown
+from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import (
     file_name,
     repeat_command,
     replay_command,
     shortest_first,
-)
-from ucm_cts.harness.results.values import (
-    FactEvidence,
-    FrameworkReport,
-    Report,
-    ReportedFinding,
-    RequirementResult,
-    TraceEvidence,
 )
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 
@@ -41,7 +34,7 @@ BUDGET = 1_000_000
 class Cause:
     """One cause of failure as the page shows it; ``shown`` is None where nothing was run."""
 
-    failed: ReportedFinding
+    failed: v.ReportedFinding
     shown: TraceShown | FactShown | None
 
 
@@ -49,19 +42,19 @@ class Cause:
 class Item:
     """One requirement as the page shows it: the verdict of the run and what the catalogue says."""
 
-    result: RequirementResult
+    result: v.RequirementResult
     requirement: Requirement
     causes: tuple[Cause, ...]
     decisions: tuple[tuple[str, str], ...]
 
 
 def to_html(
-    report: Report, catalogue: Sequence[Requirement], table: LifeCycleTable, interpretations: Mapping[str, str]
+    report: v.Report, catalogue: Sequence[Requirement], table: LifeCycleTable, interpretations: Mapping[str, str]
 ) -> str:
     """The whole page. The report must be clean (``foreign.clean_report``)."""
     script = part("report.js")
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
-    readings = report.readings if isinstance(report, FrameworkReport) else {}
+    readings = report.readings if isinstance(report, v.FrameworkReport) else {}
     reported = {result.id for result in report.requirements}
     return rendered(
         "report.html.jinja",
@@ -75,7 +68,7 @@ def to_html(
             (entry for entry in catalogue if entry.untestable and entry.id not in reported),
             key=lambda entry: (clause_key(entry.clause), entry.id),
         ),
-        framework=framework_body(report, table) if isinstance(report, FrameworkReport) else None,
+        framework=framework_body(report, table) if isinstance(report, v.FrameworkReport) else None,
         stated=stated(report.statement, readings, PARTS[report.profile]),
         shortest_first=shortest_first,
         script=script,
@@ -85,7 +78,7 @@ def to_html(
     )
 
 
-def _items(report: Report, catalogue: Sequence[Requirement], interpretations: Mapping[str, str]) -> list[Item]:
+def _items(report: v.Report, catalogue: Sequence[Requirement], interpretations: Mapping[str, str]) -> list[Item]:
     known = {requirement.id: requirement for requirement in catalogue}
     left = BUDGET
     items = {}
@@ -102,10 +95,10 @@ def _items(report: Report, catalogue: Sequence[Requirement], interpretations: Ma
     return sorted(items.values(), key=lambda item: (clause_key(item.result.clause), item.result.id))
 
 
-def _cause(failed: ReportedFinding, file: str, report: Report, whole: bool) -> Cause:
+def _cause(failed: v.ReportedFinding, file: str, report: v.Report, whole: bool) -> Cause:
     match failed.evidence:
-        case TraceEvidence():
+        case v.TraceEvidence():
             return Cause(failed, trace_shown(failed.finding, failed.evidence, replay_command(file, report), whole))
-        case FactEvidence():
+        case v.FactEvidence():
             return Cause(failed, fact_shown(failed.evidence, file.removesuffix("json") + "xml", whole))
     return Cause(failed, None)

@@ -11,22 +11,15 @@ from ucm_cts.harness.report.excerpt import excerpt
 from ucm_cts.harness.report.sequence import last_call
 from ucm_cts.harness.report.sequence_text import failure_text, to_text
 from ucm_cts.harness.report.toolchain_body import command_text, fact_text
+from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, replay_command, shortest_first
 from ucm_cts.harness.results.foreign import clean, one_line
-from ucm_cts.harness.results.values import (
-    FactEvidence,
-    IncidentReport,
-    Report,
-    RequirementResult,
-    TraceEvidence,
-    incidents_of,
-)
 
 FINDINGS = 3
 """The number of causes of one requirement that are written in full."""
 
 
-def to_junit(report: Report, catalogue: Sequence[Requirement]) -> bytes:
+def to_junit(report: v.Report, catalogue: Sequence[Requirement]) -> bytes:
     """The report as JUnit XML, grouped by clause. The report must be clean (``foreign.clean_report``).
 
     ``inconclusive`` is a failure of type ``inconclusive``: a skip looks green in a CI, and it must not.
@@ -42,7 +35,7 @@ def to_junit(report: Report, catalogue: Sequence[Requirement]) -> bytes:
         if requirement.untestable and requirement.id not in reported:
             case = _case(root, suites, f"clause {requirement.clause}", f"{requirement.id} {requirement.title}")
             _child(case, "skipped", f"not testable: {requirement.untestable}")
-    for number, incident in enumerate(incidents_of(report)):
+    for number, incident in enumerate(v.incidents_of(report)):
         title = one_line(f"{incident.incident.kind} in {incident.execution.name}")
         case = _case(root, suites, "incidents", title)
         _incident(case, incident, number, report)
@@ -61,7 +54,7 @@ def _case(root: etree._Element, suites: dict[str, etree._Element], suite: str, t
     return etree.SubElement(suites[suite], "testcase", classname=classname, name=one_line(title), time="0")
 
 
-def _verdict(case: etree._Element, result: RequirementResult, report: Report) -> None:
+def _verdict(case: etree._Element, result: v.RequirementResult, report: v.Report) -> None:
     match result.verdict:
         case "pass":
             waived = [failed for failed in result.findings if failed.waived]
@@ -81,7 +74,7 @@ def _verdict(case: etree._Element, result: RequirementResult, report: Report) ->
             _child(case, "error", result.reason or "lost to the adapter", "error", result.reason)
 
 
-def _story(result: RequirementResult, report: Report) -> str:
+def _story(result: v.RequirementResult, report: v.Report) -> str:
     shortest = shortest_first(result.findings)
     parts = [f"{result.id} {result.title} (clause {result.clause})"]
     for number, failed in enumerate(shortest[:FINDINGS]):
@@ -93,12 +86,12 @@ def _story(result: RequirementResult, report: Report) -> str:
             + (f"waived: {failed.waived}\n" if failed.waived else "")
         )
         match failed.evidence:
-            case TraceEvidence(execution=execution, steady=steady):
+            case v.TraceEvidence(execution=execution, steady=steady):
                 parts[-1] += f"replay:   {replay_command(file_name(result.id, number), report)}\n\n"
                 parts[-1] += failure_text(finding, execution)
                 if steady is not None:
                     parts.append(f"not shown when it was run again:\n\n{to_text(excerpt(steady))}")
-            case FactEvidence(processed=processed):
+            case v.FactEvidence(processed=processed):
                 command = command_text(processed, file_name(result.id, number, "xml"))
                 parts[-1] += f"again, in the folder of this report:    {command}\n\n{fact_text(failed.evidence)}"
     if len(shortest) > FINDINGS:
@@ -106,7 +99,7 @@ def _story(result: RequirementResult, report: Report) -> str:
     return "\n\n".join(parts)
 
 
-def _incident(case: etree._Element, report_of: IncidentReport, number: int, report: Report) -> None:
+def _incident(case: etree._Element, report_of: v.IncidentReport, number: int, report: v.Report) -> None:
     incident, execution = report_of.incident, report_of.execution
     story = [
         incident.detail,

@@ -53,7 +53,7 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
     for item in incidents[:SHOWN]:
         during = last_call(item.execution)
         detail = one_line(f"{item.incident.detail}{f', during {during}' if during else ''}", 160)
-        lines.append(_cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), f"  {detail}")))
+        lines.append(cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), f"  {detail}")))
     if len(incidents) > SHOWN:
         lines.append(Text(f"and {len(incidents) - SHOWN} more incidents", "dim"))
     if out is not None:
@@ -74,18 +74,18 @@ def _counts(report: Report) -> Text:
 def _failure(result: RequirementResult) -> list[Text]:
     head = Text.assemble(("✗ ", "red"), (result.id, "bold"), f"  {one_line(result.title)}")
     if not result.findings:
-        return [_cut(head), _cut(Text(f"  {one_line(result.reason)}"))]
+        return [cut(head), cut(Text(f"  {one_line(result.reason)}"))]
     finding = shortest_first(result.findings)[0].finding
     waived = result.findings[:1] if all(f.waived for f in result.findings) else ()
     return [
-        _cut(head),
-        _cut(Text.assemble(("  expected  ", "green"), one_line(finding.expected, 300))),
-        _cut(Text.assemble(("  observed  ", "red"), one_line(finding.observed, 300))),
-        *(_cut(Text.assemble(("  known     ", "yellow"), one_line(f.waived, 300))) for f in waived),
+        cut(head),
+        cut(Text.assemble(("  expected  ", "green"), one_line(finding.expected, 300))),
+        cut(Text.assemble(("  observed  ", "red"), one_line(finding.observed, 300))),
+        *(cut(Text.assemble(("  known     ", "yellow"), one_line(f.waived, 300))) for f in waived),
     ]
 
 
-def _cut(text: Text) -> Text:
+def cut(text: Text) -> Text:
     """One line stays one line."""
     text.no_wrap, text.overflow = True, "ellipsis"
     return text

@@ -10,16 +10,8 @@ from typing import Any
 import msgspec
 import yaml
 
+from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.foreign import one_line
-from ucm_cts.harness.results.values import (
-    Execution,
-    FactEvidence,
-    FrameworkReport,
-    Report,
-    ReportedFinding,
-    TraceEvidence,
-    incidents_of,
-)
 
 FOLDER = "failures"
 
@@ -38,19 +30,19 @@ def file_name(requirement: str, number: int, kind: str = "json") -> str:
     return f"{FOLDER}/{stem}{f'-{number + 1}' if number else ''}.{kind}"
 
 
-def shortest_first(findings: tuple[ReportedFinding, ...]) -> list[ReportedFinding]:
+def shortest_first(findings: tuple[v.ReportedFinding, ...]) -> list[v.ReportedFinding]:
     """Findings by the length of their scenarios; those without come first."""
     return sorted(findings, key=reading_length)
 
 
-def reading_length(failed: ReportedFinding) -> tuple[int, int]:
+def reading_length(failed: v.ReportedFinding) -> tuple[int, int]:
     """How long a reader has to read: a scenario's steps, then events; or a model's lines."""
-    if isinstance(failed.evidence, FactEvidence):
+    if isinstance(failed.evidence, v.FactEvidence):
         return failed.evidence.processed.model.count("\n"), 0
     return length(failed.execution)
 
 
-def length(execution: Execution | None) -> tuple[int, int]:
+def length(execution: v.Execution | None) -> tuple[int, int]:
     """How long a reader has to read: steps, then events."""
     return (len(execution.scenario.steps), len(execution.trace)) if execution is not None else (0, 0)
 
@@ -60,38 +52,38 @@ def incident_file(number: int) -> str:
     return f"{FOLDER}/incident-{number + 1}.json"
 
 
-def replay_command(file: str, report: Report) -> str:
+def replay_command(file: str, report: v.Report) -> str:
     """The command that plays a saved scenario again, from the report's folder."""
     statement = f" --ics {STATEMENT}" if report.statement.source else ""
     return f"ucm-cts replay {file} {shlex.quote(one_line(report.adapter))}{statement}"
 
 
-def repeat_command(report: Report) -> str:
+def repeat_command(report: v.Report) -> str:
     """The command that repeats the whole run."""
     adapter, profile = shlex.quote(one_line(report.adapter)), shlex.quote(one_line(report.profile))
     source = report.statement.source
     statement = f" --ics {shlex.quote(one_line(source))}" if source else ""
-    if not isinstance(report, FrameworkReport):
+    if not isinstance(report, v.FrameworkReport):
         return f"ucm-cts run --toolchain {adapter} --profile {profile} --seed {report.seed}{statement}"
     runs = f" --repeat {report.runs}" if report.runs > 1 else ""
     return f"ucm-cts run {adapter} --profile {profile} --seed {report.seed}{runs}{statement}"
 
 
-def saved(execution: Execution, exercises: tuple[str, ...]) -> dict[str, Any]:
+def saved(execution: v.Execution, exercises: tuple[str, ...]) -> dict[str, Any]:
     """The text of a scenario file: a script with one scenario."""
     return {"scenario": execution.name, "exercises": list(exercises), **msgspec.to_builtins(execution.scenario)}
 
 
-def all_files(report: Report) -> Iterator[tuple[str, bytes]]:
+def all_files(report: v.Report) -> Iterator[tuple[str, bytes]]:
     """Every file to write, by its name relative to the report."""
     for result in report.requirements:
         for number, failed in enumerate(shortest_first(result.findings)):
             match failed.evidence:
-                case TraceEvidence(execution=execution):
+                case v.TraceEvidence(execution=execution):
                     yield file_name(result.id, number), _json(saved(execution, (result.id,)))
-                case FactEvidence(processed=processed):
+                case v.FactEvidence(processed=processed):
                     yield file_name(result.id, number, "xml"), processed.model.encode(errors="replace")
-    for number, incident in enumerate(incidents_of(report)):
+    for number, incident in enumerate(v.incidents_of(report)):
         yield incident_file(number), _json(saved(incident.execution, ()))
 
 
@@ -99,7 +91,7 @@ def _json(content: dict[str, Any]) -> bytes:
     return msgspec.json.format(msgspec.json.encode(content), indent=2) + b"\n"
 
 
-def scenario_text(execution: Execution, longest: int = 60) -> str:
+def scenario_text(execution: v.Execution, longest: int = 60) -> str:
     """The scenario for a reader: components, then one step a line."""
     content = msgspec.to_builtins(execution.scenario)
     rows = [f"scenario: {_flow(execution.name)}", "components:"]

@@ -25,9 +25,6 @@ _CLAUSE = "10.1.3.2"
 _MOMENT = 20
 """Milliseconds in which an execution that is not kept out shows itself."""
 
-_A_WHILE = 50
-"""Milliseconds after stop in which no execution may run."""
-
 _INTERFACES = {"service": _SERVICE, "message": _MESSAGE}
 _INTERFACE_OF = {_SERVICE_PORT: "service", _MESSAGE_PORT: "message"}
 _CONNECTOR_OF: dict[str, Connector] = {_SERVICE_PORT: SERVICE, _MESSAGE_PORT: MESSAGE}
@@ -111,9 +108,6 @@ def overlap_purposes() -> list[TestPurpose]:
     purposes += [_active_as_a_whole(), *_receivers(), *_after_something()]
     entered = (*_WAYS, *_SERVICE_WAYS, _MESSAGE_WAY)
     runs = tuple((f"self-executing/{way.name}", _meeting_with_run(way)) for way in entered)
-    text = "A self-executing component runs, once started and once started again, and one run at a time."
-    alone = ("R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03", "R-10.1.3.2-05")
-    purposes.append(TestPurpose("self-executing/alone", _CLAUSE, text, alone, (("self-executing/alone", _runs()),)))
     purposes.append(
         TestPurpose(
             "two execution policies",
@@ -222,28 +216,6 @@ def _contradictory(one: str, other: str) -> Scenario:
     policies = tuple(Policy(name, "in.api" if name == s.ACTIVE else None) for name in (one, other))
     steps = (s.AddComponent("server"), s.Start(), s.Stop(), s.GetComponents())
     return Scenario({"server": Declaration(_PORTS, policies=policies)}, steps)
-
-
-def _runs() -> Scenario:
-    plan: dict[s.Hook, tuple[s.Action, ...]] = {"run": (s.HoldAtGate("running"),)}
-    several = s.ReachGate("running", more=6)
-    steps = (
-        s.AddComponent("server"),
-        s.Start(),
-        s.ReachGate("running"),
-        s.ReachGate("running", more=1),  # it must not come: the patience it takes is the time for a second run to show
-        s.OpenGate("running"),
-        several,
-        s.Stop(),
-        s.Pause(_A_WHILE),  # a run that comes too late shows before the next start
-        s.GetComponents(),
-        s.Start(),
-        several,
-        s.Stop(),
-        s.Pause(_A_WHILE),
-        s.GetComponents(),
-    )
-    return Scenario({"server": Declaration(plan=plan, policies=_SELF_EXECUTING.policies)}, steps)
 
 
 def _server(
