@@ -31,7 +31,7 @@ from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose, read_scripts, to_scenario
 from ucm_cts.harness.purposes.selection import select
 from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
-from ucm_cts.harness.report.sequence_text import failure_text, replay_text
+from ucm_cts.harness.report.diagrams.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.write import prepare_folder, save_report
 from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean, one_line
 from ucm_cts.harness.results.known_failures import known_today

@@ -223,7 +223,7 @@ def check(campaign: Campaign) -> object:
 
 
 def _story(finding: Finding | None, execution: Execution) -> str:
-    from ucm_cts.harness.report.sequence_text import failure_text
+    from ucm_cts.harness.report.diagrams.sequence_text import failure_text
     from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS
 
     if finding is not None:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from ucm_cts.harness.report import life_cycle_diagram, sequence_svg
-from ucm_cts.harness.report.excerpt import compare, excerpt
-from ucm_cts.harness.report.sequence import last_call
-from ucm_cts.harness.report.sequence_text import failure_text, to_text
-from ucm_cts.harness.report.transitions import STATES, Choice, RowSeen, choices, rows_seen, worst
+from ucm_cts.harness.report.diagrams import life_cycle_diagram, sequence_svg
+from ucm_cts.harness.report.diagrams.excerpt import compare, excerpt
+from ucm_cts.harness.report.diagrams.sequence import last_call
+from ucm_cts.harness.report.diagrams.sequence_text import failure_text, to_text
+from ucm_cts.harness.report.diagrams.transitions import STATES, Choice, RowSeen, choices, rows_seen, worst
 from ucm_cts.harness.results.failures import incident_file, replay_command, scenario_text
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import FrameworkReport, IncidentReport, TraceEvidence

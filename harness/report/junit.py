@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from lxml import etree
 
 from ucm_cts.harness.catalogue.requirements import Requirement
-from ucm_cts.harness.report.excerpt import excerpt
-from ucm_cts.harness.report.sequence import last_call
-from ucm_cts.harness.report.sequence_text import failure_text, to_text
+from ucm_cts.harness.report.diagrams.excerpt import excerpt
+from ucm_cts.harness.report.diagrams.sequence import last_call
+from ucm_cts.harness.report.diagrams.sequence_text import failure_text, to_text
 from ucm_cts.harness.report.toolchain_body import command_text, fact_text
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import file_name, incident_file, replay_command, shortest_first

@@ -7,8 +7,8 @@ from pathlib import Path
 from rich.console import Group, RenderableType
 from rich.text import Text
 
+from ucm_cts.harness.report.diagrams.sequence import last_call
 from ucm_cts.harness.report.order import SYMBOLS, count, counted, to_fix
-from ucm_cts.harness.report.sequence import last_call
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import all_known

@@ -24,9 +24,9 @@ from made_up_run import (
 
 from ucm_cts.adapters.contract.scenario import AddComponent, Scenario, Start, Step
 from ucm_cts.adapters.contract.trace import Call, Create, Dependency, Event, LogRecord, Return
-from ucm_cts.harness.report import sequence, sequence_svg
-from ucm_cts.harness.report.excerpt import compare
-from ucm_cts.harness.report.sequence_text import failure_text, replay_text
+from ucm_cts.harness.report.diagrams import sequence, sequence_svg
+from ucm_cts.harness.report.diagrams.excerpt import compare
+from ucm_cts.harness.report.diagrams.sequence_text import failure_text, replay_text
 from ucm_cts.harness.results.values import Execution, Incident
 from ucm_cts.reference_models.findings import Arrow, Finding
 

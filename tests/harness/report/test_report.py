@@ -29,7 +29,8 @@ from rich.console import Console
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.purposes.scripts import read_scripts, to_scenario
-from ucm_cts.harness.report import json_report, order, transitions
+from ucm_cts.harness.report import json_report, order
+from ucm_cts.harness.report.diagrams import transitions
 from ucm_cts.harness.report.summary import summary
 from ucm_cts.harness.report.write import write_report
 from ucm_cts.harness.results.foreign import LONGEST, LONGEST_STACKS, clean, clean_report, one_line

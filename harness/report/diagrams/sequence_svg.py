@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
-from ucm_cts.harness.report.sequence import Diagram, Lane, Line
-from ucm_cts.harness.report.svg_text import CHARACTER, columns, shortened
+from ucm_cts.harness.report.diagrams.sequence import Diagram, Lane, Line
+from ucm_cts.harness.report.diagrams.svg_text import CHARACTER, columns, shortened
 
 ROW, HEAD, TOP = 27, 26, 6
 """Heights: of a line, of a lane's head, and of the margin above it."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from ucm_cts.adapters.contract import trace as t
-from ucm_cts.harness.report.wording import Wording, body_key
+from ucm_cts.harness.report.diagrams.wording import Wording, body_key
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.model.runtime import lane

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from ucm_cts.adapters.contract.trace import Call, Raise, Return
-from ucm_cts.harness.report.sequence import TEST, Diagram, Line, LineKind, find_lane, lay_out
+from ucm_cts.harness.report.diagrams.sequence import TEST, Diagram, Line, LineKind, find_lane, lay_out
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.findings import Arrow, Finding

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
+from ucm_cts.harness.report.diagrams.svg_text import CHARACTER, columns
+from ucm_cts.harness.report.diagrams.transitions import STATES, RowSeen, Transition, transitions, worst
 from ucm_cts.harness.report.order import SYMBOLS
-from ucm_cts.harness.report.svg_text import CHARACTER, columns
-from ucm_cts.harness.report.transitions import STATES, RowSeen, Transition, transitions, worst
 from ucm_cts.reference_models.model.life_cycle import State
 
 BOX, GAP = 168, 172

@@ -6,8 +6,8 @@ import textwrap
 from collections.abc import Sequence
 from dataclasses import replace
 
-from ucm_cts.harness.report.excerpt import compare
-from ucm_cts.harness.report.sequence import Diagram, Line, lay_out
+from ucm_cts.harness.report.diagrams.excerpt import compare
+from ucm_cts.harness.report.diagrams.sequence import Diagram, Line, lay_out
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.values import Execution
 from ucm_cts.reference_models.findings import Finding

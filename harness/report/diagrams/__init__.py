@@ -1,0 +1,1 @@
+"""Diagrams of executions and of the life cycle, laid out and drawn."""
