@@ -25,7 +25,7 @@ from ucm_cts.adapters.contract.programming_model import (
 from ucm_cts.adapters.mutants.python import CONTAINER, mutants_of
 from ucm_cts.adapters.reference.python.framework import ContainerManager
 from ucm_cts.harness.bench.alternatives import parametrised_test, state_machine
-from ucm_cts.harness.bench.measuring import ROUNDS, limit, medians, timed
+from ucm_cts.harness.bench.measuring import ROUNDS, empty_table, limit, medians, timed
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver
@@ -122,9 +122,7 @@ def tables() -> Iterator[Table]:
     yield _call_table(calls)
     restarts = {name: _restart(name) for name in ("reference-cpp", "reference-py")}
     whole = {name: _whole_run(name) for name in ("reference-cpp", "reference-py")}
-    other = Table(title="Hosts and whole runs", title_justify="left")
-    for column in ("", "reference-cpp", "reference-py", "limit"):
-        other.add_column(column)
+    other = empty_table("Hosts and whole runs", "|reference-cpp|reference-py|limit")
     other.add_row(
         "fresh host after a crash, ms", *(f"{restarts[n]:.1f}" for n in restarts), limit(10, *restarts.values())
     )
@@ -149,9 +147,7 @@ def _one_mutant() -> tuple[float, int]:
 
 def _life_cycle_table(costs: dict[str, float]) -> Table:
     direct = costs[DIRECT]
-    table = Table(title="One life-cycle scenario (10 operations)", title_justify="left")
-    for column in ("through", "µs", "× direct pybind11", "a second", "limit"):
-        table.add_column(column, justify="left" if column == "through" else "right")
+    table = empty_table("One life-cycle scenario (10 operations)", "through|µs|× direct pybind11|a second|limit")
     for name, cost in costs.items():
         aim = limit(40, cost / direct) if name == JUDGED else ""
         table.add_row(name, f"{cost:.1f}", f"{cost / direct:.1f}", f"{1e6 / cost:,.0f}", aim)
@@ -164,9 +160,7 @@ def _life_cycle_table(costs: dict[str, float]) -> Table:
 
 
 def _alternatives_table(judged: float, costs: dict[str, float]) -> Table:
-    table = Table(title="Ten operations, tested in another way", title_justify="left")
-    for column in ("with", "µs", "× a judged scenario through the wire"):
-        table.add_column(column, justify="left" if column == "with" else "right")
+    table = empty_table("Ten operations, tested in another way", "with|µs|× a judged scenario through the wire")
     table.add_row("this suite, in a process of its own", f"{judged:.1f}", "1")
     for name, cost in costs.items():
         table.add_row(name, f"{cost:.1f}", f"{cost / judged:.1f}")
@@ -174,9 +168,7 @@ def _alternatives_table(judged: float, costs: dict[str, float]) -> Table:
 
 
 def _call_table(calls: dict[str, float]) -> Table:
-    table = Table(title="One call, with its trace", title_justify="left")
-    for column in ("through", "µs", "ratio", "limit"):
-        table.add_column(column, justify="left" if column == "through" else "right")
+    table = empty_table("One call, with its trace", "through|µs|ratio|limit")
     ping, python = calls["raw ping-pong"], calls["direct Python call"]
     one, many = calls["one call a message"], calls["64 calls a message"]
     table.add_row("raw ping-pong of as many bytes", f"{ping:.1f}", "1", "")

@@ -19,7 +19,7 @@ from ucm_cts.adapters.contract.trace import Event
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.bench.long_life import LongLife
-from ucm_cts.harness.bench.measuring import limit, medians
+from ucm_cts.harness.bench.measuring import empty_table, limit, medians
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction
@@ -126,20 +126,8 @@ def of_the_suite(profile: str) -> Costs:
 
 def table(rows: Iterable[Costs]) -> Table:
     """The costs side by side; the aim is for the long life."""
-    shown = Table(title="Judging, ns an event", title_justify="left")
-    for column in (
-        "",
-        "reading bytes",
-        "json",
-        "msgspec",
-        "possible?",
-        "judge",
-        "× msgspec",
-        "limit",
-        "events/s",
-        "MB",
-    ):
-        shown.add_column(column, justify="right" if column else "left")
+    heads = "|reading bytes|json|msgspec|possible?|judge|× msgspec|limit|events/s|MB"
+    shown = empty_table("Judging, ns an event", heads)
     for row in rows:
         ratio = row.judging / row.decoding
         shown.add_row(

@@ -6,6 +6,8 @@ import statistics
 import time
 from collections.abc import Callable
 
+from rich.table import Table
+
 ROUNDS = 7
 
 
@@ -26,6 +28,14 @@ def timed(action: Callable[[], object], times: int, each: int = 1) -> float:
     for _ in range(times):
         action()
     return (time.perf_counter() - began) / times / each * 1e6
+
+
+def empty_table(title: str, heads: str) -> Table:
+    """A table without rows; ``heads`` are separated by ``|``. Columns of figures, all but the first one, are justified right."""
+    table = Table(title=title, title_justify="left")
+    for number, head in enumerate(heads.split("|")):
+        table.add_column(head, justify="right" if number else "left")
+    return table
 
 
 def limit(aim: float, *measured: float) -> str:

@@ -26,7 +26,7 @@ from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.contract.metamodel.writing import write_model
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.bench.large_model import large_model
-from ucm_cts.harness.bench.measuring import limit
+from ucm_cts.harness.bench.measuring import empty_table, limit
 from ucm_cts.harness.toolchains.corpus.schema import parser, schema
 
 ELEMENTS = 1_000_000
@@ -86,9 +86,8 @@ def costs(path: Path) -> dict[str, tuple[float, float]]:
 def table(elements: int, size: int, measured: dict[str, tuple[float, float]]) -> Table:
     """The costs side by side."""
     parsing = measured["lxml"][0]
-    shown = Table(title=f"a model of {elements:,} elements, {size / 1e6:.0f} MB; medians of {_ROUNDS} rounds")
-    for column in ("", "seconds", "times lxml", "at most", "MB", "at most"):
-        shown.add_column(column, justify="right" if column else "left")
+    title = f"a model of {elements:,} elements, {size / 1e6:.0f} MB; medians of {_ROUNDS} rounds"
+    shown = empty_table(title, "|seconds|times lxml|at most|MB|at most")
     for way, (seconds, megabytes) in measured.items():
         times = seconds / parsing
         bounds = (limit(TIMES, times), limit(MEGABYTES, megabytes)) if way == "reading + checking" else ("", "")

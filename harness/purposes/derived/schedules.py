@@ -7,7 +7,7 @@ to wait; then the gate is opened and everybody must come back.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from ucm_cts.adapters.contract import scenario as s
@@ -90,18 +90,13 @@ def overlap_purposes() -> list[TestPurpose]:
         for same, requirements in ((True, kind.same), (False, kind.different)):
             chosen = [ways for ways in _combinations() if (len({way.port for way in ways}) == 1) == same]
             ports = "one port" if same else "several ports"
-            scenarios = tuple(
-                (f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways)) for ways in chosen
-            )
+            scenarios = _meetings(kind, chosen)
             text = f"Callers of {ports} of a component that is {kind.name} are sent while one is held inside."
             purposes.append(
                 TestPurpose(f"{kind.name}/{ports}", _CLAUSE, text, (*requirements, *_served(kind)), scenarios)
             )
     for kind in (*_KINDS, _ACTIVE_SERVICE):
-        scenarios = tuple(
-            (f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways))
-            for ways in _combinations_with_services()
-        )
+        scenarios = _meetings(kind, _combinations_with_services())
         text = f"Clients of a service connector call a component that is {kind.name} while one is held inside."
         concerned = tuple(dict.fromkeys((*kind.same, *kind.different, *_served(kind))))
         purposes.append(TestPurpose(f"{kind.name}/services", _CLAUSE, text, concerned, scenarios))
@@ -126,7 +121,7 @@ def _active_as_a_whole() -> TestPurpose:
     """The policy is attached to the component, by vendors who allow that beside ports (active-applicability)."""
     kind = _Kind("active as a whole", (Policy(s.ACTIVE),), ("R-10.1.3.2-09",), ("R-10.1.3.2-09",))
     pairs = itertools.product(_WAYS[: len(_PORTS)], repeat=2)
-    scenarios = tuple((f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways)) for ways in pairs)
+    scenarios = _meetings(kind, pairs)
     text = f"A component that is {kind.name} is called by two, one while the other is held inside."
     under = ("protected-active-applicability=onBoth",)
     return TestPurpose(kind.name, _CLAUSE, text, kind.same, scenarios, under=under)
@@ -137,7 +132,7 @@ def _receivers() -> list[TestPurpose]:
     purposes = []
     for kind in (*_KINDS, _ACTIVE_RECEIVER, _SELF_EXECUTING):
         pairs = ((_WAYS[0], _MESSAGE_WAY), (_MESSAGE_WAY, _WAYS[0]))
-        scenarios = tuple((f"{kind.name}/{', '.join(w.name for w in ways)}", _meeting(kind, ways)) for ways in pairs)
+        scenarios = _meetings(kind, pairs)
         text = f"A component that is {kind.name} is called and gets a message, one while the other is held inside."
         purposes.append(TestPurpose(f"{kind.name}/messages", _CLAUSE, text, kind.different, scenarios))
     return purposes
@@ -172,6 +167,10 @@ def _combinations_with_services() -> Iterator[tuple[_Way, ...]]:
     for way in _SERVICE_WAYS:
         yield from itertools.permutations((_WAYS[0], way))
     yield (*_SERVICE_WAYS, _WAYS[0])
+
+
+def _meetings(kind: _Kind, several: Iterable[tuple[_Way, ...]]) -> tuple[tuple[str, Scenario], ...]:
+    return tuple((f"{kind.name}/{', '.join(way.name for way in ways)}", _meeting(kind, ways)) for ways in several)
 
 
 def _meeting(kind: _Kind, ways: tuple[_Way, ...], raised: bool = False, restarted: bool = False) -> Scenario:
