@@ -17,15 +17,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ucm_cts.adapters.reference import python as reference_py
-from ucm_cts.harness.selftest.generated.mutants import (
-    DUPLICATE,
-    GENERATED,
-    NO_PROGRAM,
-    NONSENSE,
-    SAME,
-    GeneratedMutant,
-    generate,
-)
+from ucm_cts.harness.selftest.generated import mutants
 
 RULES = ("universal", "python")
 CONCERNED = {
@@ -46,31 +38,31 @@ _WORDS = {*keyword.kwlist, *dir(builtins)}
 _PACKAGE = "mutated_reference_py"
 
 
-def candidates() -> tuple[list[GeneratedMutant], Counter[str]]:
+def candidates() -> tuple[list[mutants.GeneratedMutant], Counter[str]]:
     """The mutants that are other programs than the framework and than each other, and how many there are of the rest."""
-    kept: list[GeneratedMutant] = []
+    kept: list[mutants.GeneratedMutant] = []
     census: Counter[str] = Counter()
     for file in CONCERNED:
         lines = (HOME / file).read_text(encoding="utf-8").splitlines(keepends=True)
         names = set(_NAME.findall("".join(lines)))
         blocks = _blocks(lines)
-        seen = {(block, meaning(_part(lines, block))): SAME for block in blocks}
-        for mutant in generate(HOME / file, RULES):
-            census[GENERATED] += 1
+        seen = {(block, meaning(_part(lines, block))): mutants.SAME for block in blocks}
+        for mutant in mutants.generate(HOME / file, RULES):
+            census[mutants.GENERATED] += 1
             block = next((one for one in blocks if one[0] <= mutant.number <= one[1]), None)
             if block is None:
-                census[SAME] += 1
+                census[mutants.SAME] += 1
                 continue
             text = mutant.source(lines).splitlines(keepends=True)
             means = block, meaning(_part(text, (block[0], block[1] + len(text) - len(lines))))
             if means[1] is None:
-                census[NO_PROGRAM] += 1
+                census[mutants.NO_PROGRAM] += 1
             elif means in seen:
                 census[seen[means]] += 1
             elif set(_NAME.findall(mutant.becomes)) - names - _WORDS:
-                census[NONSENSE] += 1
+                census[mutants.NONSENSE] += 1
             else:
-                seen[means] = DUPLICATE
+                seen[means] = mutants.DUPLICATE
                 kept.append(mutant)
     return kept, census
 
@@ -139,7 +131,7 @@ class _Bare(ast.NodeTransformer):
 
 
 @contextmanager
-def python_endpoint(mutant: GeneratedMutant | None) -> Iterator[str]:
+def python_endpoint(mutant: mutants.GeneratedMutant | None) -> Iterator[str]:
     """The adapter of the framework with ``mutant`` in it, or of the framework as it is, while in the ``with`` statement."""
     with TemporaryDirectory(prefix="mutant-") as folder:
         package = Path(folder) / _PACKAGE

@@ -12,20 +12,7 @@ from ucm_cts.harness.toolchains.idl.language.values import Worth, equal, model_w
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
 from ucm_cts.harness.toolchains.idl.subject import here
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
-from ucm_cts.reference_models.mapping.idl.declarations import (
-    Annotated,
-    Annotation,
-    AnnotationDefinition,
-    ArrayOf,
-    Attribute,
-    Basic,
-    Declaration,
-    Enum,
-    Named,
-    Text,
-    Type,
-    Typedef,
-)
+from ucm_cts.reference_models.mapping.idl import declarations as idl
 from ucm_cts.reference_models.mapping.idl.expectations import Defaulted, Indexed, Numbered, Tagged
 
 
@@ -34,15 +21,15 @@ class Defined(NamedTuple):
 
     requirement: str
     member: str
-    type: Type | None
+    type: idl.Type | None
 
 
 DEFINED = {
     "int8": Defined("R-14-02", "", None),
     "uint8": Defined("R-14-03", "", None),
-    "memoryfootprint": Defined("R-14-04", "max", Basic("unsigned long")),
-    "indextype": Defined("R-14-05", "typeid", Text()),
-    "defaultvalue": Defined("R-14-06", "val", Text()),
+    "memoryfootprint": Defined("R-14-04", "max", idl.Basic("unsigned long")),
+    "indextype": Defined("R-14-05", "typeid", idl.Text()),
+    "defaultvalue": Defined("R-14-06", "val", idl.Text()),
 }
 """By their names in lower case, because clause 12 spells some in two ways (interpretation annotation-spellings)."""
 
@@ -69,16 +56,16 @@ KINDS = {
 """Which kinds of the model an integer type of IDL can be."""
 
 
-def annotations_of(declaration: Declaration) -> Iterator[Annotation]:
+def annotations_of(declaration: idl.Declaration) -> Iterator[idl.Annotation]:
     """The annotations of a declaration, those in front of its type too."""
     yield from declaration.annotations
     type_ = getattr(declaration, "type", None)
-    while isinstance(type_, (Annotated, ArrayOf)):
-        yield from type_.annotations if isinstance(type_, Annotated) else ()
-        type_ = type_.type if isinstance(type_, Annotated) else type_.element
+    while isinstance(type_, (idl.Annotated, idl.ArrayOf)):
+        yield from type_.annotations if isinstance(type_, idl.Annotated) else ()
+        type_ = type_.type if isinstance(type_, idl.Annotated) else type_.element
 
 
-def find(declaration: Declaration, name: str) -> Annotation | None:
+def find(declaration: idl.Declaration, name: str) -> idl.Annotation | None:
     """The annotation ``name`` of a declaration, however its letters are written."""
     return next((a for a in annotations_of(declaration) if last(a.name) == name.lower()), None)
 
@@ -96,12 +83,12 @@ def applied(vendor: Vendor, read: Files) -> Iterator[tuple[str, list[Wrong]]]:
             defined = DEFINED.get(last(annotation.name))
             if defined is not None:
                 yield defined.requirement, list(_misused(annotation, defined))
-        if isinstance(declaration, AnnotationDefinition) and declaration.name.lower() in DEFINED:
+        if isinstance(declaration, idl.AnnotationDefinition) and declaration.name.lower() in DEFINED:
             defined = DEFINED[declaration.name.lower()]
             yield defined.requirement, list(_misdefined(vendor, entry, defined))
 
 
-def _misused(annotation: Annotation, defined: Defined) -> Iterator[Wrong]:
+def _misused(annotation: idl.Annotation, defined: Defined) -> Iterator[Wrong]:
     names = [one.name.lower() for one in annotation.arguments]
     wanted = [defined.member] if defined.member else []
     if names == wanted or (names == [""] and wanted):
@@ -112,10 +99,10 @@ def _misused(annotation: Annotation, defined: Defined) -> Iterator[Wrong]:
 
 def _misdefined(vendor: Vendor, entry: Entry, defined: Defined) -> Iterator[Wrong]:
     definition = entry.declaration
-    assert isinstance(definition, AnnotationDefinition)
+    assert isinstance(definition, idl.AnnotationDefinition)
     found = [(member.name, member.type) for member in definition.members]
     wanted = [(defined.member, defined.type)] if defined.type is not None else []
-    printed = [(name, Text() if type_ == Named("String") else type_) for name, type_ in found]
+    printed = [(name, idl.Text() if type_ == idl.Named("String") else type_) for name, type_ in found]
     meant, due = ([(n, vendor.meaning(t, entry.scope)) for n, t in members] for members in (printed, wanted))
     if meant != due and all(vendor.known(type_, entry.scope) for _, type_ in printed):
         expected = ", ".join(f"{show(t)} {n}" for n, t in wanted if t is not None) or "no members"
@@ -142,14 +129,14 @@ def tagged(vendor: Vendor, fact: Tagged) -> list[Wrong]:
     return [Wrong(f"@{fact.name}(max={fact.maximum})", show_worth(value), found.place)]
 
 
-def _value(annotation: Annotation, scope: Scope) -> Worth | None:
+def _value(annotation: idl.Annotation, scope: Scope) -> Worth | None:
     """The value that an annotation with one member gives."""
     return worth(annotation.arguments[0].value, scope) if len(annotation.arguments) == 1 else None
 
 
 def indexed(vendor: Vendor, fact: Indexed) -> list[Wrong]:
     """Whether the index type is given where it is needed, is an integer, and is the model's."""
-    hit = here(vendor, fact.path, (Typedef, Enum))
+    hit = here(vendor, fact.path, (idl.Typedef, idl.Enum))
     declaration = hit.entry.declaration
     found = [a for a in annotations_of(declaration) if last(a.name) == "indextype"]
     if not found:
@@ -168,7 +155,7 @@ def indexed(vendor: Vendor, fact: Indexed) -> list[Wrong]:
     ]
 
 
-def _unindexed(vendor: Vendor, fact: Indexed, declaration: Declaration) -> list[Wrong]:
+def _unindexed(vendor: Vendor, fact: Indexed, declaration: idl.Declaration) -> list[Wrong]:
     if not fact.kinds or (fact.kinds == ("ULONG",) and vendor.reading("index-annotations") != "always"):
         raise NotExercised
     return [
@@ -178,7 +165,7 @@ def _unindexed(vendor: Vendor, fact: Indexed, declaration: Declaration) -> list[
     ]
 
 
-def _kinds(vendor: Vendor, annotation: Annotation, scope: Scope) -> set[str] | None:
+def _kinds(vendor: Vendor, annotation: idl.Annotation, scope: Scope) -> set[str] | None:
     """The kinds that an IndexType's type can be, none if it is no integer; None if the annotation itself is wrong."""
     value = _value(annotation, scope)
     if not isinstance(value, str):
@@ -186,7 +173,7 @@ def _kinds(vendor: Vendor, annotation: Annotation, scope: Scope) -> set[str] | N
     kinds: set[str] = set()
     for one in value.split(","):  # an index type for each dimension of an array
         name = " ".join(one.split())
-        type_ = Basic(name) if name in KINDS else Named(name.replace(" ", "_"))
+        type_ = idl.Basic(name) if name in KINDS else idl.Named(name.replace(" ", "_"))
         meaning = vendor.meaning(type_, scope)
         if meaning[0] == "unknown" and (vendor.missing or vendor.unreadable):
             return None
@@ -203,9 +190,9 @@ def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
     """Whether the values of enumerators follow from the IDL."""
     if vendor.reading("idl-enumerator-values") not in ("observed", "default-value"):
         raise NotExercised
-    hit = here(vendor, fact.path, Enum)
+    hit = here(vendor, fact.path, idl.Enum)
     enum = hit.entry.declaration
-    assert isinstance(enum, Enum)
+    assert isinstance(enum, idl.Enum)
     declared = vendor.reading("idl-enumerator-values") == "default-value"
     ways = {"defaultvalue"} if declared else {"defaultvalue", *STANDARD_VALUES}
     shown = {one.name.lower(): (_number_of(one, hit.entry.scope, ways), one) for one in enum.enumerators}
@@ -234,7 +221,7 @@ def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
     return wrong
 
 
-def _number_of(declaration: Declaration, scope: Scope, ways: set[str]) -> int | None:
+def _number_of(declaration: idl.Declaration, scope: Scope, ways: set[str]) -> int | None:
     """The number that an annotation gives; one whose value is no number gives none that could be right."""
     for annotation in annotations_of(declaration):
         if last(annotation.name) in ways:
@@ -254,9 +241,9 @@ def _parsed(text: str, scope: Scope) -> Worth | None:
 
 def defaulted(vendor: Vendor, fact: Defaulted) -> list[Wrong]:
     """Whether the default value, if one is given, is the model's."""
-    hit = here(vendor, fact.path, Attribute)
+    hit = here(vendor, fact.path, idl.Attribute)
     declaration = hit.entry.declaration
-    found: Sequence[Annotation] = [
+    found: Sequence[idl.Annotation] = [
         a for a in annotations_of(declaration) if last(a.name) in {"defaultvalue", "default"}
     ]
     if not found and vendor.reading("idl-attribute-defaults") != "annotated":

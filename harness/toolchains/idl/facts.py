@@ -8,78 +8,30 @@ from typing import Any
 
 import msgspec
 
+from ucm_cts.harness.toolchains.idl import facts_of_interfaces as interfaces
 from ucm_cts.harness.toolchains.idl.annotations import defaulted, indexed, numbered, tagged
-from ucm_cts.harness.toolchains.idl.facts_of_interfaces import (
-    access,
-    getter,
-    inherits,
-    no_getter,
-    only,
-    raises,
-    takes,
-    takes_type,
-)
 from ucm_cts.harness.toolchains.idl.language.scopes import Entry, Hit, Scope, every, resolve
 from ucm_cts.harness.toolchains.idl.language.showing import show, show_kind, show_worth, type_of
 from ucm_cts.harness.toolchains.idl.language.values import Chosen, equal, model_worth, worth
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
 from ucm_cts.harness.toolchains.idl.subject import here, nearest
 from ucm_cts.harness.toolchains.idl.vendor import Vendor, spelled
-from ucm_cts.reference_models.mapping.idl.declarations import (
-    Attribute,
-    Case,
-    Constant,
-    Declaration,
-    Enum,
-    Exception_,
-    Expression,
-    Module,
-    Named,
-    Native,
-    Struct,
-    Type,
-    Typedef,
-    Union,
-    kind_of,
-)
-from ucm_cts.reference_models.mapping.idl.expectations import (
-    Access,
-    Declares,
-    Defaulted,
-    Expected,
-    Getter,
-    Indexed,
-    Inherits,
-    Labelled,
-    Lists,
-    Means,
-    NoGetter,
-    Numbered,
-    Only,
-    Parametrized,
-    Raises,
-    Selects,
-    Tagged,
-    Takes,
-    TakesType,
-    Templated,
-    Undeclared,
-    Valued,
-)
+from ucm_cts.reference_models.mapping.idl import declarations as idl
+from ucm_cts.reference_models.mapping.idl import expectations as exp
 
 MISPLACED = "R-12.7-07"
 INTERFACE_ATTRIBUTES = "R-12.6-10"
 
-TYPES = (Typedef, Struct, Union, Enum, Native)
+TYPES = (idl.Typedef, idl.Struct, idl.Union, idl.Enum, idl.Native)
 
 
-def declares(vendor: Vendor, fact: Declares) -> list[Wrong]:
+def declares(vendor: Vendor, fact: exp.Declares) -> list[Wrong]:
     """Whether it is there at all, and is what it should be."""
     hit = vendor.at(fact.path)
     if hit is None:
         return _missing(vendor, fact)
     declaration = hit.entry.declaration
-    kind = kind_of(declaration)
+    kind = idl.kind_of(declaration)
     if fact.requirement == INTERFACE_ATTRIBUTES and vendor.reading("idl-interface-attributes") != "attributes":
         fact = msgspec.structs.replace(fact, kind=kind)  # an operation may stand for it
     if fact.kind in ("", kind):  # of which kind data types are is a matter of their own
@@ -87,7 +39,7 @@ def declares(vendor: Vendor, fact: Declares) -> list[Wrong]:
     return [Wrong(f"{show_kind(fact.kind)} {fact.path[-1]}", f"{show_kind(kind)} of that name", declaration.place)]
 
 
-def _missing(vendor: Vendor, fact: Declares) -> list[Wrong]:
+def _missing(vendor: Vendor, fact: exp.Declares) -> list[Wrong]:
     around = here(vendor, fact.path[:-1]) if len(fact.path) > 1 else None
     needed = fact.needed or (
         fact.requirement == INTERFACE_ATTRIBUTES and vendor.reading("idl-interface-attributes") == "attributes"
@@ -108,22 +60,22 @@ def _missing(vendor: Vendor, fact: Declares) -> list[Wrong]:
     return [Wrong(expected, "no such declaration", nearest(around))]
 
 
-def _is_like(declaration: Declaration, kind: str) -> bool:
-    return isinstance(declaration, TYPES) if not kind else kind_of(declaration) == kind
+def _is_like(declaration: idl.Declaration, kind: str) -> bool:
+    return isinstance(declaration, TYPES) if not kind else idl.kind_of(declaration) == kind
 
 
-def means(vendor: Vendor, fact: Means) -> list[Wrong]:
+def means(vendor: Vendor, fact: exp.Means) -> list[Wrong]:
     """Whether a type is the one it should be."""
     hit = here(vendor, fact.path)
     declaration = hit.entry.declaration
     found = type_of(declaration)
-    if fact.requirement == INTERFACE_ATTRIBUTES and not isinstance(declaration, Attribute):
+    if fact.requirement == INTERFACE_ATTRIBUTES and not isinstance(declaration, idl.Attribute):
         raise NotExercised
     if found is None:
         return [
             Wrong(
                 f"{fact.path[-1]} to be another name of {show(fact.type)}",
-                f"a {kind_of(declaration)}",
+                f"a {idl.kind_of(declaration)}",
                 declaration.place,
             )
         ]
@@ -141,14 +93,14 @@ ULONGLONG = "R-12.3.1-08"
 BOOLEAN = "R-12.3.1-13"
 
 
-def _boolean(vendor: Vendor, found: Type) -> bool:
+def _boolean(vendor: Vendor, found: idl.Type) -> bool:
     """The table prints bool (interpretation idl-boolean)."""
-    name = "bool" if found == Named("bool") else "boolean"
+    name = "bool" if found == idl.Named("bool") else "boolean"
     vendor.met.setdefault("idl-boolean", set()).add(name)
     return vendor.reading("idl-boolean") in ("", "observed", name)
 
 
-def _unsigned_long_long(vendor: Vendor, found: Type, scope: Scope) -> bool:
+def _unsigned_long_long(vendor: Vendor, found: idl.Type, scope: Scope) -> bool:
     """The table prints unsigned long, which is too small (interpretation idl-ulonglong)."""
     name = str(vendor.meaning(found, scope)[1]).replace(" ", "-")
     readings = ("unsigned-long-long", "unsigned-long")
@@ -158,11 +110,11 @@ def _unsigned_long_long(vendor: Vendor, found: Type, scope: Scope) -> bool:
     return name == declared if declared in readings else name in readings
 
 
-def selects(vendor: Vendor, fact: Selects) -> list[Wrong]:
+def selects(vendor: Vendor, fact: exp.Selects) -> list[Wrong]:
     """Whether the cases of a union are selected by the right type."""
-    hit = here(vendor, fact.path, Union)
+    hit = here(vendor, fact.path, idl.Union)
     union = hit.entry.declaration
-    assert isinstance(union, Union)
+    assert isinstance(union, idl.Union)
     if not vendor.known(union.selector, hit.entry.scope) or vendor.is_open(fact.type):
         raise NotExercised
     if vendor.same(union.selector, hit.entry.scope, fact.type):
@@ -170,20 +122,20 @@ def selects(vendor: Vendor, fact: Selects) -> list[Wrong]:
     return [Wrong(f"switch ({show(fact.type)})", f"switch ({show(union.selector)})", union.place)]
 
 
-def _listed(declaration: Declaration) -> tuple[Declaration, ...]:
+def _listed(declaration: idl.Declaration) -> tuple[idl.Declaration, ...]:
     match declaration:
-        case Struct() | Exception_():
+        case idl.Struct() | idl.Exception_():
             return declaration.members
-        case Union():
+        case idl.Union():
             return declaration.cases
-        case Enum():
+        case idl.Enum():
             return declaration.enumerators
     return ()
 
 
-def lists(vendor: Vendor, fact: Lists) -> list[Wrong]:
+def lists(vendor: Vendor, fact: exp.Lists) -> list[Wrong]:
     """Whether members, cases or enumerators are just those of the model."""
-    hit = here(vendor, fact.path, (Struct, Exception_, Union, Enum))
+    hit = here(vendor, fact.path, (idl.Struct, idl.Exception_, idl.Union, idl.Enum))
     declaration = hit.entry.declaration
     found = [one.name for one in _listed(declaration)]
     wanted = [_written(vendor, hit, name) for name in fact.names]
@@ -201,13 +153,13 @@ def _names(names: list[str]) -> str:
     return ", ".join(names) or "nothing"
 
 
-def labelled(vendor: Vendor, fact: Labelled) -> list[Wrong]:
+def labelled(vendor: Vendor, fact: exp.Labelled) -> list[Wrong]:
     """Whether a case holds for the enumerators it should."""
-    hit = here(vendor, fact.path, Case)
+    hit = here(vendor, fact.path, idl.Case)
     case = hit.entry.declaration
-    union = here(vendor, fact.path[:-1], Union).entry
-    assert isinstance(case, Case)
-    assert isinstance(union.declaration, Union)
+    union = here(vendor, fact.path[:-1], idl.Union).entry
+    assert isinstance(case, idl.Case)
+    assert isinstance(union.declaration, idl.Union)
     wanted = {spelled(path[-1]).lower() for path in fact.labels}
     found = _chosen(case, union)
     if found is None:
@@ -223,24 +175,24 @@ def labelled(vendor: Vendor, fact: Labelled) -> list[Wrong]:
     return [Wrong(f"case {case.name} for {expected}", observed, case.place)]
 
 
-def _chosen(case: Case, union: Entry) -> set[str] | None:
+def _chosen(case: idl.Case, union: Entry) -> set[str] | None:
     """The enumerators that a case names; None if one of them means nothing."""
-    assert isinstance(union.declaration, Union)
+    assert isinstance(union.declaration, idl.Union)
     selector = resolve(getattr(union.declaration.selector, "name", ""), union.scope)
     around = selector.entry.scope if selector is not None else union.scope
     values = [worth(label, around) or worth(label, union.scope) for label in _expressions(case)]
     return {value.name for value in values if isinstance(value, Chosen)} if all(values) else None
 
 
-def _expressions(case: Case) -> list[Expression]:
+def _expressions(case: idl.Case) -> list[idl.Expression]:
     return [label for label in case.labels if label is not None]
 
 
-def _others(case: Case, union: Entry) -> set[str]:
+def _others(case: idl.Case, union: Entry) -> set[str]:
     """The enumerators that no other case names."""
-    assert isinstance(union.declaration, Union)
+    assert isinstance(union.declaration, idl.Union)
     selector = resolve(getattr(union.declaration.selector, "name", ""), union.scope)
-    if selector is None or not isinstance(selector.entry.declaration, Enum):
+    if selector is None or not isinstance(selector.entry.declaration, idl.Enum):
         return set()
     rest = (_chosen(one, union) or set() for one in union.declaration.cases if one is not case)
     return {one.name.lower() for one in selector.entry.declaration.enumerators} - set(
@@ -248,11 +200,11 @@ def _others(case: Case, union: Entry) -> set[str]:
     )
 
 
-def valued(vendor: Vendor, fact: Valued) -> list[Wrong]:
+def valued(vendor: Vendor, fact: exp.Valued) -> list[Wrong]:
     """Whether a constant has its value."""
-    hit = here(vendor, fact.path, Constant)
+    hit = here(vendor, fact.path, idl.Constant)
     constant = hit.entry.declaration
-    assert isinstance(constant, Constant)
+    assert isinstance(constant, idl.Constant)
     wanted = model_worth(fact.value, vendor.value_kind(fact.type), hit.entry.scope)
     found = worth(constant.value, hit.entry.scope)
     if wanted is None:
@@ -262,11 +214,11 @@ def valued(vendor: Vendor, fact: Valued) -> list[Wrong]:
     return [Wrong(f"{constant.name} = {show_worth(wanted)}", show_worth(found), constant.place)]
 
 
-def templated(vendor: Vendor, fact: Templated) -> list[Wrong]:
+def templated(vendor: Vendor, fact: exp.Templated) -> list[Wrong]:
     """Whether a module has the parameters it must have and none that it may not."""
-    hit = here(vendor, fact.path, Module)
+    hit = here(vendor, fact.path, idl.Module)
     module = hit.entry.declaration
-    assert isinstance(module, Module)
+    assert isinstance(module, idl.Module)
     found = {parameter.name.lower() for parameter in module.parameters}
     names = {path: spelled(vendor.expected.abstract[path].name).lower() for path in fact.allowed}
     required = {names[path] for path in fact.required}
@@ -286,11 +238,11 @@ def templated(vendor: Vendor, fact: Templated) -> list[Wrong]:
     return [Wrong(f"template parameters {expected}", ", ".join(sorted(found)) or "none", module.place)]
 
 
-def parametrized(vendor: Vendor, fact: Parametrized) -> list[Wrong]:
+def parametrized(vendor: Vendor, fact: exp.Parametrized) -> list[Wrong]:
     """Whether a template parameter has the right name and keyword."""
-    hit = here(vendor, fact.path, Module)
+    hit = here(vendor, fact.path, idl.Module)
     module = hit.entry.declaration
-    assert isinstance(module, Module)
+    assert isinstance(module, idl.Module)
     plain = spelled(vendor.expected.abstract[fact.parameter].name)
     found = next((p for p in module.parameters if p.name.lower() == plain.lower()), None)
     if found is None:
@@ -305,40 +257,40 @@ def parametrized(vendor: Vendor, fact: Parametrized) -> list[Wrong]:
     return [] if right else [Wrong(f"parameter {wanted or plain.upper()}", found.name, found.place)]
 
 
-def undeclared(vendor: Vendor, fact: Undeclared) -> list[Wrong]:
+def undeclared(vendor: Vendor, fact: exp.Undeclared) -> list[Wrong]:
     """Whether nothing has been made of what has no mapping."""
     here(vendor, fact.path[:1])
     hit = vendor.at(fact.path)
     if hit is None:
         return []
     declaration = hit.entry.declaration
-    kind = kind_of(declaration)
+    kind = idl.kind_of(declaration)
     if kind in ("connector", "porttype") and vendor.reading("idl-output") == "both":
         return []
     return [Wrong(f"nothing called {fact.path[-1]}", show_kind(kind), declaration.place)]
 
 
-FACTS: Mapping[type[Expected], Callable[[Vendor, Any], list[Wrong]]] = {
-    Declares: declares,
-    Means: means,
-    Selects: selects,
-    Lists: lists,
-    Labelled: labelled,
-    Valued: valued,
-    Templated: templated,
-    Parametrized: parametrized,
-    Undeclared: undeclared,
-    Takes: takes,
-    TakesType: takes_type,
-    Raises: raises,
-    Only: only,
-    Inherits: inherits,
-    Access: access,
-    Getter: getter,
-    NoGetter: no_getter,
-    Numbered: numbered,
-    Tagged: tagged,
-    Indexed: indexed,
-    Defaulted: defaulted,
+FACTS: Mapping[type[exp.Expected], Callable[[Vendor, Any], list[Wrong]]] = {
+    exp.Declares: declares,
+    exp.Means: means,
+    exp.Selects: selects,
+    exp.Lists: lists,
+    exp.Labelled: labelled,
+    exp.Valued: valued,
+    exp.Templated: templated,
+    exp.Parametrized: parametrized,
+    exp.Undeclared: undeclared,
+    exp.Takes: interfaces.takes,
+    exp.TakesType: interfaces.takes_type,
+    exp.Raises: interfaces.raises,
+    exp.Only: interfaces.only,
+    exp.Inherits: interfaces.inherits,
+    exp.Access: interfaces.access,
+    exp.Getter: interfaces.getter,
+    exp.NoGetter: interfaces.no_getter,
+    exp.Numbered: numbered,
+    exp.Tagged: tagged,
+    exp.Indexed: indexed,
+    exp.Defaulted: defaulted,
 }
 """Looks at one expectation; raises ``NotExercised`` if what it is about is not there."""

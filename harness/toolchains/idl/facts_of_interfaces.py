@@ -10,22 +10,11 @@ from ucm_cts.harness.toolchains.idl.language.showing import show
 from ucm_cts.harness.toolchains.idl.results import NotExercised, Wrong
 from ucm_cts.harness.toolchains.idl.subject import here
 from ucm_cts.harness.toolchains.idl.vendor import Vendor, spelled
+from ucm_cts.reference_models.mapping.idl import expectations as exp
 from ucm_cts.reference_models.mapping.idl.declarations import Attribute, Interface, Operation, kind_of
-from ucm_cts.reference_models.mapping.idl.expectations import (
-    Access,
-    Getter,
-    Inherits,
-    NoGetter,
-    Only,
-    Path,
-    Raises,
-    Signature,
-    Takes,
-    TakesType,
-)
 
 
-def takes(vendor: Vendor, fact: Takes) -> list[Wrong]:
+def takes(vendor: Vendor, fact: exp.Takes) -> list[Wrong]:
     """Whether an operation has the parameters it should: directions, order, and names if those count.
 
     Names that are the model's say which parameter is meant, so they may not be in another order.
@@ -46,7 +35,7 @@ def _same_names(found: list[tuple[str, str]], wanted: list[tuple[str, str]]) -> 
     return {name for _, name in found} == {name for _, name in wanted}
 
 
-def takes_type(vendor: Vendor, fact: TakesType) -> list[Wrong]:
+def takes_type(vendor: Vendor, fact: exp.TakesType) -> list[Wrong]:
     """Whether a parameter has its type: that of its name, or of its position if the names are others."""
     hit = here(vendor, fact.path[:-1], Operation)
     operation = hit.entry.declaration
@@ -76,7 +65,7 @@ def _shown(parameters: list[tuple[str, str]]) -> str:
     return ", ".join(" ".join(one) for one in parameters)
 
 
-def raises(vendor: Vendor, fact: Raises) -> list[Wrong]:
+def raises(vendor: Vendor, fact: exp.Raises) -> list[Wrong]:
     """Whether an operation raises just the exceptions it should."""
     hit = here(vendor, fact.path, Operation)
     operation = hit.entry.declaration
@@ -95,7 +84,7 @@ def raises(vendor: Vendor, fact: Raises) -> list[Wrong]:
     return [Wrong(f"{fact.path[-1]} to raise {expected}", observed, operation.place)]
 
 
-def only(vendor: Vendor, fact: Only) -> list[Wrong]:
+def only(vendor: Vendor, fact: exp.Only) -> list[Wrong]:
     """Whether an interface has nothing of a kind, inherited or not, that the model does not have."""
     hit = here(vendor, fact.path, Interface)
     wanted = {id(found.entry) for name in fact.names if (found := vendor.inside(hit, name)) is not None}
@@ -117,7 +106,7 @@ def only(vendor: Vendor, fact: Only) -> list[Wrong]:
     return wrong
 
 
-def _superfluous(vendor: Vendor, hit: Hit, fact: Only) -> list[Hit]:
+def _superfluous(vendor: Vendor, hit: Hit, fact: exp.Only) -> list[Hit]:
     """The interfaces that one inherits from though the model has no such ancestor; none where the IDL leaves that open.
 
     Another fact is about the members of PortElementObject.
@@ -129,7 +118,7 @@ def _superfluous(vendor: Vendor, hit: Hit, fact: Only) -> list[Hit]:
     return [one for one in bases(hit) if id(one.entry) not in due and one.entry.declaration.name != "PortElementObject"]
 
 
-def inherits(vendor: Vendor, fact: Inherits) -> list[Wrong]:
+def inherits(vendor: Vendor, fact: exp.Inherits) -> list[Wrong]:
     """Whether an interface has an ancestor."""
     hit = here(vendor, fact.path, Interface)
     base = vendor.at(fact.base)
@@ -147,7 +136,7 @@ def inherits(vendor: Vendor, fact: Inherits) -> list[Wrong]:
     return [Wrong(f"{interface.name} to inherit from {'::'.join(fact.base)}", observed, interface.place)]
 
 
-def access(vendor: Vendor, fact: Access) -> list[Wrong]:
+def access(vendor: Vendor, fact: exp.Access) -> list[Wrong]:
     """Whether an attribute can be written just if it should."""
     attribute = here(vendor, fact.path, Attribute).entry.declaration
     assert isinstance(attribute, Attribute)
@@ -165,7 +154,7 @@ def operations(hit: Hit) -> Iterator[Hit]:
                 yield Hit(entry, one.bound)
 
 
-def _holder(vendor: Vendor, path: Path, otherwise: Path) -> Hit:
+def _holder(vendor: Vendor, path: exp.Path, otherwise: exp.Path) -> Hit:
     hit = vendor.at(path)
     return (
         hit if hit is not None and isinstance(hit.entry.declaration, Interface) else here(vendor, otherwise, Interface)
@@ -189,7 +178,7 @@ def _getters(vendor: Vendor, holder: Hit, names: tuple[str, ...]) -> list[Hit]:
     return [one for p in patterns for one in operations(holder) if p.fullmatch(one.entry.declaration.name)]
 
 
-def getter(vendor: Vendor, fact: Getter) -> list[Wrong]:
+def getter(vendor: Vendor, fact: exp.Getter) -> list[Wrong]:
     """Whether the operation that hands out a port element is there, takes nothing, and returns the right interface."""
     holder = _holder(vendor, fact.path, fact.otherwise)
     found = _getters(vendor, holder, fact.names)
@@ -223,7 +212,7 @@ def _base_list(hit: Hit) -> tuple[str, ...]:
     return interface.bases if isinstance(interface, Interface) else ()
 
 
-def _returns(vendor: Vendor, hit: Hit, operation: Operation, fact: Getter) -> bool:
+def _returns(vendor: Vendor, hit: Hit, operation: Operation, fact: exp.Getter) -> bool:
     if not fact.signatures:
         return vendor.same(operation.returns, hit.entry.scope, fact.returns, hit.bound)
     name = getattr(operation.returns, "name", "")
@@ -234,7 +223,7 @@ def _returns(vendor: Vendor, hit: Hit, operation: Operation, fact: Getter) -> bo
     return all(_has(vendor, by_name.get(spelled(s.name).lower()), s) for s in fact.signatures)
 
 
-def _has(vendor: Vendor, hit: Hit | None, signature: Signature) -> bool:
+def _has(vendor: Vendor, hit: Hit | None, signature: exp.Signature) -> bool:
     """Whether the operation of a bound interface has the types that are bound."""
     if hit is None:
         return False
@@ -247,7 +236,7 @@ def _has(vendor: Vendor, hit: Hit | None, signature: Signature) -> bool:
     )
 
 
-def no_getter(vendor: Vendor, fact: NoGetter) -> list[Wrong]:
+def no_getter(vendor: Vendor, fact: exp.NoGetter) -> list[Wrong]:
     """Whether there is no operation that hands out what is required, or has no API."""
     holder = _holder(vendor, fact.path, ())
     return [
@@ -257,8 +246,8 @@ def no_getter(vendor: Vendor, fact: NoGetter) -> list[Wrong]:
     ]
 
 
-def _explained(vendor: Vendor, fact: NoGetter, hit: Hit) -> bool:
+def _explained(vendor: Vendor, fact: exp.NoGetter, hit: Hit) -> bool:
     """Whether another port's getter has the name by chance: a port's own name may hold an underscore."""
     name = hit.entry.declaration.name
-    due = (n for one in vendor.expected.facts if isinstance(one, Getter) for n in one.names)
+    due = (n for one in vendor.expected.facts if isinstance(one, exp.Getter) for n in one.names)
     return any(_pattern(n).fullmatch(name) for n in due)

@@ -19,17 +19,7 @@ from ucm_cts.harness.toolchains.idl.language.problems import Problem
 from ucm_cts.harness.toolchains.idl.language.reading import read_files
 from ucm_cts.harness.toolchains.idl.language.scopes import build, every
 from ucm_cts.harness.toolchains.idl.language.showing import type_of
-from ucm_cts.reference_models.mapping.idl.declarations import (
-    Annotated,
-    ArrayOf,
-    Basic,
-    Declaration,
-    Extended,
-    Module,
-    ModuleInstance,
-    Named,
-    SequenceOf,
-)
+from ucm_cts.reference_models.mapping.idl import declarations as idl
 
 PATIENCE = 60.0
 """Seconds until omniidl is given up."""
@@ -85,20 +75,22 @@ def opinion(files: Mapping[str, str]) -> Opinion:
     )
 
 
-def _beyond(files: Mapping[str, tuple[Declaration, ...]]) -> Iterator[str]:
+def _beyond(files: Mapping[str, tuple[idl.Declaration, ...]]) -> Iterator[str]:
     """Why omniidl cannot say anything."""
     for entry in every(build(files)):
         declaration = entry.declaration
-        if isinstance(declaration, ModuleInstance) or (isinstance(declaration, Module) and declaration.parameters):
+        if isinstance(declaration, idl.ModuleInstance) or (
+            isinstance(declaration, idl.Module) and declaration.parameters
+        ):
             yield f"{declaration.name} is a template module or an instance of one"
-        if isinstance(declaration, Extended):
+        if isinstance(declaration, idl.Extended):
             yield f"{declaration.name} is a {declaration.kind}"
         type_ = type_of(declaration)
-        while isinstance(type_, (SequenceOf, ArrayOf, Annotated)):
-            type_ = type_.type if isinstance(type_, Annotated) else type_.element
-        if type_ == Named("bool"):
+        while isinstance(type_, (idl.SequenceOf, idl.ArrayOf, idl.Annotated)):
+            type_ = type_.type if isinstance(type_, idl.Annotated) else type_.element
+        if type_ == idl.Named("bool"):
             yield f"{declaration.name} is of type bool, which clause 12 prints"
-        if isinstance(type_, Basic) and type_.name in NEW_TYPES:
+        if isinstance(type_, idl.Basic) and type_.name in NEW_TYPES:
             yield f"{declaration.name} is of type {type_.name}"
 
 

@@ -15,24 +15,7 @@ from ucm_cts.harness.toolchains.idl.language.scopes import Entry, build, every, 
 from ucm_cts.harness.toolchains.idl.language.showing import show_declaration
 from ucm_cts.harness.toolchains.idl.results import Wrong
 from ucm_cts.harness.toolchains.idl.vendor import Meaning, Vendor
-from ucm_cts.reference_models.mapping.idl.declarations import (
-    Attribute,
-    Declaration,
-    Enum,
-    Exception_,
-    Forward,
-    Interface,
-    Member,
-    Module,
-    Named,
-    Operation,
-    Place,
-    SequenceOf,
-    Struct,
-    Type,
-    Typedef,
-    kind_of,
-)
+from ucm_cts.reference_models.mapping.idl import declarations as idl
 from ucm_cts.reference_models.mapping.idl.expectations import ExpectedIdl
 from ucm_cts.reference_models.mapping.idl.standard import STANDARD
 
@@ -54,7 +37,7 @@ def standard_differences(vendor: Vendor) -> Iterator[tuple[str, list[Wrong]]]:
             yield requirement, list(_different(ours, entry, vendor, theirs))
         if not counterparts and _is_promised(vendor, entry.path):
             name = "::".join(entry.path)
-            yield requirement, [Wrong(f"{kind_of(entry.declaration)} {name}", "no such declaration", Place())]
+            yield requirement, [Wrong(f"{idl.kind_of(entry.declaration)} {name}", "no such declaration", idl.Place())]
 
 
 def _is_promised(vendor: Vendor, path: tuple[str, ...]) -> bool:
@@ -90,11 +73,11 @@ def _counterparts(vendor: Vendor, ours: Entry) -> list[Entry]:
 
 def _outside(entry: Entry) -> bool:
     owner = entry.scope.owner
-    return owner is None or isinstance(owner.declaration, Module)
+    return owner is None or isinstance(owner.declaration, idl.Module)
 
 
 def _kinds(entry: Entry) -> str:
-    return "" if isinstance(entry.declaration, Forward) else kind_of(entry.declaration)
+    return "" if isinstance(entry.declaration, idl.Forward) else idl.kind_of(entry.declaration)
 
 
 def _modelled(vendor: Vendor, path: tuple[str, ...]) -> bool:
@@ -104,21 +87,21 @@ def _modelled(vendor: Vendor, path: tuple[str, ...]) -> bool:
 
 def _different(ours: Vendor, mine: Entry, theirs: Vendor, entry: Entry) -> Iterator[Wrong]:
     expected, found = mine.declaration, entry.declaration
-    if kind_of(expected) != kind_of(found):
-        yield Wrong(f"{kind_of(expected)} {expected.name}", kind_of(found), found.place)
+    if idl.kind_of(expected) != idl.kind_of(found):
+        yield Wrong(f"{idl.kind_of(expected)} {expected.name}", idl.kind_of(found), found.place)
         return
     yield from _other_ancestors(mine, entry)
     alike = _Alike(ours, mine, theirs, entry)
     match expected, found:
-        case Interface(), Interface():
+        case idl.Interface(), idl.Interface():
             yield from _other_operations(alike, expected, found)
-        case ((Struct() | Exception_()), (Struct() | Exception_())):
-            if not alike.members(expected.members, found.members) or (isinstance(found, Struct) and found.base):
+        case ((idl.Struct() | idl.Exception_()), (idl.Struct() | idl.Exception_())):
+            if not alike.members(expected.members, found.members) or (isinstance(found, idl.Struct) and found.base):
                 yield Wrong(show_declaration(expected), show_declaration(found), found.place)
-        case Enum(), Enum():
+        case idl.Enum(), idl.Enum():
             if [one.name for one in expected.enumerators] != [one.name for one in found.enumerators]:
                 yield Wrong(show_declaration(expected), show_declaration(found), found.place)
-        case Typedef(), Typedef():
+        case idl.Typedef(), idl.Typedef():
             if not alike.types(expected.type, found.type):
                 yield Wrong(show_declaration(expected), show_declaration(found), found.place)
 
@@ -134,7 +117,7 @@ def _other_ancestors(mine: Entry, entry: Entry) -> Iterator[Wrong]:
     yield Wrong(f"interface {entry.declaration.name} {wanted}", observed, entry.declaration.place)
 
 
-def _other_operations(alike: _Alike, expected: Interface, found: Interface) -> Iterator[Wrong]:
+def _other_operations(alike: _Alike, expected: idl.Interface, found: idl.Interface) -> Iterator[Wrong]:
     due, there = ([one for one in interface.body if _exported(one)] for interface in (expected, found))
     for one in due:
         namesakes = [other for other in there if other.name == one.name]
@@ -145,11 +128,11 @@ def _other_operations(alike: _Alike, expected: Interface, found: Interface) -> I
     for other in there:
         if all(other.name != one.name for one in due):
             observed = show_declaration(other)
-            yield Wrong(f"no {kind_of(other)} {other.name} in interface {expected.name}", observed, other.place)
+            yield Wrong(f"no {idl.kind_of(other)} {other.name} in interface {expected.name}", observed, other.place)
 
 
-def _exported(declaration: Declaration) -> bool:
-    return isinstance(declaration, (Operation, Attribute))
+def _exported(declaration: idl.Declaration) -> bool:
+    return isinstance(declaration, (idl.Operation, idl.Attribute))
 
 
 @dataclass(frozen=True)
@@ -161,9 +144,9 @@ class _Alike:
     theirs: Vendor
     entry: Entry
 
-    def types(self, expected: Type, found: Type) -> bool:
+    def types(self, expected: idl.Type, found: idl.Type) -> bool:
         """By the name of the type or by its meaning, wherever either stands; another name that is printed will not do."""
-        if isinstance(expected, SequenceOf) and isinstance(found, SequenceOf):
+        if isinstance(expected, idl.SequenceOf) and isinstance(found, idl.SequenceOf):
             bounds = (expected.bound is None) == (found.bound is None)
             return bounds and self.types(expected.element, found.element)
         name = _last(found)
@@ -174,15 +157,15 @@ class _Alike:
         wanted = self.ours.meaning(expected, self.mine.scope)
         return _without_scopes(wanted) == _without_scopes(self.theirs.meaning(found, self.entry.scope))
 
-    def members(self, expected: tuple[Member, ...], found: tuple[Member, ...]) -> bool:
+    def members(self, expected: tuple[idl.Member, ...], found: tuple[idl.Member, ...]) -> bool:
         """Names, types and order."""
         return [one.name for one in expected] == [one.name for one in found] and all(
             self.types(one.type, other.type) for one, other in zip(expected, found, strict=True)
         )
 
-    def operations(self, expected: Declaration, found: Declaration) -> bool:
+    def operations(self, expected: idl.Declaration, found: idl.Declaration) -> bool:
         """Result, directions, types and order of parameters, and exceptions."""
-        if not isinstance(expected, Operation) or not isinstance(found, Operation):
+        if not isinstance(expected, idl.Operation) or not isinstance(found, idl.Operation):
             return False
         taken = [one.direction for one in expected.parameters] == [one.direction for one in found.parameters]
         raised = [sorted(name.rsplit("::", 1)[-1] for name in one.raises) for one in (expected, found)]
@@ -201,8 +184,8 @@ _PORT_ELEMENT = "PortElementObject"
 _NAMES = frozenset(standard.declaration.name for standard in STANDARD)
 
 
-def _last(type_: Type) -> str:
-    return type_.name.rsplit("::", 1)[-1] if isinstance(type_, Named) else ""
+def _last(type_: idl.Type) -> str:
+    return type_.name.rsplit("::", 1)[-1] if isinstance(type_, idl.Named) else ""
 
 
 def _without_scopes(meaning: Meaning) -> Meaning:
@@ -213,5 +196,5 @@ def _without_scopes(meaning: Meaning) -> Meaning:
 
 def _bases(entry: Entry) -> frozenset[str]:
     declaration = entry.declaration
-    names = declaration.bases if isinstance(declaration, Interface) else ()
+    names = declaration.bases if isinstance(declaration, idl.Interface) else ()
     return frozenset(name.rsplit("::", 1)[-1] for name in names)

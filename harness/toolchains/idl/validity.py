@@ -9,30 +9,7 @@ from ucm_cts.harness.toolchains.idl.language.scopes import Entry, Scope, every, 
 from ucm_cts.harness.toolchains.idl.language.showing import type_of
 from ucm_cts.harness.toolchains.idl.results import Wrong
 from ucm_cts.harness.toolchains.idl.vendor import Vendor
-from ucm_cts.reference_models.mapping.idl.declarations import (
-    Annotated,
-    AnnotationDefinition,
-    ArrayOf,
-    Basic,
-    Binary,
-    Case,
-    Constant,
-    Declaration,
-    Expression,
-    Extended,
-    Forward,
-    Interface,
-    Module,
-    ModuleInstance,
-    Named,
-    Operation,
-    SequenceOf,
-    Struct,
-    Type,
-    Unary,
-    Union,
-    kind_of,
-)
+from ucm_cts.reference_models.mapping.idl import declarations as idl
 
 COMPONENTS = ("component", "connector", "porttype")
 """What the equivalent syntax of clause 9 declares (interpretation idl-equivalent-syntax)."""
@@ -46,7 +23,7 @@ def invalid(vendor: Vendor, read: Files) -> Iterator[Wrong]:
     if read.missing or read.problems:
         return
     for entry in every(vendor.root):
-        if isinstance(entry.declaration, AnnotationDefinition) or _in_annotation(entry):
+        if isinstance(entry.declaration, idl.AnnotationDefinition) or _in_annotation(entry):
             continue
         for name in _names(vendor, entry):
             place = entry.declaration.place
@@ -55,21 +32,23 @@ def invalid(vendor: Vendor, read: Files) -> Iterator[Wrong]:
 
 def _in_annotation(entry: Entry) -> bool:
     owner = entry.scope.owner
-    return owner is not None and isinstance(owner.declaration, AnnotationDefinition)
+    return owner is not None and isinstance(owner.declaration, idl.AnnotationDefinition)
 
 
 def _twice(scope: Scope) -> Iterator[Wrong]:
     for entries in scope.members.values():
-        met: dict[str, Declaration] = {}
+        met: dict[str, idl.Declaration] = {}
         for entry in entries:
             declaration = entry.declaration
-            if isinstance(declaration, (Forward, AnnotationDefinition)):
+            if isinstance(declaration, (idl.Forward, idl.AnnotationDefinition)):
                 continue
             first = met.setdefault(declaration.place.file, declaration)
             if first is not declaration:
                 observed = f"{declaration.name} again, after line {first.place.line}"
                 yield Wrong("each name to be declared once", observed, declaration.place)
-            if entry.inner is not None and isinstance(declaration, (Module, Interface, Struct, Union, Operation)):
+            if entry.inner is not None and isinstance(
+                declaration, (idl.Module, idl.Interface, idl.Struct, idl.Union, idl.Operation)
+            ):
                 yield from _twice(entry.inner)
 
 
@@ -77,14 +56,14 @@ def _names(vendor: Vendor, entry: Entry) -> Iterator[str]:
     """The names in a declaration that mean nothing."""
     declaration, scope = entry.declaration, entry.scope
     types = [type_of(declaration), getattr(declaration, "selector", None)]
-    types += declaration.arguments if isinstance(declaration, ModuleInstance) else ()
+    types += declaration.arguments if isinstance(declaration, idl.ModuleInstance) else ()
     for type_ in types:
         if type_ is not None and not vendor.known(type_, scope):
             yield from _of_type(type_)
     scoped = list(_scoped(declaration))
-    expressions = [declaration.value] if isinstance(declaration, Constant) else []
+    expressions = [declaration.value] if isinstance(declaration, idl.Constant) else []
     around = scope
-    if isinstance(declaration, Case):
+    if isinstance(declaration, idl.Case):
         expressions = [label for label in declaration.labels if label is not None]
         selector = _selector(scope)
         around = selector.scope if selector is not None else scope
@@ -95,44 +74,44 @@ def _names(vendor: Vendor, entry: Entry) -> Iterator[str]:
 def _selector(scope: Scope) -> Entry | None:
     """The enumeration that tells the cases of a union apart: its enumerators may stand in the cases without their scope."""
     union = scope.owner
-    if union is None or not isinstance(union.declaration, Union):
+    if union is None or not isinstance(union.declaration, idl.Union):
         return None
     hit = resolve(getattr(union.declaration.selector, "name", ""), union.scope)
     return hit.entry if hit is not None else None
 
 
-def _scoped(declaration: Declaration) -> tuple[str, ...]:
+def _scoped(declaration: idl.Declaration) -> tuple[str, ...]:
     match declaration:
-        case Interface():
+        case idl.Interface():
             return declaration.bases
-        case Operation():
+        case idl.Operation():
             return declaration.raises
-        case ModuleInstance():
+        case idl.ModuleInstance():
             return (declaration.template,)
-        case Struct():
+        case idl.Struct():
             return (declaration.base,) if declaration.base else ()
     return ()
 
 
-def _of_type(type_: Type) -> Iterator[str]:
+def _of_type(type_: idl.Type) -> Iterator[str]:
     match type_:
-        case Named():
+        case idl.Named():
             yield type_.name
-        case SequenceOf() | ArrayOf():
+        case idl.SequenceOf() | idl.ArrayOf():
             yield from _of_type(type_.element)
-        case Annotated():
+        case idl.Annotated():
             yield from _of_type(type_.type)
 
 
-def _of_expression(expression: Expression) -> Iterator[str]:
+def _of_expression(expression: idl.Expression) -> Iterator[str]:
     waiting = [expression]
     while waiting:
         match waiting.pop():
-            case Named(name):
+            case idl.Named(name):
                 yield name
-            case Unary(_, operand):
+            case idl.Unary(_, operand):
                 waiting.append(operand)
-            case Binary(_, left, right):
+            case idl.Binary(_, left, right):
                 waiting += [left, right]
 
 
@@ -140,18 +119,18 @@ def building_blocks(vendor: Vendor, read: Files) -> Iterator[Wrong]:
     """What belongs to other building blocks than those that 12.1 retains, and template modules (12.7)."""
     for entry in every(vendor.root):
         declaration = entry.declaration
-        if isinstance(declaration, Extended):
+        if isinstance(declaration, idl.Extended):
             if declaration.kind not in COMPONENTS or vendor.reading("idl-output") != "both":
-                yield _other(declaration, kind_of(declaration))
-        elif isinstance(declaration, Operation) and declaration.oneway:
+                yield _other(declaration, idl.kind_of(declaration))
+        elif isinstance(declaration, idl.Operation) and declaration.oneway:
             yield _other(declaration, "a oneway operation")
         else:
             type_ = type_of(declaration)
-            if isinstance(type_, Basic) and type_.name in OTHER_TYPES:
+            if isinstance(type_, idl.Basic) and type_.name in OTHER_TYPES:
                 yield _other(declaration, type_.name)
 
 
-def _other(declaration: Declaration, what: str) -> Wrong:
+def _other(declaration: idl.Declaration, what: str) -> Wrong:
     return Wrong(
         "core data types, annotations, basic interfaces and template modules only",
         f"{what} {declaration.name}",

@@ -7,15 +7,7 @@ from collections.abc import Callable, Iterable
 
 from lxml import etree
 
-from ucm_cts.harness.toolchains.corpus.declarations import (
-    NOWHERE,
-    is_interface,
-    member,
-    path,
-    spare,
-    spare_like,
-    spare_unlike,
-)
+from ucm_cts.harness.toolchains.corpus import declarations as decl
 from ucm_cts.harness.toolchains.operators.operator import breaks, keeps
 
 
@@ -47,7 +39,7 @@ def annotated_port(port: etree._Element) -> bool:
 
 
 def _annotated(element: etree._Element) -> bool:
-    definition = spare(element, "AnnotationDefinition")
+    definition = decl.spare(element, "AnnotationDefinition")
     element.insert(0, etree.Element("Annotation", annotationDefinition=definition))
     return bool(definition)
 
@@ -57,7 +49,7 @@ def refines_no_component_type_known(component: etree._Element) -> bool:
     """What is refined is declared nowhere."""
     if component.get("refines"):
         return False
-    component.set("refines", NOWHERE)
+    component.set("refines", decl.NOWHERE)
     return True
 
 
@@ -92,7 +84,7 @@ def _taken_over(component: etree._Element, tag: str) -> bool:
 @breaks("R-9.5.3.1-11", at="ComponentType")
 def refines_itself(component: etree._Element) -> None:
     """The component type is its own ancestor."""
-    component.set("refines", path(component))
+    component.set("refines", decl.path(component))
 
 
 @breaks("R-9.5.3.2-01", at="Port")
@@ -119,7 +111,7 @@ def refines_itself_as_a_port(port: etree._Element) -> bool:
     component = port.getparent()
     if component is None or port.get("refinesPort"):
         return False
-    port.set("refinesPort", f"{path(component)}.{port.get('name')}")
+    port.set("refinesPort", f"{decl.path(component)}.{port.get('name')}")
     return True
 
 
@@ -143,13 +135,13 @@ def _refining(component: etree._Element, names: Callable[[str], Iterable[str]]) 
     for name in names(str(port.get("name"))):
         refining = copy.deepcopy(port)
         refining.set("name", name)
-        refining.set("refinesPort", f"{path(component)}.{port.get('name')}")
+        refining.set("refinesPort", f"{decl.path(component)}.{port.get('name')}")
         child.append(refining)
     return True
 
 
 def _child(component: etree._Element, name: str) -> etree._Element:
-    child = etree.Element("ComponentType", name=name, refines=path(component))
+    child = etree.Element("ComponentType", name=name, refines=decl.path(component))
     component.addnext(child)
     return child
 
@@ -157,14 +149,16 @@ def _child(component: etree._Element, name: str) -> etree._Element:
 @breaks("R-9.5.3.4-01", at="PortRoleSpec")
 def role_of_nothing_known(spec: etree._Element) -> None:
     """The pattern has no such role."""
-    spec.set("role", f"{str(spec.get('role')).rpartition('.')[0]}.{NOWHERE}")
+    spec.set("role", f"{str(spec.get('role')).rpartition('.')[0]}.{decl.NOWHERE}")
 
 
 @breaks("R-9.5.3.4-02", at="InteractionItemBinding", under=("partial-role-bindings=refused",))
 def item_without_type(binding: etree._Element) -> bool:
     """An item that the role involves is not bound."""
     spec = binding.getparent()
-    role = member(spec, str(spec.get("role")), "InteractionPattern", "InteractionRole") if spec is not None else None
+    role = (
+        decl.member(spec, str(spec.get("role")), "InteractionPattern", "InteractionRole") if spec is not None else None
+    )
     item = str(binding.get("item")).rpartition(".")[2]
     if spec is None or role is None or role.find(f"InvolvedItem[@item='{item}']") is None:
         return False
@@ -176,21 +170,21 @@ def item_without_type(binding: etree._Element) -> bool:
 def item_of_nothing_known(binding: etree._Element) -> None:
     """The pattern has no such item."""
     again = copy.deepcopy(binding)
-    again.set("item", f"{str(binding.get('item')).rpartition('.')[0]}.{NOWHERE}")
+    again.set("item", f"{str(binding.get('item')).rpartition('.')[0]}.{decl.NOWHERE}")
     binding.addnext(again)
 
 
 @breaks("R-9.5.3.5-03", at="InteractionItemBinding", under=("abstract-actual-types=refused",))
 def item_stands_for_something_abstract(binding: etree._Element) -> bool:
     """The actual type is abstract."""
-    interface = is_interface(binding, str(binding.get("actualType")))
-    return _with(binding, "actualType", spare(binding, "AbstractInterface" if interface else "AbstractDataType"))
+    interface = decl.is_interface(binding, str(binding.get("actualType")))
+    return _with(binding, "actualType", decl.spare(binding, "AbstractInterface" if interface else "AbstractDataType"))
 
 
 @breaks("R-9.5.3.5-04", at="InteractionItemBinding")
 def item_stands_for_another_nature(binding: etree._Element) -> bool:
     """A data item stands for an interface, or the other way round."""
-    return _with(binding, "actualType", spare_unlike(binding, str(binding.get("actualType"))))
+    return _with(binding, "actualType", decl.spare_unlike(binding, str(binding.get("actualType"))))
 
 
 @breaks("R-9.5.3.5-05", at="InteractionItemBinding", under=("repeated-item-bindings=refused",))
@@ -212,13 +206,15 @@ def nothing_stands_for_an_abstract_type(binding: etree._Element) -> bool:
 @breaks("R-9.5.3.7-01", at="AbstractTypeBinding")
 def binds_no_abstract_type(binding: etree._Element) -> bool:
     """What is bound is concrete."""
-    return _in_port(binding) and _with(binding, "abstractType", spare_like(binding, str(binding.get("abstractType"))))
+    return _in_port(binding) and _with(
+        binding, "abstractType", decl.spare_like(binding, str(binding.get("abstractType")))
+    )
 
 
 @breaks("R-9.5.3.7-02", at="PortTypeSpec", under=("unused-bindings=refused",))
 def binds_an_abstract_type_of_nobody(spec: etree._Element) -> bool:
     """The port type does not use what is bound."""
-    abstract, actual = spare(spec, "AbstractInterface"), spare(spec, "Interface")
+    abstract, actual = decl.spare(spec, "AbstractInterface"), decl.spare(spec, "Interface")
     etree.SubElement(spec, "AbstractTypeBinding", abstractType=abstract, actualType=actual)
     return bool(actual)
 
@@ -226,13 +222,15 @@ def binds_an_abstract_type_of_nobody(spec: etree._Element) -> bool:
 @breaks("R-9.5.3.7-03", at="AbstractTypeBinding")
 def stands_for_nothing_known(binding: etree._Element) -> bool:
     """The actual type is declared nowhere."""
-    return _in_port(binding) and _with(binding, "actualType", NOWHERE)
+    return _in_port(binding) and _with(binding, "actualType", decl.NOWHERE)
 
 
 @breaks("R-9.5.3.7-04", at="AbstractTypeBinding")
 def stands_for_another_kind(binding: etree._Element) -> bool:
     """An abstract data type stands for an interface, or the other way round."""
-    return _in_port(binding) and _with(binding, "actualType", spare_unlike(binding, str(binding.get("actualType"))))
+    return _in_port(binding) and _with(
+        binding, "actualType", decl.spare_unlike(binding, str(binding.get("actualType")))
+    )
 
 
 @breaks("R-9.5.3.7-05", at="AbstractTypeBinding")
@@ -253,7 +251,7 @@ def _with(binding: etree._Element, attribute: str, value: str) -> bool:
 
 def _again(binding: etree._Element) -> bool:
     """Bind the same to another type of the same kind."""
-    other = spare_like(binding, str(binding.get("actualType")))
+    other = decl.spare_like(binding, str(binding.get("actualType")))
     again = copy.deepcopy(binding)
     again.set("actualType", other)
     binding.addnext(again)

@@ -7,14 +7,7 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from ucm_cts.harness.toolchains.corpus.declarations import (
-    NOWHERE,
-    member,
-    path,
-    resolved,
-    spare_interface,
-    spare_like,
-)
+from ucm_cts.harness.toolchains.corpus import declarations as decl
 from ucm_cts.harness.toolchains.operators.aspects import ELSEWHERE
 from ucm_cts.harness.toolchains.operators.operator import breaks, keeps
 
@@ -35,7 +28,7 @@ def composite_with_a_policy(composite: etree._Element) -> bool:
     policy = composite.getroottree().getroot().find(".//ComponentTechnicalPolicy")
     if policy is None:
         return False
-    etree.SubElement(composite, "TechnicalPolicy", name=path(policy))
+    etree.SubElement(composite, "TechnicalPolicy", name=decl.path(policy))
     return True
 
 
@@ -52,7 +45,7 @@ def port_without_delegation(delegation: etree._Element) -> bool:
 @breaks("R-9.5.5.3-01", at="CompositeComponentImplementation")
 def part_of_nothing_known(composite: etree._Element) -> None:
     """The component of a part is declared nowhere."""
-    _part(composite, NOWHERE)
+    _part(composite, decl.NOWHERE)
 
 
 @keeps("R-9.5.5.3-02", at="Part")
@@ -74,7 +67,7 @@ def part_of_the_own_type(composite: etree._Element) -> None:
 @breaks("R-9.5.5.3-04", at="CompositeComponentImplementation")
 def part_of_itself(composite: etree._Element) -> None:
     """The composite is a part of itself."""
-    _part(composite, path(composite))
+    _part(composite, decl.path(composite))
 
 
 @breaks("R-9.5.5.3-04", at="CompositeComponentImplementation")
@@ -82,26 +75,26 @@ def part_of_a_part(composite: etree._Element) -> None:
     """The composite has a part that has the composite as a part."""
     other = etree.Element("CompositeComponentImplementation", name="other_composite", type=str(composite.get("type")))
     composite.addnext(other)
-    _part(other, path(composite))
-    _part(composite, path(other))
+    _part(other, decl.path(composite))
+    _part(composite, decl.path(other))
 
 
 @breaks("R-9.5.5.4-04", at="Connection")
 def end_with_an_api_of_its_own(connection: etree._Element) -> bool:
     """The connector has no port with the port type of one of the ends."""
-    connector = resolved(connection, str(connection.get("definition")), "ConnectorDefinition")
+    connector = decl.resolved(connection, str(connection.get("definition")), "ConnectorDefinition")
     if connector is None:
         return False
     port_type = _stray_port_type(connector)
     if port_type is None:
         return False
-    _stray_end(connection, etree.Element("PortTypeSpec", type=path(port_type)))
+    _stray_end(connection, etree.Element("PortTypeSpec", type=decl.path(port_type)))
     return True
 
 
 def _stray_port_type(beside: etree._Element) -> etree._Element | None:
     """A new port type with an element that no other has, so that it differs by its name and by what it holds."""
-    interface = spare_interface(beside)
+    interface = decl.spare_interface(beside)
     if not interface:
         return None
     port_type = etree.Element("PortType", name="stray_port_type")
@@ -113,13 +106,13 @@ def _stray_port_type(beside: etree._Element) -> etree._Element | None:
 @breaks("R-9.5.5.4-05", at="Connection")
 def end_with_a_role_of_its_own(connection: etree._Element) -> bool:
     """The pattern does not have the role of one of the ends."""
-    pattern = resolved(connection, str(connection.get("definition")), "InteractionPattern")
+    pattern = decl.resolved(connection, str(connection.get("definition")), "InteractionPattern")
     if pattern is None:
         return False
     stray = etree.Element("InteractionPattern", name="stray_pattern")
     etree.SubElement(stray, "InteractionRole", name="stray_role", lowerMultiplicity="0", upperMultiplicity="-1")
     pattern.addnext(stray)
-    _stray_end(connection, etree.Element("PortRoleSpec", role=f"{path(stray)}.stray_role"))
+    _stray_end(connection, etree.Element("PortRoleSpec", role=f"{decl.path(stray)}.stray_role"))
     return True
 
 
@@ -130,7 +123,7 @@ def _stray_end(connection: etree._Element, spec: etree._Element) -> None:
     component = etree.Element("ComponentType", name="stray_type")
     etree.SubElement(component, "Port", name="stray_port").append(spec)
     composite.addnext(component)
-    part = _part(composite, path(component))
+    part = _part(composite, decl.path(component))
     etree.SubElement(connection, "ConnectionEnd", name="stray_end", part=part, port="stray_port")
 
 
@@ -169,16 +162,18 @@ def _role_of(end: etree._Element) -> etree._Element | None:
     if connection is None or spec is None:
         return None
     reference = str(connection.get("definition"))
-    connector = resolved(connection, reference, "ConnectorDefinition")
+    connector = decl.resolved(connection, reference, "ConnectorDefinition")
     if connector is None:
         return _member_role(spec, "role") if spec.tag == "PortRoleSpec" else None
-    port_type = resolved(spec, str(spec.get("type")), "PortType")
-    ports = [p for p in connector.findall("ConnectorPort") if resolved(p, str(p.get("api")), "PortType") is port_type]
+    port_type = decl.resolved(spec, str(spec.get("type")), "PortType")
+    ports = [
+        p for p in connector.findall("ConnectorPort") if decl.resolved(p, str(p.get("api")), "PortType") is port_type
+    ]
     return _member_role(ports[0], "portRole") if len(ports) == 1 else None
 
 
 def _member_role(element: etree._Element, attribute: str) -> etree._Element | None:
-    return member(element, str(element.get(attribute)), "InteractionPattern", "InteractionRole")
+    return decl.member(element, str(element.get(attribute)), "InteractionPattern", "InteractionRole")
 
 
 @breaks("R-9.5.5.4-08", at="Connection", under=("connected-types=check",))
@@ -191,7 +186,7 @@ def ends_that_bind_differently(connection: etree._Element) -> bool:
 def _bound_differently(specs: list[etree._Element]) -> bool:
     """Let the second of two specifications that bind the same bind it to something else."""
     for binding, other in _shared(specs):
-        new = spare_like(other, str(binding.get("actualType")))
+        new = decl.spare_like(other, str(binding.get("actualType")))
         other.set("actualType", new)
         return bool(new)
     return False
@@ -210,14 +205,14 @@ def _shared(specs: list[etree._Element]) -> Iterator[tuple[etree._Element, etree
 @breaks("R-9.5.5.5-01", at="ConnectionEnd")
 def end_at_no_part_known(end: etree._Element) -> bool:
     """The composite has no such part."""
-    end.set("part", NOWHERE)
+    end.set("part", decl.NOWHERE)
     return _in_connection(end)
 
 
 @breaks("R-9.5.5.5-02", at="ConnectionEnd")
 def end_at_no_port_known(end: etree._Element) -> bool:
     """The part has no such port."""
-    end.set("port", NOWHERE)
+    end.set("port", decl.NOWHERE)
     return _in_connection(end)
 
 
@@ -239,7 +234,7 @@ def delegation_to_no_port_known(delegation: etree._Element) -> bool:
     end = delegation.find("ConnectionEnd")
     if end is None:
         return False
-    end.set("port", NOWHERE)
+    end.set("port", decl.NOWHERE)
     return True
 
 
@@ -248,15 +243,15 @@ def delegation_to_another_api(delegation: etree._Element) -> bool:
     """The inner port has a port type of its own."""
     end, composite = delegation.find("ConnectionEnd"), delegation.getparent()
     spec = _spec_of(end) if end is not None else None
-    port_type = resolved(spec, str(spec.get("type")), "PortType") if spec is not None else None
+    port_type = decl.resolved(spec, str(spec.get("type")), "PortType") if spec is not None else None
     other = _stray_port_type(port_type) if port_type is not None else None
     if end is None or composite is None or other is None:
         return False
     component = etree.Element("ComponentType", name="stray_type")
     port = etree.SubElement(component, "Port", name="stray_port")
     composite.addnext(component)
-    etree.SubElement(port, "PortTypeSpec", type=path(other))
-    end.set("part", _part(composite, path(component)))
+    etree.SubElement(port, "PortTypeSpec", type=decl.path(other))
+    end.set("part", _part(composite, decl.path(component)))
     end.set("port", "stray_port")
     return True
 
@@ -266,7 +261,7 @@ def delegation_to_other_bindings(delegation: etree._Element) -> bool:
     """The inner port binds something else."""
     end, composite = delegation.find("ConnectionEnd"), delegation.getparent()
     inner = _spec_of(end) if end is not None else None
-    own = resolved(composite, str(composite.get("type")), "ComponentType") if composite is not None else None
+    own = decl.resolved(composite, str(composite.get("type")), "ComponentType") if composite is not None else None
     outer = _spec_in(own, str(delegation.get("port"))) if own is not None else None
     return inner is not None and outer is not None and _bound_differently([outer, inner])
 
@@ -305,9 +300,9 @@ def _part_of(end: etree._Element) -> etree._Element:
 def _spec_of(end: etree._Element) -> etree._Element | None:
     """The specification of the port of an end, if the part's component type has it itself."""
     part = _part_of(end)
-    component = resolved(part, str(part.get("instanceOf")), *IMPLEMENTATIONS, "ComponentType")
+    component = decl.resolved(part, str(part.get("instanceOf")), *IMPLEMENTATIONS, "ComponentType")
     if component is not None and component.tag in IMPLEMENTATIONS:
-        component = resolved(component, str(component.get("type")), "ComponentType")
+        component = decl.resolved(component, str(component.get("type")), "ComponentType")
     return _spec_in(component, str(end.get("port"))) if component is not None else None
 
 

@@ -8,18 +8,7 @@ from dataclasses import dataclass
 from ucm_cts.adapters.contract.metamodel import components, contracts, interactions
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
-from ucm_cts.reference_models.mapping.cpp import claims
-from ucm_cts.reference_models.mapping.cpp.classes import (
-    Abstract,
-    Class,
-    Connected,
-    Connection,
-    Forms,
-    Getter,
-    Method,
-    Named,
-    Returned,
-)
+from ucm_cts.reference_models.mapping.cpp import claims, classes
 from ucm_cts.reference_models.mapping.cpp.context import DATA, INTERFACES, Context, expect, plain, spelled
 from ucm_cts.reference_models.mapping.cpp.expected import Expected
 from ucm_cts.reference_models.mapping.cpp.interfaces import (
@@ -64,7 +53,7 @@ class Components:
     def __init__(self, context: Context, interfaces: Interfaces) -> None:
         self._context = context
         self._interfaces = interfaces
-        self.abstract: list[Abstract] = []
+        self.abstract: list[classes.Abstract] = []
 
     def expected(self) -> Iterator[Expected]:
         """What is expected of all atomic implementations in C++."""
@@ -89,10 +78,10 @@ class Components:
         policies = list(self._policies(declared))
         abstract = self._abstract(declared, type_, ports, policies)
         owner = self.class_of(declared)
-        yield expect("R-13.7-01", declared, claims.IsAbstract(Named(owner)))
+        yield expect("R-13.7-01", declared, claims.IsAbstract(classes.Named(owner)))
         yield expect("R-13.7-03", declared, claims.Declares(owner))
         yield expect("R-13.3-02", declared, claims.Declares(owner))
-        yield expect("R-13-03", declared, claims.NotCorba(Named(owner)))
+        yield expect("R-13-03", declared, claims.NotCorba(classes.Named(owner)))
         yield from self._life_cycle(declared, owner, abstract)
         for use in ports:
             yield from self._port(declared, owner, abstract, use)
@@ -102,9 +91,9 @@ class Components:
         getters = self._policy_getters(policies)
         for use in getters:
             yield from self._getter(declared, owner, abstract, use, f"get_tp_{use.name}", ("17", "18", "19"))
-        yield expect("R-13.7-20", declared, claims.NothingElse(Named(owner), _members(abstract)))
-        yield expect("R-13.7-02", declared, claims.Implemented(Named(owner), abstract.key))
-        yield expect("R-13.9-01", declared, claims.Implemented(Named(owner), abstract.key))
+        yield expect("R-13.7-20", declared, claims.NothingElse(classes.Named(owner), _members(abstract)))
+        yield expect("R-13.7-02", declared, claims.Implemented(classes.Named(owner), abstract.key))
+        yield expect("R-13.9-01", declared, claims.Implemented(classes.Named(owner), abstract.key))
         yield expect("R-13.9-04", declared, claims.Runs(owner, abstract.key))
 
     def _ports(self, type_: Declared) -> Iterator[Use]:
@@ -171,44 +160,44 @@ class Components:
         kind = "REQUIRED" if self._context.reading("cpp-policy-getters", "component") == "policy" else "PROVIDED"
         return [use for use in policies if use.element.kind == kind]
 
-    def _abstract(self, declared: Declared, type_: Declared, ports: list[Use], policies: list[Use]) -> Abstract:
-        methods: list[Method] = []
+    def _abstract(self, declared: Declared, type_: Declared, ports: list[Use], policies: list[Use]) -> classes.Abstract:
+        methods: list[classes.Method] = []
         for ancestor in reversed(lineage(type_)):
             assert isinstance(ancestor.element, components.ComponentType)
             methods += self._interfaces.members.of_attributes(ancestor.element.attributes, ancestor, ())
-        provided = [Getter(f"get_{u.name}", u.key) for u in ports if u.element.kind == "PROVIDED"]
-        getters = [Getter(f"get_tp_{u.name}", u.key) for u in self._policy_getters(policies)]
+        provided = [classes.Getter(f"get_{u.name}", u.key) for u in ports if u.element.kind == "PROVIDED"]
+        getters = [classes.Getter(f"get_tp_{u.name}", u.key) for u in self._policy_getters(policies)]
         offered = [u for u in policies if u not in self._policy_getters(policies)]
-        abstract = Abstract(
+        abstract = classes.Abstract(
             f"component_{len(self.abstract)}",
             tuple(methods),
             (*provided, *getters),
             True,
-            tuple(Connection(f"{u.name}_Connection", u.key) for u in ports if u.element.kind == "REQUIRED"),
+            tuple(classes.Connection(f"{u.name}_Connection", u.key) for u in ports if u.element.kind == "REQUIRED"),
             () if self._context.reading("cpp-policy-connections") == "none" else tuple(u.key for u in offered),
             owner=self.class_of(declared),
         )
         self.abstract.append(abstract)
         return abstract
 
-    def _life_cycle(self, declared: Declared, owner: str, abstract: Abstract) -> Iterator[Expected]:
+    def _life_cycle(self, declared: Declared, owner: str, abstract: classes.Abstract) -> Iterator[Expected]:
         for function, requirement in LIFE_CYCLE.items():
-            forms = Forms(("void",), ((),))
-            yield expect(requirement, declared, claims.Arity(Named(owner), function, 0, forms))
-            yield expect(requirement, declared, claims.Passed(Named(owner), function, 0, 0, ("void",), forms))
-            yield expect(requirement, declared, claims.Pure(Named(owner), abstract.key, function, 0))
+            forms = classes.Forms(("void",), ((),))
+            yield expect(requirement, declared, claims.Arity(classes.Named(owner), function, 0, forms))
+            yield expect(requirement, declared, claims.Passed(classes.Named(owner), function, 0, 0, ("void",), forms))
+            yield expect(requirement, declared, claims.Pure(classes.Named(owner), abstract.key, function, 0))
 
-    def _startup(self, declared: Declared, owner: str, abstract: Abstract) -> Iterator[Expected]:
-        yield expect("R-13.7-04", declared, claims.Pure(Named(owner), abstract.key, "on_startup", -1))
+    def _startup(self, declared: Declared, owner: str, abstract: classes.Abstract) -> Iterator[Expected]:
+        yield expect("R-13.7-04", declared, claims.Pure(classes.Named(owner), abstract.key, "on_startup", -1))
         yield expect("R-13.7-12", declared, self._startup_of(abstract))
 
-    def _startup_of(self, abstract: Abstract) -> claims.Startup:
+    def _startup_of(self, abstract: classes.Abstract) -> claims.Startup:
         count, more = len(abstract.startup), len(abstract.more)
         must = self._context.reading("cpp-policy-connections") == "on_startup"
         least = count + more if must else count
         return claims.Startup(abstract.owner, least, count + more, tuple(c.name for c in abstract.startup))
 
-    def _port(self, declared: Declared, owner: str, abstract: Abstract, use: Use) -> Iterator[Expected]:
+    def _port(self, declared: Declared, owner: str, abstract: classes.Abstract, use: Use) -> Iterator[Expected]:
         if use.element.kind == "PROVIDED":
             yield from self._getter(declared, owner, abstract, use, f"get_{use.name}", ("14", "15", "16"))
             return
@@ -221,18 +210,24 @@ class Components:
             ("R-13.7-12", claims.StartupTakes(owner, name, self._startup_of(abstract))),
         ):
             yield expect(requirement, declared, claim, _named(use))
-        yield from self._element(declared, use, Connected(owner, name))
+        yield from self._element(declared, use, classes.Connected(owner, name))
 
     def _getter(
-        self, declared: Declared, owner: str, abstract: Abstract, use: Use, name: str, numbers: tuple[str, str, str]
+        self,
+        declared: Declared,
+        owner: str,
+        abstract: classes.Abstract,
+        use: Use,
+        name: str,
+        numbers: tuple[str, str, str],
     ) -> Iterator[Expected]:
         there, pure, reference = (f"R-13.7-{number}" for number in numbers)
-        yield expect(there, declared, claims.Arity(Named(owner), name, 0), _named(use))
-        yield expect(pure, declared, claims.Pure(Named(owner), abstract.key, name, 0), _named(use))
+        yield expect(there, declared, claims.Arity(classes.Named(owner), name, 0), _named(use))
+        yield expect(pure, declared, claims.Pure(classes.Named(owner), abstract.key, name, 0), _named(use))
         yield expect(reference, declared, claims.ReturnsReference(owner, name, use.expected_class), _named(use))
-        yield from self._element(declared, use, Returned(owner, name))
+        yield from self._element(declared, use, classes.Returned(owner, name))
 
-    def _element(self, declared: Declared, use: Use, reached: Class) -> Iterator[Expected]:
+    def _element(self, declared: Declared, use: Use, reached: classes.Class) -> Iterator[Expected]:
         """What is expected of the class of a port element's interface (13.8)."""
         yield expect("R-13.8-02", declared, claims.InheritsElement(reached), _named(use))
         yield expect("R-13.8-03", declared, claims.NoOperations(reached, "PortElementObject"), _named(use))
@@ -248,7 +243,7 @@ class Components:
             assert isinstance(ancestor.element, components.ComponentType)
             for attribute in ancestor.element.attributes:
                 requirements = ("", "", "", "")
-                found = self._interfaces.attribute_claims(attribute, ancestor, Named(owner), key, requirements)
+                found = self._interfaces.attribute_claims(attribute, ancestor, classes.Named(owner), key, requirements)
                 yield from (claim for _, claim in found)
 
 
@@ -256,7 +251,7 @@ def _named(use: Use) -> interactions.PortElement:
     return interactions.PortElement(name=use.name, line=use.owner.line)
 
 
-def _members(abstract: Abstract) -> tuple[str, ...]:
+def _members(abstract: classes.Abstract) -> tuple[str, ...]:
     life_cycle = (*LIFE_CYCLE, "on_startup")
     return (*life_cycle, *(m.name for m in abstract.methods), *(g.name for g in abstract.getters))
 

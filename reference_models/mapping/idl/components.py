@@ -5,30 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.components import (
-    AbstractTypeBinding,
-    AtomicComponentImplementation,
-    ComponentPortTechnicalPolicy,
-    ComponentTechnicalPolicy,
-    ComponentType,
-    Port,
-    PortTypeSpec,
-)
 from ucm_cts.adapters.contract.metamodel.contracts import Interface
 from ucm_cts.adapters.contract.metamodel.interactions import PortElement, PortType
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, lineage
+from ucm_cts.reference_models.mapping.idl import expectations as exp
 from ucm_cts.reference_models.mapping.idl.declarations import Type
-from ucm_cts.reference_models.mapping.idl.expectations import (
-    Declares,
-    Expected,
-    Getter,
-    Inherits,
-    NoGetter,
-    Only,
-    Path,
-    Signature,
-)
 from ucm_cts.reference_models.mapping.idl.interfaces import attribute_facts, signatures
 from ucm_cts.reference_models.mapping.idl.subjects import INTERFACES, TYPES, Bound, Subject, named, path_in, path_of
 from ucm_cts.reference_models.mapping.idl.templates import ABSTRACT, Templates
@@ -48,56 +31,56 @@ class Used(NamedTuple):
     bound: Bound
 
 
-def component_facts(subject: Subject, bodies: Sequence[Subject], templates: Templates) -> Iterator[Expected]:
+def component_facts(subject: Subject, bodies: Sequence[Subject], templates: Templates) -> Iterator[exp.Expected]:
     """All that is expected of a component type; ``bodies`` are its implementations, where getters may be found, too."""
     component = subject.element
-    assert isinstance(component, ComponentType)
-    yield Declares(**subject.about("R-12.8.1-01"), kind="interface")
+    assert isinstance(component, mc.ComponentType)
+    yield exp.Declares(**subject.about("R-12.8.1-01"), kind="interface")
     for attribute in component.attributes:
         yield from attribute_facts(subject, attribute, "R-12.8.1-02")
     names = tuple(attribute.name for attribute in component.attributes)
     ancestors = tuple(path_of(one) for one in lineage(Declared(component, subject.scope)))[1:]
-    yield Only(**subject.about("R-12.8.1-02"), kind="attribute", names=names, ancestors=ancestors)
+    yield exp.Only(**subject.about("R-12.8.1-02"), kind="attribute", names=names, ancestors=ancestors)
     getters = tuple(
         f"get_{port.name}{rest}" for port, _ in ports_of(Declared(component, subject.scope)) for rest in ("", "_*")
     )
-    yield Only(
+    yield exp.Only(
         **subject.about("R-12.8.1-06"),
         kind="operation",
         names=(),
         patterns=(*getters, "get_tp_*"),  # another expectation says which must be there
         ancestors=ancestors,
     )
-    base = subject.scope.find(component.refines, ComponentType) if component.refines else None
+    base = subject.scope.find(component.refines, mc.ComponentType) if component.refines else None
     if base is not None:
-        yield Inherits(**subject.about("R-12.8.1-05"), base=path_of(base))
+        yield exp.Inherits(**subject.about("R-12.8.1-05"), base=path_of(base))
     for port, scope in ports_of(Declared(component, subject.scope)):
         yield from _port(subject, port, scope, bodies, templates)
 
 
-def ports_of(component: Declared) -> list[tuple[Port, Scope]]:
+def ports_of(component: Declared) -> list[tuple[mc.Port, Scope]]:
     """The ports of a component type, inherited ones too, without those that another one of the same name refines."""
-    found: dict[str, tuple[Port, Scope]] = {}
+    found: dict[str, tuple[mc.Port, Scope]] = {}
     for element, scope in lineage(component):
-        assert isinstance(element, ComponentType)
+        assert isinstance(element, mc.ComponentType)
         for port in element.ports:
             found.setdefault(port.name, (port, scope))
     return list(found.values())
 
 
-def body_path(implementation: Subject) -> Path:
+def body_path(implementation: Subject) -> exp.Path:
     """Where the body interface of an implementation stands."""
     return path_in(implementation.scope, implementation.element.name + BODY)
 
 
 def _port(
-    subject: Subject, port: Port, scope: Scope, bodies: Sequence[Subject], templates: Templates
-) -> Iterator[Expected]:
-    holders = [(body_path(body), subject.path, True) for body in bodies] or [(subject.path, Path(), False)]
-    specs = [spec for spec in port.specs if isinstance(spec, PortTypeSpec)]
+    subject: Subject, port: mc.Port, scope: Scope, bodies: Sequence[Subject], templates: Templates
+) -> Iterator[exp.Expected]:
+    holders = [(body_path(body), subject.path, True) for body in bodies] or [(subject.path, exp.Path(), False)]
+    specs = [spec for spec in port.specs if isinstance(spec, mc.PortTypeSpec)]
     if not specs:
         for path, _, _ in holders:
-            yield NoGetter(
+            yield exp.NoGetter(
                 **subject.about("R-12.8.4-02", port, path=path), names=(f"get_{port.name}", f"get_{port.name}_*")
             )
         return
@@ -111,7 +94,7 @@ def _port(
             name = f"get_{port.name}_{element.name}"
             for path, otherwise, needed in holders:
                 if element.kind == "REQUIRED":
-                    yield NoGetter(**subject.about("R-12.8.4-07", port, path=path), names=(name,))
+                    yield exp.NoGetter(**subject.about("R-12.8.4-07", port, path=path), names=(name,))
                 elif element.kind == "PROVIDED":
                     yield from _getters(
                         subject,
@@ -123,7 +106,7 @@ def _port(
                     )
 
 
-def bindings(declared: Sequence[AbstractTypeBinding], scope: Scope) -> Bound:
+def bindings(declared: Sequence[mc.AbstractTypeBinding], scope: Scope) -> Bound:
     """What stands for abstract types, of those bindings that the model gives sense to."""
     pairs = ((scope.find(one.abstract_type, *ABSTRACT), scope.find(one.actual_type, *TYPES)) for one in declared)
     return {path_of(a): named(path_of(b)) for a, b in pairs if a is not None and b is not None}
@@ -144,17 +127,17 @@ def used_interface(element: PortElement, scope: Scope, bound: Bound) -> Used | N
 
 def _getters(
     subject: Subject,
-    place: tuple[Port | ComponentTechnicalPolicy, Path, Path, bool],
+    place: tuple[mc.Port | mc.ComponentTechnicalPolicy, exp.Path, exp.Path, bool],
     names: tuple[str, ...],
     used: Used | None,
     templates: Templates,
     aspects: dict[str, str],
-) -> Iterator[Expected]:
+) -> Iterator[exp.Expected]:
     inner, path, otherwise, needed = place
     for aspect, requirement in aspects.items():
         if aspect == "result" and used is None:
             continue
-        yield Getter(
+        yield exp.Getter(
             **subject.about(requirement, inner, path=path),
             aspect=aspect,
             names=names,
@@ -169,22 +152,22 @@ def _returned(used: Used | None) -> Type:
     return named(path_of(used.interface)) if used is not None else named(())
 
 
-def _bound_signatures(used: Used | None, templates: Templates) -> tuple[Signature, ...]:
+def _bound_signatures(used: Used | None, templates: Templates) -> tuple[exp.Signature, ...]:
     if used is None or not templates.used_by(used.interface):
         return ()
     return signatures(used.interface, used.bound, lambda one: bool(templates.used_by(one)))
 
 
-def implementation_facts(subject: Subject, names: Names, templates: Templates) -> Iterator[Expected]:
+def implementation_facts(subject: Subject, names: Names, templates: Templates) -> Iterator[exp.Expected]:
     """All that is expected of an atomic implementation, except the getters of its ports."""
     implementation = subject.element
-    assert isinstance(implementation, AtomicComponentImplementation)
+    assert isinstance(implementation, mc.AtomicComponentImplementation)
     path = body_path(subject)
-    yield Declares(**subject.about("R-12.8.2-01", path=path), kind="interface")
-    type_ = subject.scope.find(implementation.type, ComponentType)
+    yield exp.Declares(**subject.about("R-12.8.2-01", path=path), kind="interface")
+    type_ = subject.scope.find(implementation.type, mc.ComponentType)
     if type_ is not None:
-        yield Inherits(**subject.about("R-12.8.2-02", path=path), base=path_of(type_))
-    yield Inherits(**subject.about("R-12.8.2-03", path=path), base=COMPONENT_OBJECT)
+        yield exp.Inherits(**subject.about("R-12.8.2-02", path=path), base=path_of(type_))
+    yield exp.Inherits(**subject.about("R-12.8.2-03", path=path), base=COMPONENT_OBJECT)
     for policy, both in policies_of(subject, names):
         yield from _policy(subject, policy, path, both, templates)
 
@@ -192,22 +175,22 @@ def implementation_facts(subject: Subject, names: Names, templates: Templates) -
 def policies_of(subject: Subject, names: Names) -> Iterator[tuple[Declared, bool]]:
     """The component policies that an implementation names or is managed by, and whether it is both."""
     implementation = subject.element
-    assert isinstance(implementation, AtomicComponentImplementation)
-    found = (subject.scope.find(one.name, ComponentTechnicalPolicy) for one in implementation.policies)
+    assert isinstance(implementation, mc.AtomicComponentImplementation)
+    found = (subject.scope.find(one.name, mc.ComponentTechnicalPolicy) for one in implementation.policies)
     mine = {path_of(one): one for one in found if one is not None}
     managing = {}
-    for declared in every(names.root, ComponentTechnicalPolicy):
+    for declared in every(names.root, mc.ComponentTechnicalPolicy):
         policy = declared.element
-        assert isinstance(policy, ComponentTechnicalPolicy)
-        managed = (declared.scope.find(one.name, AtomicComponentImplementation) for one in policy.managed_components)
+        assert isinstance(policy, mc.ComponentTechnicalPolicy)
+        managed = (declared.scope.find(one.name, mc.AtomicComponentImplementation) for one in policy.managed_components)
         if any(one is not None and path_of(one) == subject.path for one in managed):
             managing[path_of(declared)] = declared
     for path, declared in (mine | managing).items():
-        if not isinstance(declared.element, ComponentPortTechnicalPolicy):
+        if not isinstance(declared.element, mc.ComponentPortTechnicalPolicy):
             yield declared, path in mine and path in managing
 
 
-def every(scope: Scope, kind: type[ComponentTechnicalPolicy]) -> Iterator[Declared]:
+def every(scope: Scope, kind: type[mc.ComponentTechnicalPolicy]) -> Iterator[Declared]:
     """All elements of ``kind`` in ``scope`` and in the modules inside it."""
     for declared in (one for members in scope.members.values() for one in members):
         if isinstance(declared.element, kind):
@@ -216,9 +199,11 @@ def every(scope: Scope, kind: type[ComponentTechnicalPolicy]) -> Iterator[Declar
         yield from every(inner, kind)
 
 
-def _policy(subject: Subject, declared: Declared, path: Path, both: bool, templates: Templates) -> Iterator[Expected]:
+def _policy(
+    subject: Subject, declared: Declared, path: exp.Path, both: bool, templates: Templates
+) -> Iterator[exp.Expected]:
     policy, scope = declared
-    assert isinstance(policy, ComponentTechnicalPolicy)
+    assert isinstance(policy, mc.ComponentTechnicalPolicy)
     definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
     if definition is None:
         return
@@ -228,10 +213,10 @@ def _policy(subject: Subject, declared: Declared, path: Path, both: bool, templa
         for element in ancestor.element.port_elements:
             names = policy_getter_names(policy.name, definition.element.name, element.name)
             if element.kind == "REQUIRED":
-                yield NoGetter(**subject.about("R-12.8.5-03", policy, path=path), names=names)
+                yield exp.NoGetter(**subject.about("R-12.8.5-03", policy, path=path), names=names)
             elif element.kind == "PROVIDED":
                 used = used_interface(element, ancestor.scope, bound)
-                place = (policy, path, Path(), both)
+                place = (policy, path, exp.Path(), both)
                 yield from _getters(subject, place, names, used, templates, ASPECTS_OF_POLICIES)
 
 
@@ -244,7 +229,7 @@ def port_element_interfaces(names: Names) -> Iterator[tuple[Subject, bool]]:
     """The interfaces of port elements, each with whether it must be a PortElementObject: those that a policy definition only
     provides need not (interpretation policy-interfaces).
     """
-    found: dict[Path, tuple[Subject, bool]] = {}
+    found: dict[exp.Path, tuple[Subject, bool]] = {}
     for declared in _everything(names.root):
         element, scope = declared
         elements = element.port_elements if isinstance(element, (PortType, TechnicalPolicyDefinition)) else ()
@@ -253,13 +238,13 @@ def port_element_interfaces(names: Names) -> Iterator[tuple[Subject, bool]]:
             if interface is not None:
                 strict = isinstance(element, PortType) or one.kind == "REQUIRED"
                 _note(found, interface, strict)
-        if isinstance(element, (ComponentType, ComponentTechnicalPolicy)):
+        if isinstance(element, (mc.ComponentType, mc.ComponentTechnicalPolicy)):
             for used in _bound_interfaces(declared):
-                _note(found, used, isinstance(element, ComponentType))
+                _note(found, used, isinstance(element, mc.ComponentType))
     yield from found.values()
 
 
-def _note(found: dict[Path, tuple[Subject, bool]], interface: Declared, strict: bool) -> None:
+def _note(found: dict[exp.Path, tuple[Subject, bool]], interface: Declared, strict: bool) -> None:
     path = path_of(interface)
     found[path] = (Subject(*interface), strict or (path in found and found[path][1]))
 
@@ -267,12 +252,12 @@ def _note(found: dict[Path, tuple[Subject, bool]], interface: Declared, strict: 
 def _bound_interfaces(declared: Declared) -> Iterator[Declared]:
     """The interfaces that stand for abstract ones in port elements of a component type's ports or of a policy."""
     element, scope = declared
-    if isinstance(element, ComponentTechnicalPolicy):
+    if isinstance(element, mc.ComponentTechnicalPolicy):
         definition = scope.find(element.technical_policy_definition, TechnicalPolicyDefinition)
         sources = [(one, element.bindings) for one in lineage(definition)] if definition is not None else []
     else:
-        assert isinstance(element, ComponentType)
-        specs = [spec for port in element.ports for spec in port.specs if isinstance(spec, PortTypeSpec)]
+        assert isinstance(element, mc.ComponentType)
+        specs = [spec for port in element.ports for spec in port.specs if isinstance(spec, mc.PortTypeSpec)]
         typed = ((scope.find(spec.type, PortType), spec.bindings) for spec in specs)
         sources = [(found, given) for found, given in typed if found is not None]
     for source, given in sources:

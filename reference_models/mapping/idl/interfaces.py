@@ -12,22 +12,8 @@ from ucm_cts.adapters.contract.metamodel.contracts import (
     Parameter,
 )
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
+from ucm_cts.reference_models.mapping.idl import expectations as exp
 from ucm_cts.reference_models.mapping.idl.declarations import Basic, Type
-from ucm_cts.reference_models.mapping.idl.expectations import (
-    Access,
-    Declares,
-    Defaulted,
-    Expected,
-    Inherits,
-    Lists,
-    Means,
-    Only,
-    Path,
-    Raises,
-    Signature,
-    Takes,
-    TakesType,
-)
 from ucm_cts.reference_models.mapping.idl.subjects import DATA_TYPES, TYPES, Bound, Subject, named, path_of, type_named
 
 VOID = Basic("void")
@@ -38,30 +24,30 @@ UNKNOWN = Basic("")
 DIRECTIONS = {"IN": "in", "OUT": "out", "INOUT": "inout"}
 
 
-def exception_facts(subject: Subject) -> Iterator[Expected]:
+def exception_facts(subject: Subject) -> Iterator[exp.Expected]:
     """All that is expected of an exception."""
     exception = subject.element
     assert isinstance(exception, Exception_)
-    yield Declares(**subject.about("R-12.6-01"), kind="exception")
-    yield Lists(**subject.about("R-12.6-02"), names=tuple(field.name for field in exception.fields))
+    yield exp.Declares(**subject.about("R-12.6-01"), kind="exception")
+    yield exp.Lists(**subject.about("R-12.6-02"), names=tuple(field.name for field in exception.fields))
     for field in exception.fields:
         type_ = type_named(field.type, subject.scope, DATA_TYPES)
         if type_ is not None:
-            yield Means(**subject.about("R-12.6-02", field), type=type_)
+            yield exp.Means(**subject.about("R-12.6-02", field), type=type_)
 
 
-def interface_facts(subject: Subject) -> Iterator[Expected]:
+def interface_facts(subject: Subject) -> Iterator[exp.Expected]:
     """All that is expected of an interface, except what being one of a port element adds."""
     interface = subject.element
     assert isinstance(interface, Interface)
-    yield Declares(**subject.about("R-12.6-03"), kind="interface")
+    yield exp.Declares(**subject.about("R-12.6-03"), kind="interface")
     for inherited in interface.inherited_interfaces:
         base = subject.scope.find(inherited.interface, Interface)
         if base is not None:
-            yield Inherits(**subject.about("R-12.6-09"), base=path_of(base))
+            yield exp.Inherits(**subject.about("R-12.6-09"), base=path_of(base))
     for method in interface.methods:
         yield from _method(subject, method)
-    yield Only(
+    yield exp.Only(
         **subject.about("R-12.6-04"),
         kind="operation",
         names=tuple(method.name for method in interface.methods),
@@ -84,42 +70,42 @@ def arguments_of(method: Method) -> tuple[Parameter, ...]:
     return tuple(p for p in method.parameters if p.direction in DIRECTIONS)
 
 
-def _method(subject: Subject, method: Method) -> Iterator[Expected]:
+def _method(subject: Subject, method: Method) -> Iterator[exp.Expected]:
     scope = subject.scope
-    yield Declares(**subject.about("R-12.6-04", method), kind="operation")
+    yield exp.Declares(**subject.about("R-12.6-04", method), kind="operation")
     arguments = arguments_of(method)
     taken = tuple((DIRECTIONS[p.direction], p.name) for p in arguments)
-    yield Takes(**subject.about("R-12.6-05", method), parameters=taken)
+    yield exp.Takes(**subject.about("R-12.6-05", method), parameters=taken)
     for position, parameter in enumerate(arguments):
         type_ = type_named(parameter.type, scope)
         if type_ is not None:
             about = subject.about("R-12.6-06", method, parameter)
-            yield TakesType(**about, position=position, parameters=taken, type=type_)
+            yield exp.TakesType(**about, position=position, parameters=taken, type=type_)
     result = result_of(method)
     type_ = type_named(result.type, scope) if result is not None else VOID
     if type_ is not None:
-        yield Means(**subject.about("R-12.6-07", method), type=type_)
+        yield exp.Means(**subject.about("R-12.6-07", method), type=type_)
     raised = [scope.find(one.exception, Exception_) for one in method.raised_exceptions]
     exceptions = tuple(path_of(one) for one in raised if one is not None)
     if len(exceptions) == len(raised):
-        yield Raises(**subject.about("R-12.6-08", method), exceptions=exceptions)
+        yield exp.Raises(**subject.about("R-12.6-08", method), exceptions=exceptions)
 
 
 def attribute_facts(
     subject: Subject, attribute: Attribute, requirement: str, needed: bool = True
-) -> Iterator[Expected]:
+) -> Iterator[exp.Expected]:
     """What is expected of an attribute; those of interfaces are not ``needed`` (interpretation idl-interface-attributes)."""
     component = requirement.startswith("R-12.8.1")
-    yield Declares(**subject.about(requirement, attribute), kind="attribute", needed=needed)
+    yield exp.Declares(**subject.about(requirement, attribute), kind="attribute", needed=needed)
     type_ = type_named(attribute.type, subject.scope)
     if type_ is None:
         return
-    yield Means(**subject.about("R-12.8.1-03" if component else requirement, attribute), type=type_)
+    yield exp.Means(**subject.about("R-12.8.1-03" if component else requirement, attribute), type=type_)
     if attribute.mode in ("READ", "READWRITE"):
         readonly = attribute.mode == "READ"
-        yield Access(**subject.about("R-12.8.1-04" if component else requirement, attribute), readonly=readonly)
+        yield exp.Access(**subject.about("R-12.8.1-04" if component else requirement, attribute), readonly=readonly)
     if attribute.default_value is not None:
-        yield Defaulted(**subject.about("R-12.4.1.3-03", attribute), type=type_, value=attribute.default_value)
+        yield exp.Defaulted(**subject.about("R-12.4.1.3-03", attribute), type=type_, value=attribute.default_value)
 
 
 def all_methods(interface: Declared) -> Iterator[tuple[Method, Scope]]:
@@ -131,7 +117,7 @@ def all_methods(interface: Declared) -> Iterator[tuple[Method, Scope]]:
 
 def with_ancestors(interface: Declared) -> Iterator[Declared]:
     """An interface and all that it inherits, directly or not, each once."""
-    waiting, met = [interface], set[Path]()
+    waiting, met = [interface], set[exp.Path]()
     while waiting:
         current = waiting.pop(0)
         element, scope = current
@@ -143,7 +129,7 @@ def with_ancestors(interface: Declared) -> Iterator[Declared]:
         waiting.extend(one for one in found if one is not None)
 
 
-def signatures(interface: Declared, bound: Bound, is_open: Callable[[Declared], bool]) -> tuple[Signature, ...]:
+def signatures(interface: Declared, bound: Bound, is_open: Callable[[Declared], bool]) -> tuple[exp.Signature, ...]:
     """The operations of ``interface``, inherited ones too, with ``bound`` types in place of abstract ones.
 
     A type that ``is_open`` has abstract types inside, which leaves open what it is once they are bound.
@@ -155,9 +141,9 @@ def signatures(interface: Declared, bound: Bound, is_open: Callable[[Declared], 
             return UNKNOWN
         return bound.get(path_of(found), named(path_of(found)))
 
-    def signature(method: Method, scope: Scope) -> Signature:
+    def signature(method: Method, scope: Scope) -> exp.Signature:
         result = result_of(method)
         arguments = ((DIRECTIONS[p.direction], p.name, type_of(p, scope)) for p in arguments_of(method))
-        return Signature(method.name, type_of(result, scope) if result is not None else VOID, tuple(arguments))
+        return exp.Signature(method.name, type_of(result, scope) if result is not None else VOID, tuple(arguments))
 
     return tuple(signature(method, scope) for method, scope in all_methods(interface))

@@ -21,6 +21,7 @@ from ucm_cts.adapters.contract.metamodel.contracts import (
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionModule, PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, each_element
+from ucm_cts.reference_models.mapping.idl import expectations as exp
 from ucm_cts.reference_models.mapping.idl.components import (
     PORT_ELEMENT_OBJECT,
     component_facts,
@@ -28,17 +29,6 @@ from ucm_cts.reference_models.mapping.idl.components import (
     port_element_interfaces,
 )
 from ucm_cts.reference_models.mapping.idl.data_types import constant_facts, data_type_facts, is_mapped, meaning_of
-from ucm_cts.reference_models.mapping.idl.expectations import (
-    Abstract,
-    Declares,
-    Expected,
-    ExpectedIdl,
-    Inherits,
-    Parametrized,
-    Path,
-    Templated,
-    Undeclared,
-)
 from ucm_cts.reference_models.mapping.idl.interfaces import exception_facts, interface_facts
 from ucm_cts.reference_models.mapping.idl.subjects import Subject, path_in, path_of
 from ucm_cts.reference_models.mapping.idl.templates import ABSTRACT, Templates, abstract
@@ -55,11 +45,11 @@ MAPPED = (DataType, Constant, Exception_, Interface, ComponentType, AtomicCompon
 """What becomes a declaration other than a module."""
 
 
-def expected_idl(model: Model) -> ExpectedIdl:
+def expected_idl(model: Model) -> exp.ExpectedIdl:
     """All that clause 12 expects of the IDL of ``model``, a legal one; what an illegal one leaves open is left out."""
     names = Names(model)
     types, unmapped = {}, set()
-    abstract_types: dict[Path, Abstract] = {}
+    abstract_types: dict[exp.Path, exp.Abstract] = {}
     for element, scope in each_element(model, names):
         if isinstance(element, DataType):
             meaning = meaning_of(Declared(element, scope))
@@ -69,13 +59,13 @@ def expected_idl(model: Model) -> ExpectedIdl:
                 unmapped.add(path_in(scope, element.name))
         elif isinstance(element, ABSTRACT):
             abstract_types[path_in(scope, element.name)] = abstract(element)
-    return ExpectedIdl(tuple(_facts(model, names)), types, abstract_types, frozenset(unmapped))
+    return exp.ExpectedIdl(tuple(_facts(model, names)), types, abstract_types, frozenset(unmapped))
 
 
-def _facts(model: Model, names: Names) -> Iterator[Expected]:
+def _facts(model: Model, names: Names) -> Iterator[exp.Expected]:
     templates = Templates(names)
     bodies = _bodies(model, names)
-    seen: set[tuple[Path, type[Element]]] = set()
+    seen: set[tuple[exp.Path, type[Element]]] = set()
     for element, scope in each_element(model, names):
         if not isinstance(element, Named):
             continue
@@ -99,14 +89,14 @@ def _facts(model: Model, names: Names) -> Iterator[Expected]:
                 seen.add((subject.path, type(element)))
                 yield from _module(subject, names, templates)
     for interface, strict in port_element_interfaces(names):
-        yield Declares(**interface.about("R-12.8.3-01"), kind="interface")
+        yield exp.Declares(**interface.about("R-12.8.3-01"), kind="interface")
         if strict:
-            yield Inherits(**interface.about("R-12.8.3-02"), base=PORT_ELEMENT_OBJECT)
+            yield exp.Inherits(**interface.about("R-12.8.3-02"), base=PORT_ELEMENT_OBJECT)
 
 
-def _bodies(model: Model, names: Names) -> dict[Path, list[Subject]]:
+def _bodies(model: Model, names: Names) -> dict[exp.Path, list[Subject]]:
     """The atomic implementations of each component type."""
-    found: dict[Path, list[Subject]] = {}
+    found: dict[exp.Path, list[Subject]] = {}
     for element, scope in each_element(model, names):
         if isinstance(element, AtomicComponentImplementation):
             type_ = scope.find(element.type, ComponentType)
@@ -115,27 +105,27 @@ def _bodies(model: Model, names: Names) -> dict[Path, list[Subject]]:
     return found
 
 
-def _module(subject: Subject, names: Names, templates: Templates) -> Iterator[Expected]:
+def _module(subject: Subject, names: Names, templates: Templates) -> Iterator[exp.Expected]:
     """A module without anything to declare cannot be written in IDL, so it is not needed (interpretation idl-empty-modules)."""
     module = subject.element
     assert isinstance(module, MODULES)
     requirement = MODULE_REQUIREMENTS.get(type(module), "R-12.7-06")
     scope = names.inside(module)
-    yield Declares(**subject.about(requirement), kind="module", needed=_has_declarations(scope))
+    yield exp.Declares(**subject.about(requirement), kind="module", needed=_has_declarations(scope))
     required, allowed = templates.parameters(module)
     own = tuple(path for path in required if path[:-1] == subject.path)
     used = tuple(path for path in required if path not in own)
     if required:
-        yield Templated(**subject.about("R-12.7-08"), required=own, allowed=allowed)
-    yield Templated(**subject.about("R-12.7-12"), required=used, allowed=allowed)
+        yield exp.Templated(**subject.about("R-12.7-08"), required=own, allowed=allowed)
+    yield exp.Templated(**subject.about("R-12.7-12"), required=used, allowed=allowed)
     for path in required:
         keyword = abstract(_abstract_at(path, names)).keyword
-        yield Parametrized(**subject.about("R-12.7-09"), parameter=path)
+        yield exp.Parametrized(**subject.about("R-12.7-09"), parameter=path)
         requirement = "R-12.7-10" if keyword == "interface" else "R-12.7-11"
-        yield Parametrized(**subject.about(requirement), parameter=path, keyword=keyword)
+        yield exp.Parametrized(**subject.about(requirement), parameter=path, keyword=keyword)
 
 
-def _abstract_at(path: Path, names: Names) -> Named:
+def _abstract_at(path: exp.Path, names: Names) -> Named:
     found = names.root.find("::".join(("", *path)), *ABSTRACT)
     assert found is not None
     return found.element
@@ -148,13 +138,13 @@ def _has_declarations(scope: Scope) -> bool:
     return any(_has_declarations(inner) for several in scope.modules.values() for inner in several)
 
 
-def _unmapped(subject: Subject) -> Iterator[Expected]:
+def _unmapped(subject: Subject) -> Iterator[exp.Expected]:
     """Connectors and port types have no mapping; a name that something else of the module has says nothing."""
     element, scope = subject
     if any(isinstance(one.element, (*MAPPED, *MODULES)) for one in scope.members[element.name]):
         return
     connector = isinstance(element, ConnectorDefinition)
-    yield Undeclared(**subject.about("R-12.9-02" if connector else "R-12.9-05"))
+    yield exp.Undeclared(**subject.about("R-12.9-02" if connector else "R-12.9-05"))
     if isinstance(element, ConnectorDefinition):
         for port in element.ports:
-            yield Undeclared(**subject.about("R-12.9-03", port))
+            yield exp.Undeclared(**subject.about("R-12.9-03", port))

@@ -7,25 +7,7 @@ from __future__ import annotations
 
 import msgspec
 
-from ucm_cts.reference_models.mapping.idl.declarations import (
-    Basic,
-    Declaration,
-    Enum,
-    Enumerator,
-    Exception_,
-    Interface,
-    Literal,
-    Member,
-    Module,
-    Named,
-    Operation,
-    Parameter,
-    SequenceOf,
-    Struct,
-    Text,
-    Type,
-    Typedef,
-)
+from ucm_cts.reference_models.mapping.idl import declarations as idl
 
 
 class Standard(msgspec.Struct, frozen=True):
@@ -33,63 +15,63 @@ class Standard(msgspec.Struct, frozen=True):
 
     requirement: str
     modules: tuple[str, ...]
-    declaration: Declaration
+    declaration: idl.Declaration
 
     @property
-    def wrapped(self) -> Declaration:
+    def wrapped(self) -> idl.Declaration:
         """The declaration inside its modules."""
         whole = self.declaration
         for name in reversed(self.modules):
-            whole = Module(name=name, body=(whole,))
+            whole = idl.Module(name=name, body=(whole,))
         return whole
 
 
-_BASIC = {name: Basic(name) for name in ("void", "boolean", "long", "unsigned long")}
+_BASIC = {name: idl.Basic(name) for name in ("void", "boolean", "long", "unsigned long")}
 _NOT_FOUND, _BAD, _ERROR = "NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR"
 _OBJECT = "PortElementObject"
 
 
-def _type(name: str) -> Type:
+def _type(name: str) -> idl.Type:
     if name == "string":
-        return Text()
-    return _BASIC.get(name) or Named(name)
+        return idl.Text()
+    return _BASIC.get(name) or idl.Named(name)
 
 
-def _alias(name: str, type_: str | Type) -> Typedef:
-    return Typedef(name=name, type=_type(type_) if isinstance(type_, str) else type_)
+def _alias(name: str, type_: str | idl.Type) -> idl.Typedef:
+    return idl.Typedef(name=name, type=_type(type_) if isinstance(type_, str) else type_)
 
 
-def _struct(name: str, /, **members: str) -> Struct:
-    return Struct(name=name, members=tuple(Member(name=m, type=_type(t)) for m, t in members.items()))
+def _struct(name: str, /, **members: str) -> idl.Struct:
+    return idl.Struct(name=name, members=tuple(idl.Member(name=m, type=_type(t)) for m, t in members.items()))
 
 
-def _enum(name: str, *values: str) -> Enum:
-    return Enum(name=name, enumerators=tuple(Enumerator(name=value) for value in values))
+def _enum(name: str, *values: str) -> idl.Enum:
+    return idl.Enum(name=name, enumerators=tuple(idl.Enumerator(name=value) for value in values))
 
 
 def _operation(
     name: str, *taken: str, out: tuple[str, ...] = (), returns: str = "void", raises: tuple[str, ...] = ()
-) -> Operation:
-    parameters = [Parameter(name="", direction="in", type=_type(one)) for one in taken]
-    parameters += [Parameter(name="", direction="out", type=_type(one)) for one in out]
-    return Operation(name=name, returns=_type(returns), parameters=tuple(parameters), raises=raises)
+) -> idl.Operation:
+    parameters = [idl.Parameter(name="", direction="in", type=_type(one)) for one in taken]
+    parameters += [idl.Parameter(name="", direction="out", type=_type(one)) for one in out]
+    return idl.Operation(name=name, returns=_type(returns), parameters=tuple(parameters), raises=raises)
 
 
-def _interface(name: str, *operations: Operation, base: str = "") -> Interface:
-    return Interface(name=name, bases=(base,) if base else (), body=operations)
+def _interface(name: str, *operations: idl.Operation, base: str = "") -> idl.Interface:
+    return idl.Interface(name=name, bases=(base,) if base else (), body=operations)
 
 
-_CONTAINER_MODEL: tuple[tuple[str, Declaration], ...] = (
+_CONTAINER_MODEL: tuple[tuple[str, idl.Declaration], ...] = (
     ("R-12.10-29", _struct("Property", name="string", value="string")),
-    ("R-12.10-29", _alias("Properties", SequenceOf(Named("Property")))),
+    ("R-12.10-29", _alias("Properties", idl.SequenceOf(idl.Named("Property")))),
     ("R-12.10-30", _alias("componentId", "long")),
-    ("R-12.10-30", _alias("componentIds", SequenceOf(Named("componentId")))),
+    ("R-12.10-30", _alias("componentIds", idl.SequenceOf(idl.Named("componentId")))),
     ("R-12.10-30", _alias("connectionId", "long")),
-    *(("R-12.10-31", Exception_(name=name)) for name in (_NOT_FOUND, _BAD, _ERROR)),
+    *(("R-12.10-31", idl.Exception_(name=name)) for name in (_NOT_FOUND, _BAD, _ERROR)),
     ("R-12.10-32", _interface(_OBJECT)),
-    ("R-12.10-32", _alias("PortElementObjects", SequenceOf(Named(_OBJECT)))),
+    ("R-12.10-32", _alias("PortElementObjects", idl.SequenceOf(idl.Named(_OBJECT)))),
     ("R-12.10-33", _struct("PortConnection", from_port="string", to_port="PortElementObjects")),
-    ("R-12.10-33", _alias("PortConnections", SequenceOf(Named("PortConnection")))),
+    ("R-12.10-33", _alias("PortConnections", idl.SequenceOf(idl.Named("PortConnection")))),
     (
         "R-12.10-34",
         _interface(
@@ -134,14 +116,14 @@ _CONTAINER_MODEL: tuple[tuple[str, Declaration], ...] = (
     ),
 )
 
-_EXECUTION: tuple[tuple[str, Declaration], ...] = (
+_EXECUTION: tuple[tuple[str, idl.Declaration], ...] = (
     ("R-12.11.1-01", _interface("component_execution_intf", _operation("run"))),
 )
 
-_SERVICES: tuple[tuple[str, Declaration], ...] = (
+_SERVICES: tuple[tuple[str, idl.Declaration], ...] = (
     ("R-12.11.2-01", _alias("ucm_time_t", "unsigned long")),
     ("R-12.11.2-02", _alias("ucm_suseconds_t", "long")),
-    ("R-12.11.2-03", _alias("log_message_t", Text(bound=Literal("integer", "255")))),
+    ("R-12.11.2-03", _alias("log_message_t", idl.Text(bound=idl.Literal("integer", "255")))),
     ("R-12.11.2-04", _struct("ucm_timeval_t", utv_sec="ucm_time_t", utv_usec="ucm_suseconds_t")),
     ("R-12.11.2-05", _enum("log_severity_t", "debug", "info", "warning", "error", "fatal")),
     (
@@ -159,7 +141,7 @@ _SERVICES: tuple[tuple[str, Declaration], ...] = (
     ),
 )
 
-_TIMERS: tuple[tuple[str, Declaration], ...] = (
+_TIMERS: tuple[tuple[str, idl.Declaration], ...] = (
     ("R-12.11.3-01", _enum("timeout_enum_t", "ABSOLUTE_TIME", "RELATIVE_TIME")),
     (
         "R-12.11.3-02",

@@ -5,24 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    INTEGER_RANGES,
-    AbstractDataType,
-    AbstractInterface,
-    Alias,
-    DataType,
-    Interface,
-    PrimitiveInteger,
-)
 from ucm_cts.adapters.contract.metamodel.names import SEPARATOR, Declared, Scope
 from ucm_cts.reference_models.mapping.idl.declarations import Named as Name
 from ucm_cts.reference_models.mapping.idl.declarations import Type
 from ucm_cts.reference_models.mapping.idl.expectations import Path
 
-TYPES = (DataType, AbstractDataType, Interface, AbstractInterface)
-DATA_TYPES = (DataType, AbstractDataType)
-INTERFACES = (Interface, AbstractInterface)
+TYPES = (c.DataType, c.AbstractDataType, c.Interface, c.AbstractInterface)
+DATA_TYPES = (c.DataType, c.AbstractDataType)
+INTERFACES = (c.Interface, c.AbstractInterface)
 
 
 class Subject(NamedTuple):
@@ -71,15 +63,15 @@ def type_named(reference: str, scope: Scope, kinds: tuple[type[Named], ...] = TY
 
 def integer_kind(reference: str, scope: Scope) -> str | None:
     """The kind of integer that ``reference`` means: a kind's own name, or a primitive integer or an alias of one."""
-    if reference in INTEGER_RANGES:
+    if reference in c.INTEGER_RANGES:
         return reference
-    found = scope.find(reference, PrimitiveInteger, Alias) if reference else None
+    found = scope.find(reference, c.PrimitiveInteger, c.Alias) if reference else None
     for _ in range(100):
-        if found is None or isinstance(found.element, PrimitiveInteger):
+        if found is None or isinstance(found.element, c.PrimitiveInteger):
             break
-        assert isinstance(found.element, Alias)
-        found = found.scope.find(found.element.type, PrimitiveInteger, Alias)
-    return found.element.kind if found is not None and isinstance(found.element, PrimitiveInteger) else None
+        assert isinstance(found.element, c.Alias)
+        found = found.scope.find(found.element.type, c.PrimitiveInteger, c.Alias)
+    return found.element.kind if found is not None and isinstance(found.element, c.PrimitiveInteger) else None
 
 
 Bound = Mapping[Path, Type]

@@ -10,22 +10,13 @@ from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinitio
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, each_element
+from ucm_cts.adapters.reference.toolchain.cpp import interfaces
 from ucm_cts.adapters.reference.toolchain.cpp.components import (
     Body,
     body_definition,
     body_of,
     clashing_names,
     ports_used,
-)
-from ucm_cts.adapters.reference.toolchain.cpp.interfaces import (
-    Bindings,
-    base_interfaces,
-    class_name,
-    interface_definition,
-    is_complete,
-    mentioned,
-    needed,
-    resolve,
 )
 from ucm_cts.adapters.reference.toolchain.cpp.names import identifier, namespace
 from ucm_cts.adapters.reference.toolchain.cpp.support import SUPPORT_FILE, support
@@ -75,7 +66,7 @@ class Generation:
         self._names = Names(model)
         self._declared = list(self._walk())
         self._pieces: dict[str, Piece] = {}
-        self._wanted: dict[str, tuple[Declared, Bindings]] = {}
+        self._wanted: dict[str, tuple[Declared, interfaces.Bindings]] = {}
         self._of_port_elements: set[str] = set()
 
     def files(self) -> Mapping[str, str]:
@@ -122,25 +113,25 @@ class Generation:
                 if used.interface is not None:
                     self._want(used.interface, used.bindings, True)
 
-    def _want(self, interface: Declared, bindings: Bindings, of_port_element: bool) -> None:
-        if not is_complete(interface, bindings):
+    def _want(self, interface: Declared, bindings: interfaces.Bindings, of_port_element: bool) -> None:
+        if not interfaces.is_complete(interface, bindings):
             return
         key = _key(interface, bindings)
         if of_port_element:
             self._of_port_elements.add(key)
         if key in self._wanted:
             return
-        self._wanted[key] = (interface, needed(interface, bindings))
+        self._wanted[key] = (interface, interfaces.needed(interface, bindings))
         for used in self._mentioned(interface, bindings):
             if isinstance(used.element, contracts.Interface):
                 self._want(used, bindings, False)
 
-    def _mentioned(self, interface: Declared, bindings: Bindings) -> Iterator[Declared]:
+    def _mentioned(self, interface: Declared, bindings: interfaces.Bindings) -> Iterator[Declared]:
         element = interface.element
         assert isinstance(element, contracts.Interface)
-        yield from base_interfaces(interface)
-        for reference in mentioned(element):
-            yield resolve(reference, interface.scope, bindings)
+        yield from interfaces.base_interfaces(interface)
+        for reference in interfaces.mentioned(element):
+            yield interfaces.resolve(reference, interface.scope, bindings)
 
     def _enter(self, declared: Declared) -> None:
         element, place = declared.element, namespace(declared.scope.path)
@@ -174,10 +165,10 @@ class Generation:
         found = (find(path, declared.scope, *DATA) for path in self._parts(declared))
         return depth < len(self._declared) and any(self._is_abstract(part, depth + 1) for part in found)
 
-    def _enter_interface(self, interface: Declared, bindings: Bindings) -> None:
+    def _enter_interface(self, interface: Declared, bindings: interfaces.Bindings) -> None:
         key = _key(interface, bindings)
-        text = interface_definition(interface, bindings, key in self._of_port_elements, self._standard)
-        bases = {_key(base, bindings) for base in base_interfaces(interface)}
+        text = interfaces.interface_definition(interface, bindings, key in self._of_port_elements, self._standard)
+        bases = {_key(base, bindings) for base in interfaces.base_interfaces(interface)}
         types = [u.path for u in self._mentioned(interface, bindings) if isinstance(u.element, contracts.DataType)]
         self._pieces[key] = Piece(namespace(interface.scope.path), text, [*sorted(bases), *types])
 
@@ -197,7 +188,9 @@ class Generation:
         for module in self._model.modules:
             first.append(_in_namespace(namespace(f"::{module.name}"), ""))
         for interface, bindings in self._wanted.values():
-            first.append(_in_namespace(namespace(interface.scope.path), f"class {class_name(interface, bindings)};\n"))
+            first.append(
+                _in_namespace(namespace(interface.scope.path), f"class {interfaces.class_name(interface, bindings)};\n")
+            )
         return "".join([*first, "\n", *self._ordered(), "\n#endif\n"])
 
     def _ordered(self) -> Iterator[str]:
@@ -234,8 +227,8 @@ def _in_order(pieces: Mapping[str, Piece]) -> list[Piece]:
     return ordered
 
 
-def _key(interface: Declared, bindings: Bindings) -> str:
-    return f"interface {interface.path} {' '.join(actual.path for _, actual in needed(interface, bindings))}"
+def _key(interface: Declared, bindings: interfaces.Bindings) -> str:
+    return f"interface {interface.path} {' '.join(actual.path for _, actual in interfaces.needed(interface, bindings))}"
 
 
 def _in_namespace(place: tuple[str, ...], text: str) -> str:

@@ -12,17 +12,9 @@ from ucm_cts.adapters.contract.metamodel import components, contracts
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, each_element, lineage
+from ucm_cts.adapters.reference.toolchain.cpp import interfaces
 from ucm_cts.adapters.reference.toolchain.cpp.components import Body, Used, body_of
 from ucm_cts.adapters.reference.toolchain.cpp.generator import header_name, is_ours
-from ucm_cts.adapters.reference.toolchain.cpp.interfaces import (
-    PREFIX,
-    Bindings,
-    base_interfaces,
-    passed,
-    qualified_class,
-    resolve,
-    value_type,
-)
 from ucm_cts.adapters.reference.toolchain.cpp.names import identifier, instance, qualified
 from ucm_cts.adapters.reference.toolchain.cpp.types import CPP11, DATA, find
 
@@ -40,7 +32,7 @@ def generate_lwucm(model: Model) -> Mapping[str, str]:
     ]
     header = header_name(model)
     guard = f"{header.upper()}_LWUCM_HPP"
-    stand_ins = {qualified_class(i, b): _stand_in(i, b) for body in bodies for i, b in _interfaces(body)}
+    stand_ins = {interfaces.qualified_class(i, b): _stand_in(i, b) for body in bodies for i, b in _interfaces(body)}
     pieces = [*stand_ins.values(), *map(_glue, bodies)]
     text = (
         f"#ifndef {guard}\n#define {guard}\n\n#include <lwucm/typed.hpp>\n\n"
@@ -49,15 +41,15 @@ def generate_lwucm(model: Model) -> Mapping[str, str]:
     return {f"{header}_lwucm.hpp": text}
 
 
-def _interfaces(body: Body) -> Iterator[tuple[Declared, Bindings]]:
+def _interfaces(body: Body) -> Iterator[tuple[Declared, interfaces.Bindings]]:
     """Those of the body's own port elements; its policies' are the container's."""
     for used in body.used:
         if used.interface is not None and not used.of_policy:
             yield used.interface, used.bindings
 
 
-def _stand_in(interface: Declared, bindings: Bindings) -> str:
-    type_ = qualified_class(interface, bindings)
+def _stand_in(interface: Declared, bindings: interfaces.Bindings) -> str:
+    type_ = interfaces.qualified_class(interface, bindings)
     target = f"::std::shared_ptr< {type_} >"
     lines = [
         "template <>",
@@ -75,28 +67,30 @@ def _stand_in(interface: Declared, bindings: Bindings) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _operations(interface: Declared, bindings: Bindings, seen: list[str]) -> Iterator[str]:
+def _operations(interface: Declared, bindings: interfaces.Bindings, seen: list[str]) -> Iterator[str]:
     """All functions of ``interface``, those it inherits first; what is inherited twice is one."""
     if interface.path in seen:
         return
     seen.append(interface.path)
-    for base in base_interfaces(interface):
+    for base in interfaces.base_interfaces(interface):
         yield from _operations(base, bindings, seen)
     element, scope = interface.element, interface.scope
     assert isinstance(element, contracts.Interface)
     for attribute in element.attributes:
-        found = resolve(attribute.type, scope, bindings)
-        yield from _operation(attribute.name, value_type(found, bindings, CPP11), [])
+        found = interfaces.resolve(attribute.type, scope, bindings)
+        yield from _operation(attribute.name, interfaces.value_type(found, bindings, CPP11), [])
         if attribute.mode != "READ":
-            yield from _operation(attribute.name, "void", [(passed(found, "IN", bindings, CPP11), "value")])
+            yield from _operation(attribute.name, "void", [(interfaces.passed(found, "IN", bindings, CPP11), "value")])
     for method in element.methods:
         result, taken = "void", []
         for parameter in method.parameters:
-            found = resolve(parameter.type, scope, bindings)
+            found = interfaces.resolve(parameter.type, scope, bindings)
             if parameter.direction == "RETURN":
-                result = value_type(found, bindings, CPP11)
+                result = interfaces.value_type(found, bindings, CPP11)
             else:
-                taken.append((passed(found, parameter.direction, bindings, CPP11), identifier(parameter.name)))
+                taken.append(
+                    (interfaces.passed(found, parameter.direction, bindings, CPP11), identifier(parameter.name))
+                )
         yield from _operation(method.name, result, taken)
 
 
@@ -117,7 +111,7 @@ def _operation(name: str, result: str, taken: Sequence[tuple[str, str]]) -> Iter
 
 
 def _glue(body: Body) -> str:
-    class_ = qualified(body.declared, PREFIX)
+    class_ = qualified(body.declared, interfaces.PREFIX)
     provided = [u for u in body.used if u.kind == "PROVIDED" and u.interface is not None and not u.of_policy]
     lines = [
         "template <>",
@@ -192,7 +186,7 @@ def _startup(body: Body) -> Iterator[str]:
     for used in body.required:
         assert used.interface is not None
         kind = "service" if used.of_policy else "required"
-        type_ = qualified_class(used.interface, used.bindings)
+        type_ = interfaces.qualified_class(used.interface, used.bindings)
         given.append(f"connections.{instance(kind, type_)}({numbers[used.of_policy]})")
         numbers[used.of_policy] += 1
     name = " connections" if given else ""
@@ -230,7 +224,7 @@ def _intercept(which: str, used: Sequence[Used]) -> Iterator[str]:
         yield "        switch (n) {"
     for number, one in enumerate(used):
         assert one.interface is not None
-        stand_in = instance("stand_in", qualified_class(one.interface, one.bindings))
+        stand_in = instance("stand_in", interfaces.qualified_class(one.interface, one.bindings))
         yield f"            case {number}: return {stand_in}(target, interceptor);"
     if used:
         yield "        }"

@@ -4,16 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.components import (
-    AbstractTypeBinding,
-    AtomicComponentImplementation,
-    ComponentPortTechnicalPolicy,
-    ComponentTechnicalPolicy,
-    ComponentType,
-    Port,
-    PortTypeSpec,
-)
 from ucm_cts.adapters.contract.metamodel.contracts import AbstractInterface, Interface
 from ucm_cts.adapters.contract.metamodel.interactions import PortElement, PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
@@ -38,18 +30,18 @@ class Components:
         for element, scope in each_element(model, names):
             if isinstance(element, MODULES):
                 self._modules.setdefault(names.inside(element).path, []).append(element)
-            if isinstance(element, ComponentTechnicalPolicy):
+            if isinstance(element, mc.ComponentTechnicalPolicy):
                 for one in element.managed_components:
-                    found = scope.find(one.name, AtomicComponentImplementation)
+                    found = scope.find(one.name, mc.AtomicComponentImplementation)
                     if found is not None:
                         self._managed.setdefault(found.path, []).append(Declared(element, scope))
 
-    def component_type(self, element: ComponentType, scope: Scope) -> Lines:
+    def component_type(self, element: mc.ComponentType, scope: Scope) -> Lines:
         """The equivalent interface, after the template instances that its getters need."""
         before, lines = Lines(), Lines()
         for one in element.attributes:
             lines += attribute(one, scope)
-        base = scope.find(element.refines, ComponentType) if element.refines else None
+        base = scope.find(element.refines, mc.ComponentType) if element.refines else None
         inherited = self._inherited(base) if base is not None else set()
         for port in element.ports:
             for name, result, instances in self.getters(element.name, port, scope):
@@ -62,17 +54,17 @@ class Components:
     def _inherited(self, base: Declared) -> set[str]:
         found = set()
         for ancestor in lineage(base):
-            assert isinstance(ancestor.element, ComponentType)
+            assert isinstance(ancestor.element, mc.ComponentType)
             for port in ancestor.element.ports:
                 found |= {name for name, _, _ in self.getters(ancestor.element.name, port, ancestor.scope)}
         return found
 
-    def getters(self, owner: str, port: Port, scope: Scope) -> list[tuple[str, str, Lines]]:
+    def getters(self, owner: str, port: mc.Port, scope: Scope) -> list[tuple[str, str, Lines]]:
         """For each element that a port provides: the getter's name, its result, and the template instances that needs."""
         found = []
         for spec in port.specs:
-            type_ = scope.find(spec.type, PortType) if isinstance(spec, PortTypeSpec) else None
-            if type_ is None or not isinstance(spec, PortTypeSpec):
+            type_ = scope.find(spec.type, PortType) if isinstance(spec, mc.PortTypeSpec) else None
+            if type_ is None or not isinstance(spec, mc.PortTypeSpec):
                 continue
             assert isinstance(type_.element, PortType)
             bound = bindings(spec.bindings, scope)
@@ -100,13 +92,13 @@ class Components:
                 prefix = name
         return f"{prefix}::{identifier(found.element.name)}", instances
 
-    def body(self, element: AtomicComponentImplementation, scope: Scope) -> Lines:
+    def body(self, element: mc.AtomicComponentImplementation, scope: Scope) -> Lines:
         """The body interface, after the template instances that its getters need."""
-        type_ = scope.find(element.type, ComponentType)
+        type_ = scope.find(element.type, mc.ComponentType)
         assert type_ is not None
         before, lines = Lines(), Lines()
         for policy, around in self.policies(element, scope):
-            assert isinstance(policy, ComponentTechnicalPolicy)
+            assert isinstance(policy, mc.ComponentTechnicalPolicy)
             definition = around.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
             for ancestor in lineage(definition) if definition is not None else []:
                 assert isinstance(ancestor.element, TechnicalPolicyDefinition)
@@ -119,12 +111,12 @@ class Components:
         bases = [absolute(type_), COMPONENT_OBJECT]
         return [*before, *block(f"interface {plain(element.name + '_Body')}{inherits(bases)}", lines)]
 
-    def policies(self, element: AtomicComponentImplementation, scope: Scope) -> list[Declared]:
+    def policies(self, element: mc.AtomicComponentImplementation, scope: Scope) -> list[Declared]:
         """The component policies of an implementation, each once; those of ports are no business of the body's."""
-        named = (scope.find(one.name, ComponentTechnicalPolicy) for one in element.policies)
+        named = (scope.find(one.name, mc.ComponentTechnicalPolicy) for one in element.policies)
         found = {one.path: one for one in named if one is not None}
         found.update({one.path: one for one in self._managed.get(Declared(element, scope).path, [])})
-        return [one for one in found.values() if not isinstance(one.element, ComponentPortTechnicalPolicy)]
+        return [one for one in found.values() if not isinstance(one.element, mc.ComponentPortTechnicalPolicy)]
 
 
 def plain(name: str) -> str:
@@ -138,7 +130,7 @@ def _argument(given: Declared, bound: Bound) -> str:
     return PORT_ELEMENT_OBJECT if isinstance(given.element, AbstractInterface) else "octet"
 
 
-def bindings(declared: Sequence[AbstractTypeBinding], scope: Scope) -> Bound:
+def bindings(declared: Sequence[mc.AbstractTypeBinding], scope: Scope) -> Bound:
     """What stands for abstract types, by their paths."""
     pairs = ((scope.find(one.abstract_type, *ABSTRACT), scope.find(one.actual_type, *TYPES)) for one in declared)
     return {a.path: b for a, b in pairs if a is not None and b is not None}
@@ -151,7 +143,7 @@ def port_element_interfaces(model: Model, names: Names) -> set[str]:
         if isinstance(element, (PortType, TechnicalPolicyDefinition)):
             interfaces = (scope.find(one.interface, Interface) for one in element.port_elements)
             found |= {one.path for one in interfaces if one is not None}
-        if isinstance(element, AbstractTypeBinding):
+        if isinstance(element, mc.AbstractTypeBinding):
             actual = scope.find(element.actual_type, Interface)
             found |= {actual.path} if actual is not None else set()
     return found

@@ -2,27 +2,7 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    INTEGER_RANGES,
-    Alias,
-    Array,
-    Attribute,
-    Constant,
-    DataType,
-    Enumeration,
-    Exception_,
-    Interface,
-    Method,
-    NativeType,
-    PrimitiveBoolean,
-    PrimitiveChar,
-    PrimitiveFloat,
-    PrimitiveInteger,
-    Sequence,
-    StringType,
-    Structure,
-    Union,
-)
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.reference.toolchain.idl.names import TYPES, absolute, identifier
 
@@ -55,35 +35,35 @@ def type_name(reference: str, scope: Scope) -> str:
     return absolute(found)
 
 
-def data_type(element: DataType, scope: Scope) -> Lines:
+def data_type(element: c.DataType, scope: Scope) -> Lines:
     """The declaration of a data type."""
     name = identifier(element.name)
     match element:
-        case PrimitiveInteger() | PrimitiveFloat() | PrimitiveChar():
+        case c.PrimitiveInteger() | c.PrimitiveFloat() | c.PrimitiveChar():
             return [f"{SIGNS.get(element.kind, '')}typedef {BASIC[element.kind]} {name};"]
-        case PrimitiveBoolean():
+        case c.PrimitiveBoolean():
             return [f"typedef boolean {name};"]
-        case Alias():
+        case c.Alias():
             return [f"typedef {type_name(element.type, scope)} {name};"]
-        case StringType():
+        case c.StringType():
             bound = f"<{element.max_size}>" if (element.max_size or 0) > 0 else ""
             return [f"typedef {'wstring' if element.char_base == 'CHAR32' else 'string'}{bound} {name};"]
-        case Sequence():
+        case c.Sequence():
             bound = f", {element.max_size}" if (element.max_size or 0) > 0 else ""
             inner = type_name(element.type, scope)
             return [index(element.index_type, scope), f"typedef sequence<{inner}{bound}> {name};"]
-        case Array():
+        case c.Array():
             sizes = "".join(f"[{one.size}]" for one in element.dimensions)
             inner = type_name(element.type, scope)
             return [index(element.dimensions[0].index_type, scope), f"typedef {inner} {name}{sizes};"]
-        case Structure():
+        case c.Structure():
             fields = [f"{type_name(f.type, scope)} {identifier(f.name)};" for f in element.fields]
             return block(f"struct {name}", fields)
-        case NativeType():
+        case c.NativeType():
             return [f"@MemoryFootprint(max={element.max_size})", f"native {name};"]
-        case Enumeration():
+        case c.Enumeration():
             return enumeration(element, scope)
-        case Union():
+        case c.Union():
             return union(element, scope)
     return []
 
@@ -95,11 +75,11 @@ def block(head: str, lines: Lines) -> Lines:
 
 def index(reference: str, scope: Scope) -> str:
     """The annotation that names an index type."""
-    name = BASIC[reference] if reference in INTEGER_RANGES else type_name(reference, scope)
+    name = BASIC[reference] if reference in c.INTEGER_RANGES else type_name(reference, scope)
     return f'@IndexType(typeid="{name}")'
 
 
-def enumeration(element: Enumeration, scope: Scope) -> Lines:
+def enumeration(element: c.Enumeration, scope: Scope) -> Lines:
     """An enumeration; each enumerator says its value."""
     lines = []
     for number, one in enumerate(element.enumerators, 1):
@@ -108,11 +88,11 @@ def enumeration(element: Enumeration, scope: Scope) -> Lines:
     return [index(element.index_type, scope), *block(f"enum {identifier(element.name)}", lines)]
 
 
-def union(element: Union, scope: Scope) -> Lines:
+def union(element: c.Union, scope: Scope) -> Lines:
     """A union; one whose cases name all enumerators must not have a default."""
-    selector = scope.find(element.selector_type, Enumeration)
+    selector = scope.find(element.selector_type, c.Enumeration)
     assert selector is not None
-    assert isinstance(selector.element, Enumeration)
+    assert isinstance(selector.element, c.Enumeration)
     around = absolute(selector).rpartition("::")[0]
     named = {value.enumerator for case in element.cases for value in case.selector_values}
     complete = named >= {one.name for one in selector.element.enumerators}
@@ -125,38 +105,38 @@ def union(element: Union, scope: Scope) -> Lines:
     return block(f"union {identifier(element.name)} switch ({absolute(selector)})", lines)
 
 
-def constant(element: Constant, scope: Scope) -> Lines:
+def constant(element: c.Constant, scope: Scope) -> Lines:
     """A constant, if its type is one that constants of IDL can have."""
-    found = scope.find(element.type, DataType)
-    while found is not None and isinstance(found.element, Alias):
-        found = found.scope.find(found.element.type, DataType)
+    found = scope.find(element.type, c.DataType)
+    while found is not None and isinstance(found.element, c.Alias):
+        found = found.scope.find(found.element.type, c.DataType)
     if found is None:
         return []
     value = element.value.strip()
     match found.element:
-        case Enumeration():
+        case c.Enumeration():
             value = f"{absolute(found).rpartition('::')[0]}::{identifier(value.rpartition('::')[2])}"
-        case StringType() if not value.startswith(('"', 'L"')):
+        case c.StringType() if not value.startswith(('"', 'L"')):
             value = f'"{element.value}"'
-        case PrimitiveChar() if "'" not in value:
+        case c.PrimitiveChar() if "'" not in value:
             value = f"'{element.value}'"
-        case PrimitiveBoolean():
+        case c.PrimitiveBoolean():
             value = value.upper()
     match found.element:
-        case StringType(char_base="CHAR32") | PrimitiveChar(kind="CHAR32") if not value.startswith("L"):
+        case c.StringType(char_base="CHAR32") | c.PrimitiveChar(kind="CHAR32") if not value.startswith("L"):
             value = f"L{value}"
-        case Structure() | Union() | Array() | Sequence() | NativeType():
+        case c.Structure() | c.Union() | c.Array() | c.Sequence() | c.NativeType():
             return []
     return [f"const {type_name(element.type, scope)} {identifier(element.name)} = {value};"]
 
 
-def exception(element: Exception_, scope: Scope) -> Lines:
+def exception(element: c.Exception_, scope: Scope) -> Lines:
     """An exception."""
     fields = [f"{type_name(f.type, scope)} {identifier(f.name)};" for f in element.fields]
     return block(f"exception {identifier(element.name)}", fields)
 
 
-def attribute(element: Attribute, scope: Scope) -> Lines:
+def attribute(element: c.Attribute, scope: Scope) -> Lines:
     """An attribute of an interface or of a component type, with its default value if it has one."""
     readonly = "readonly " if element.mode == "READ" else ""
     default = ""
@@ -166,7 +146,7 @@ def attribute(element: Attribute, scope: Scope) -> Lines:
     return [f"{default}{readonly}attribute {type_name(element.type, scope)} {identifier(element.name)};"]
 
 
-def method(element: Method, scope: Scope) -> Lines:
+def method(element: c.Method, scope: Scope) -> Lines:
     """An operation."""
     result = next((type_name(p.type, scope) for p in element.parameters if p.direction == "RETURN"), "void")
     arguments = ", ".join(
@@ -174,12 +154,12 @@ def method(element: Method, scope: Scope) -> Lines:
         for p in element.parameters
         if p.direction != "RETURN"
     )
-    raised = [scope.find(one.exception, Exception_) for one in element.raised_exceptions]
+    raised = [scope.find(one.exception, c.Exception_) for one in element.raised_exceptions]
     raises = ", ".join(absolute(one) for one in raised if one is not None)
     return [f"{result} {identifier(element.name)}({arguments})" + (f" raises ({raises});" if raises else ";")]
 
 
-def interface(element: Interface, scope: Scope, extra_bases: Lines) -> Lines:
+def interface(element: c.Interface, scope: Scope, extra_bases: Lines) -> Lines:
     """An interface; ``extra_bases`` stand behind those of the model."""
     bases = [type_name(one.interface, scope) for one in element.inherited_interfaces] + extra_bases
     lines = [line for one in element.attributes for line in attribute(one, scope)]

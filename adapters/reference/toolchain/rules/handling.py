@@ -4,22 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    AbstractDataType,
-    AbstractInterface,
-    Alias,
-    Array,
-    DataType,
-    Interface,
-    Sequence,
-    Structure,
-    Union,
-)
 from ucm_cts.adapters.contract.metamodel.interactions import PortType
 from ucm_cts.adapters.contract.metamodel.names import Declared
 
-_TYPES = (DataType, AbstractDataType, Interface, AbstractInterface)
+_TYPES = (c.DataType, c.AbstractDataType, c.Interface, c.AbstractInterface)
 
 
 def handles(port_type: Declared, wanted: Declared) -> bool:
@@ -46,13 +36,13 @@ def _references(declared: Declared) -> Iterator[str]:
     element = declared.element
     if isinstance(element, PortType | TechnicalPolicyDefinition):
         yield from (port_element.interface for port_element in element.port_elements)
-    elif isinstance(element, Interface):
+    elif isinstance(element, c.Interface):
         yield from (inherited.interface for inherited in element.inherited_interfaces)
         yield from (attribute.type for attribute in element.attributes)
         yield from (parameter.type for method in element.methods for parameter in method.parameters)
-    elif isinstance(element, Structure):
+    elif isinstance(element, c.Structure):
         yield from (field.type for field in element.fields)
-    elif isinstance(element, Union):
+    elif isinstance(element, c.Union):
         yield from (case.type for case in element.cases)
-    elif isinstance(element, Alias | Array | Sequence):
+    elif isinstance(element, c.Alias | c.Array | c.Sequence):
         yield element.type

@@ -4,53 +4,32 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from ucm_cts.adapters.contract.metamodel import components as mc
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalAspect, TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
-from ucm_cts.adapters.contract.metamodel.components import (
-    AtomicComponentImplementation,
-    ComponentTechnicalPolicy,
-    ComponentType,
-    CompositeComponentImplementation,
-    ConnectionEnd,
-    PortDelegation,
-)
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    AbstractDataType,
-    AbstractInterface,
-    AnnotationDefinition,
-    Constant,
-    DataType,
-    Enumeration,
-    Exception_,
-    Interface,
-    Method,
-    Structure,
-    StructureField,
-    Union,
-    UnionCase,
-)
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionPattern, PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
 
-_NEED_NO_NAME = (ConnectionEnd, PortDelegation)
-_HAVE_RULES_OF_THEIR_OWN = (*MODULES, StructureField, UnionCase)
+_NEED_NO_NAME = (mc.ConnectionEnd, mc.PortDelegation)
+_HAVE_RULES_OF_THEIR_OWN = (*MODULES, c.StructureField, c.UnionCase)
 
 _KINDS: tuple[tuple[str, tuple[type[Named], ...]], ...] = (
-    ("data types", (DataType, AbstractDataType)),
-    ("constants", (Constant,)),
-    ("exceptions", (Exception_,)),
-    ("interfaces", (Interface, AbstractInterface)),
-    ("annotation definitions", (AnnotationDefinition,)),
+    ("data types", (c.DataType, c.AbstractDataType)),
+    ("constants", (c.Constant,)),
+    ("exceptions", (c.Exception_,)),
+    ("interfaces", (c.Interface, c.AbstractInterface)),
+    ("annotation definitions", (c.AnnotationDefinition,)),
     ("patterns", (InteractionPattern,)),
     ("connectors", (ConnectorDefinition,)),
     ("port types", (PortType,)),
     ("technical aspects", (TechnicalAspect,)),
     ("technical policy definitions", (TechnicalPolicyDefinition,)),
-    ("component types", (ComponentType,)),
-    ("implementations", (AtomicComponentImplementation, CompositeComponentImplementation)),
-    ("technical policies", (ComponentTechnicalPolicy,)),
+    ("component types", (mc.ComponentType,)),
+    ("implementations", (mc.AtomicComponentImplementation, mc.CompositeComponentImplementation)),
+    ("technical policies", (mc.ComponentTechnicalPolicy,)),
 )
 """What a module declares, by the fields that hold it: names differ within one of them."""
 
@@ -70,15 +49,15 @@ def modules_have_names(module: Module, _scope: Scope) -> Iterator[Complaint]:
         yield module, "a module has an empty name; give it one"
 
 
-@rule("R-9.2.4.3-03", StructureField)
-def fields_have_names(field: StructureField, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.3-03", c.StructureField)
+def fields_have_names(field: c.StructureField, _scope: Scope) -> Iterator[Complaint]:
     """A field must have an identifier."""
     if not field.name:
         yield field, "a structure's field has an empty name; give it one"
 
 
-@rule("R-9.2.4.6-01", UnionCase)
-def cases_have_names(case: UnionCase, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.6-01", c.UnionCase)
+def cases_have_names(case: c.UnionCase, _scope: Scope) -> Iterator[Complaint]:
     """A case contains a name."""
     if not case.name:
         yield case, "a union's case has an empty name; give it one"
@@ -100,46 +79,46 @@ def declarations_of_one_kind_differ(_model: Model, root: Scope) -> Iterator[Comp
             waiting.extend(modules)
 
 
-@rule("R-9.2.4.3-05", Structure)
-def fields_differ(structure: Structure, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.3-05", c.Structure)
+def fields_differ(structure: c.Structure, _scope: Scope) -> Iterator[Complaint]:
     """The identifier tells the fields of a structure apart."""
     yield from repeated(structure.fields, f"fields of structure {structure.name}")
 
 
-@rule("R-9.2.4.6-02", Union)
-def cases_differ(union: Union, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.6-02", c.Union)
+def cases_differ(union: c.Union, _scope: Scope) -> Iterator[Complaint]:
     """The identifier tells the cases of a union apart."""
     yield from repeated(union.cases, f"cases of union {union.name}")
 
 
-@rule("R-9.2.4.8-04", Enumeration)
-def enumerators_differ(enumeration: Enumeration, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.8-04", c.Enumeration)
+def enumerators_differ(enumeration: c.Enumeration, _scope: Scope) -> Iterator[Complaint]:
     """An enumerator is a literal of its own."""
     yield from repeated(enumeration.enumerators, f"enumerators of {enumeration.name}")
 
 
-@rule("R-9.1.4.1-02", AnnotationDefinition, ConnectorDefinition, TechnicalPolicyDefinition)
+@rule("R-9.1.4.1-02", c.AnnotationDefinition, ConnectorDefinition, TechnicalPolicyDefinition)
 def configuration_parameters_differ(
-    owner: AnnotationDefinition | ConnectorDefinition | TechnicalPolicyDefinition, _scope: Scope
+    owner: c.AnnotationDefinition | ConnectorDefinition | TechnicalPolicyDefinition, _scope: Scope
 ) -> Iterator[Complaint]:
     """A value could not tell two parameters of one name apart."""
     yield from repeated(owner.configuration_parameters, f"configuration parameters of {owner.name}")
 
 
-@rule("R-9.1.4.1-02", Exception_)
-def exception_fields_differ(exception: Exception_, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.1.4.1-02", c.Exception_)
+def exception_fields_differ(exception: c.Exception_, _scope: Scope) -> Iterator[Complaint]:
     """The identifier tells the fields of an exception apart."""
     yield from repeated(exception.fields, f"fields of exception {exception.name}")
 
 
-@rule("R-9.1.4.1-02", Interface, ComponentType)
-def attributes_differ(owner: Interface | ComponentType, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.1.4.1-02", c.Interface, mc.ComponentType)
+def attributes_differ(owner: c.Interface | mc.ComponentType, _scope: Scope) -> Iterator[Complaint]:
     """The identifier tells the attributes of one owner apart."""
     yield from repeated(owner.attributes, f"attributes of {owner.name}")
 
 
-@rule("R-9.1.4.1-02", Method)
-def parameters_differ(method: Method, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.1.4.1-02", c.Method)
+def parameters_differ(method: c.Method, _scope: Scope) -> Iterator[Complaint]:
     """The identifier tells the parameters of a method apart."""
     yield from repeated(method.parameters, f"parameters of method {method.name}")
 
@@ -163,14 +142,14 @@ def port_elements_differ(owner: PortType | TechnicalPolicyDefinition, _scope: Sc
     yield from repeated(owner.port_elements, f"port elements of {owner.name}")
 
 
-@rule("R-9.1.4.1-02", ComponentType)
-def ports_differ(component_type: ComponentType, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.1.4.1-02", mc.ComponentType)
+def ports_differ(component_type: mc.ComponentType, _scope: Scope) -> Iterator[Complaint]:
     """Connections could not tell two ports of one name apart."""
     yield from repeated(component_type.ports, f"ports of component type {component_type.name}")
 
 
-@rule("R-9.1.4.1-02", CompositeComponentImplementation)
-def parts_differ(composite: CompositeComponentImplementation, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.1.4.1-02", mc.CompositeComponentImplementation)
+def parts_differ(composite: mc.CompositeComponentImplementation, _scope: Scope) -> Iterator[Complaint]:
     """Connections could not tell two parts of one name apart."""
     yield from repeated(composite.parts, f"parts of {composite.name}")
 

@@ -12,19 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ucm_cts.harness.toolchains.commands.bounded import Ended
-from ucm_cts.harness.toolchains.cpp.compiling import (
-    LAYOUT,
-    Compiled,
-    Compiler,
-    Error,
-    Headers,
-    Layout,
-    can_be_named,
-    compile_text,
-    is_tag,
-    judged_like_all,
-    run,
-)
+from ucm_cts.harness.toolchains.cpp import compiling
 from ucm_cts.harness.toolchains.cpp.linking import Linked, linked
 from ucm_cts.harness.toolchains.cpp.listing import LISTED, Listed, listed
 from ucm_cts.harness.toolchains.cpp.probes.bodies import implementation, implemented, runs
@@ -69,7 +57,7 @@ class Seen:
     bodies: dict[str, str] = field(default_factory=dict)
     support: dict[str, str] = field(default_factory=dict)
     kept: set[int] = field(default_factory=set)
-    loose: list[Error] = field(default_factory=list)
+    loose: list[compiling.Error] = field(default_factory=list)
     problem: str = ""
 
 
@@ -77,31 +65,31 @@ def check(
     expected: ExpectedCpp,
     folder: Path,
     headers: tuple[str, ...],
-    compiler: Compiler,
-    layout: Layout = LAYOUT,
+    compiler: compiling.Compiler,
+    layout: compiling.Layout = compiling.LAYOUT,
 ) -> Comparison:
     """What the headers, whose names are relative to ``folder``, come to. Raises ``NoCompiler``."""
-    return _Comparing(expected, Headers(folder.resolve(), headers, layout), compiler).compared()
+    return _Comparing(expected, compiling.Headers(folder.resolve(), headers, layout), compiler).compared()
 
 
 def check_files(
     expected: ExpectedCpp,
     files: Mapping[str, str],
     headers: tuple[str, ...],
-    compiler: Compiler,
-    layout: Layout = LAYOUT,
+    compiler: compiling.Compiler,
+    layout: compiling.Layout = compiling.LAYOUT,
 ) -> Comparison:
     """As ``check`` for ``files``, texts by their names. Raises ``NoCompiler``."""
     with tempfile.TemporaryDirectory(prefix="ucm-cts-cpp-") as folder:
         for name, text in files.items():
             path = Path(folder) / name
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(judged_like_all(text), encoding="utf-8")
+            path.write_text(compiling.judged_like_all(text), encoding="utf-8")
         return check(expected, Path(folder), headers, compiler, layout)
 
 
 class _Comparing:
-    def __init__(self, expected: ExpectedCpp, headers: Headers, compiler: Compiler) -> None:
+    def __init__(self, expected: ExpectedCpp, headers: compiling.Headers, compiler: compiling.Compiler) -> None:
         self._expected = expected
         self._headers = headers
         self._compiler = compiler
@@ -144,11 +132,11 @@ class _Comparing:
             return []  # another one took the compiler too long, or too far, for anything more to be asked of it
         own = folder / f"alone-{self._headers.names.index(name)}"
         own.mkdir()
-        if not can_be_named(name):
+        if not compiling.can_be_named(name):
             return [self._of_header(repr(name), "no #include can name it", ("", 0))]
         twice = f"{self._headers.include(name)}\n" * 2
         text = f"{twice}{redefined(self._expected.standard)}int main() {{ return 0; }}\n"
-        compiled = compile_text(text, own, self._headers, self._expected.standard, self._compiler)
+        compiled = compiling.compile_text(text, own, self._headers, self._expected.standard, self._compiler)
         if compiled.problem:
             self._seen.problem = f"{name}: {compiled.problem}"
             return [self._of_header(name, compiled.problem, (name, 0))]
@@ -165,7 +153,7 @@ class _Comparing:
         for attempt in range(_ROUNDS):
             left = [c for c in self._checks if self._is_left(c)]
             made, token = folder / f"probes-{attempt}", secrets.token_hex(8)
-            compiled = compile_text(
+            compiled = compiling.compile_text(
                 self._unit(left, made.with_suffix(".results"), token),
                 folder,
                 self._headers,
@@ -175,7 +163,7 @@ class _Comparing:
                 self._linked.words,
             )
             if not compiled.errors and not compiled.problem:
-                ended = run([str(made)], folder, self._compiler)
+                ended = compiling.run([str(made)], folder, self._compiler)
                 if self._ran(ended, results(made.with_suffix(".results"), token), left):
                     return
                 continue
@@ -203,14 +191,14 @@ class _Comparing:
                 broken.add(abstract.key)
         return broken
 
-    def _sort(self, compiled: Compiled) -> bool:
+    def _sort(self, compiled: compiling.Compiled) -> bool:
         """Take note of errors; False if they leave nothing to try again."""
         before = len(self._seen.failed) + len(self._seen.bodies) + len(self._seen.support)
         probes_alone = any(error.file.startswith("R-") for error in compiled.errors)
         self._seen.problem = compiled.problem
         for error in compiled.errors:
             kind, _, rest = error.file.partition("#")
-            if not is_tag(error.file):
+            if not compiling.is_tag(error.file):
                 self._seen.loose.append(error)  # not of one probe
             elif kind == "body" and not probes_alone:  # else it may follow from what the probe found
                 self._seen.bodies.setdefault(rest, error.message)
@@ -353,21 +341,23 @@ class _Comparing:
 
     def _difference(self, one: Check, observed: str, notes: tuple[tuple[str, int], ...]) -> Difference:
         expected = one.expected
-        place = next((self._relative(f, n) for f, n in notes if f and not is_tag(f)), None) or self._found(one)
+        place = next((self._relative(f, n) for f, n in notes if f and not compiling.is_tag(f)), None) or self._found(
+            one
+        )
         return Difference(
             expected.requirement, one.rule, expected.element, expected.line, one.text.says, observed, *place
         )
 
-    def _place_in(self, name: str, error: Error) -> tuple[str, int]:
+    def _place_in(self, name: str, error: compiling.Error) -> tuple[str, int]:
         """Where ``error`` is; for a keyword where the header ``name`` defines it."""
         keyword = keyword_of(error.message)
         text = (self._headers.folder / name).read_text(encoding="utf-8", errors="replace") if keyword else ""
         defined = re.search(rf"^[ \t]*#[ \t]*define[ \t]+{keyword}\b", text, re.MULTILINE) if keyword else None
         return (name, text.count("\n", 0, defined.start()) + 1) if defined else self._place(error)
 
-    def _place(self, error: Error) -> tuple[str, int]:
+    def _place(self, error: compiling.Error) -> tuple[str, int]:
         places = [(error.file, error.line), *error.notes]
-        return next((p for p in (self._relative(f, n) for f, n in places if not is_tag(f)) if p), ("", 0))
+        return next((p for p in (self._relative(f, n) for f, n in places if not compiling.is_tag(f)) if p), ("", 0))
 
     def _relative(self, file: str, line: int) -> tuple[str, int] | None:
         path = Path(file)
@@ -385,7 +375,7 @@ class _Comparing:
         return "", 0
 
 
-def _told_by(error: Error) -> str:
+def _told_by(error: compiling.Error) -> str:
     keyword = keyword_of(error.message)
     return f"it redefines the keyword {keyword}" if keyword else error.message
 

@@ -5,21 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from ucm_cts.reference_models.mapping.idl.declarations import (
-    AnnotationDefinition,
-    Declaration,
-    Enum,
-    Exception_,
-    Forward,
-    Interface,
-    Module,
-    ModuleInstance,
-    Operation,
-    Struct,
-    TemplateParameter,
-    Type,
-    Union,
-)
+from ucm_cts.reference_models.mapping.idl import declarations as idl
 
 MOST_STEPS = 100
 """Steps that following names, bases or aliases may take before it counts as a circle."""
@@ -36,7 +22,7 @@ class Scope:
     def own(self, name: str) -> Entry | None:
         """The declaration of ``name`` here, rather than one that only announces it; IDL does not tell cases apart."""
         entries = self.members.get(name.lower(), [])
-        return next((e for e in entries if not isinstance(e.declaration, Forward)), entries[0] if entries else None)
+        return next((e for e in entries if not isinstance(e.declaration, idl.Forward)), entries[0] if entries else None)
 
     @property
     def entries(self) -> Iterator[Entry]:
@@ -51,7 +37,7 @@ class Entry:
     an instance is looked for, lest that lead in a circle.
     """
 
-    declaration: Declaration
+    declaration: idl.Declaration
     scope: Scope
     inner: Scope | None = None
     followed: bool = False
@@ -71,7 +57,7 @@ class Entry:
 class Actual:
     """What stands for the parameter of a template: a type, and where its names are looked up."""
 
-    type: Type
+    type: idl.Type
     scope: Scope
     bound: Bound
 
@@ -90,7 +76,7 @@ class Hit:
     bound: Bound = field(default_factory=dict)
 
 
-def build(files: Mapping[str, Sequence[Declaration]]) -> Scope:
+def build(files: Mapping[str, Sequence[idl.Declaration]]) -> Scope:
     """The root scope of all files together; a module that is opened again goes on."""
     root = Scope()
     for declarations in files.values():
@@ -99,10 +85,10 @@ def build(files: Mapping[str, Sequence[Declaration]]) -> Scope:
     return root
 
 
-def _enter(declaration: Declaration, scope: Scope) -> None:
+def _enter(declaration: idl.Declaration, scope: Scope) -> None:
     known = scope.members.setdefault(declaration.name.lower(), [])
-    if isinstance(declaration, Module):
-        entry = next((e for e in known if isinstance(e.declaration, Module)), None)
+    if isinstance(declaration, idl.Module):
+        entry = next((e for e in known if isinstance(e.declaration, idl.Module)), None)
         if entry is None:
             entry = Entry(declaration, scope)
             entry.inner = Scope(scope, entry)
@@ -118,20 +104,20 @@ def _enter(declaration: Declaration, scope: Scope) -> None:
         entry.inner = Scope(scope, entry)
         for one in inner:
             _enter(one, entry.inner)
-    if isinstance(declaration, Enum):
+    if isinstance(declaration, idl.Enum):
         for enumerator in declaration.enumerators:
             scope.members.setdefault(enumerator.name.lower(), []).append(Entry(enumerator, scope))
 
 
-def _inside(declaration: Declaration) -> Sequence[Declaration]:
+def _inside(declaration: idl.Declaration) -> Sequence[idl.Declaration]:
     match declaration:
-        case Struct() | Exception_() | AnnotationDefinition():
+        case idl.Struct() | idl.Exception_() | idl.AnnotationDefinition():
             return declaration.members
-        case Union():
+        case idl.Union():
             return declaration.cases
-        case Interface():
+        case idl.Interface():
             return declaration.body
-        case Operation():
+        case idl.Operation():
             return declaration.parameters
     return ()
 
@@ -148,7 +134,7 @@ def resolve(name: str, scope: Scope, bound: Bound = NOTHING) -> Hit | None:
         return _descend(_start(around, parts[1], bound), parts[2:])
     current: Scope | None = scope
     while current is not None:
-        if current.owner is None or isinstance(current.owner.declaration, (Module, Interface)):
+        if current.owner is None or isinstance(current.owner.declaration, (idl.Module, idl.Interface)):
             found = _descend(_start(current, parts[0], bound), parts[1:])
             if found is not None:
                 return found
@@ -158,7 +144,7 @@ def resolve(name: str, scope: Scope, bound: Bound = NOTHING) -> Hit | None:
 
 def _start(scope: Scope, name: str, bound: Bound) -> Hit | None:
     owner = scope.owner
-    if owner is not None and isinstance(owner.declaration, Interface):
+    if owner is not None and isinstance(owner.declaration, idl.Interface):
         return member(Hit(owner, bound), name)
     entry = scope.own(name)
     return Hit(entry, bound) if entry is not None else None
@@ -174,7 +160,7 @@ def _descend(hit: Hit | None, parts: Sequence[str]) -> Hit | None:
 
 def member(hit: Hit, name: str) -> Hit | None:
     """What ``name`` means in the scope that ``hit`` opens, inherited names included."""
-    if isinstance(hit.entry.declaration, ModuleInstance):
+    if isinstance(hit.entry.declaration, idl.ModuleInstance):
         template = _instantiated(hit)
         return member(template, name) if template is not None else None
     inner = hit.entry.inner
@@ -190,7 +176,7 @@ def member(hit: Hit, name: str) -> Hit | None:
 
 def _instantiated(hit: Hit) -> Hit | None:
     instance = hit.entry.declaration
-    assert isinstance(instance, ModuleInstance)
+    assert isinstance(instance, idl.ModuleInstance)
     if hit.entry.followed:
         return None
     hit.entry.followed = True
@@ -198,7 +184,7 @@ def _instantiated(hit: Hit) -> Hit | None:
         template = resolve(instance.template, hit.entry.scope, hit.bound)
     finally:
         hit.entry.followed = False
-    if template is None or not isinstance(template.entry.declaration, Module):
+    if template is None or not isinstance(template.entry.declaration, idl.Module):
         return None
     parameters = template.entry.declaration.parameters
     actual = (Actual(argument, hit.entry.scope, hit.bound) for argument in instance.arguments)
@@ -213,7 +199,7 @@ def bases(hit: Hit) -> list[Hit]:
     while waiting:
         current = waiting.pop(0)
         declaration = current.entry.declaration
-        if not isinstance(declaration, Interface):
+        if not isinstance(declaration, idl.Interface):
             continue
         for name in declaration.bases:
             base = resolve(name, current.entry.scope, current.bound)
@@ -228,7 +214,7 @@ def base_names(hit: Hit) -> set[str]:
     names = {base.entry.declaration.name.lower() for base in bases(hit)}
     for one in (hit, *bases(hit)):
         declaration = one.entry.declaration
-        if isinstance(declaration, Interface):
+        if isinstance(declaration, idl.Interface):
             names |= {name.rsplit("::", 1)[-1].lower() for name in declaration.bases}
     return names
 
@@ -243,4 +229,4 @@ def every(scope: Scope) -> Iterator[Entry]:
 
 def is_parameter(hit: Hit | None) -> bool:
     """Whether ``hit`` is the parameter of a template."""
-    return hit is not None and isinstance(hit.entry.declaration, TemplateParameter)
+    return hit is not None and isinstance(hit.entry.declaration, idl.TemplateParameter)

@@ -10,15 +10,7 @@ from typing import NamedTuple
 
 from ucm_cts.harness.toolchains.idl.language.reading import NotIdl, read_expression
 from ucm_cts.harness.toolchains.idl.language.scopes import MOST_STEPS, Scope, resolve
-from ucm_cts.reference_models.mapping.idl.declarations import (
-    Binary,
-    Constant,
-    Enumerator,
-    Expression,
-    Literal,
-    Named,
-    Unary,
-)
+from ucm_cts.reference_models.mapping.idl import declarations as idl
 
 
 class Chosen(NamedTuple):
@@ -33,7 +25,7 @@ Worth = int | float | str | bool | Chosen
 WIDEST_SHIFT = 64
 
 
-def worth(expression: Expression, scope: Scope, steps: int = MOST_STEPS) -> Worth | None:
+def worth(expression: idl.Expression, scope: Scope, steps: int = MOST_STEPS) -> Worth | None:
     """The value of ``expression`` in ``scope``; None if it has none."""
     try:
         return _worth(expression, scope, steps)
@@ -41,16 +33,16 @@ def worth(expression: Expression, scope: Scope, steps: int = MOST_STEPS) -> Wort
         return None
 
 
-def _worth(expression: Expression, scope: Scope, steps: int) -> Worth | None:
+def _worth(expression: idl.Expression, scope: Scope, steps: int) -> Worth | None:
     match expression:
-        case Literal():
+        case idl.Literal():
             return _literal(expression)
-        case Named():
+        case idl.Named():
             return _of_name(expression.name, scope, steps)
-        case Unary():
+        case idl.Unary():
             operand = _number(_worth(expression.operand, scope, steps))
             return _UNARY[expression.operator](operand)
-        case Binary():
+        case idl.Binary():
             left, right = (_worth(one, scope, steps) for one in (expression.left, expression.right))
             return _BINARY[expression.operator](_number(left), _number(right))
     return None
@@ -94,7 +86,7 @@ _BINARY: dict[str, Callable[[Number, Number], Number]] = {
 }
 
 
-def _literal(literal: Literal) -> Worth:
+def _literal(literal: idl.Literal) -> Worth:
     text = literal.text
     match literal.kind:
         case "integer":
@@ -137,9 +129,9 @@ def _of_name(name: str, scope: Scope, steps: int) -> Worth | None:
     hit = resolve(name, scope)
     if hit is None or not steps:
         return None
-    if isinstance(hit.entry.declaration, Enumerator):
+    if isinstance(hit.entry.declaration, idl.Enumerator):
         return Chosen(hit.entry.declaration.name.lower())
-    if isinstance(hit.entry.declaration, Constant):
+    if isinstance(hit.entry.declaration, idl.Constant):
         return worth(hit.entry.declaration.value, hit.entry.scope, steps - 1)
     return None
 
@@ -155,11 +147,11 @@ def model_worth(value: str, kind: str, scope: Scope) -> Worth | None:
     except NotIdl:
         expression = None
     if kind in ("text", "character"):
-        quoted = isinstance(expression, Literal) and expression.kind in ("text", "character")
+        quoted = isinstance(expression, idl.Literal) and expression.kind in ("text", "character")
         return worth(expression, scope) if quoted and expression is not None else value
     if kind == "truth" and bare.upper() in ("TRUE", "FALSE"):
         return bare.upper() == "TRUE"
-    if isinstance(expression, Named) and kind == "enumerator":
+    if isinstance(expression, idl.Named) and kind == "enumerator":
         return Chosen(expression.name.rsplit("::", 1)[-1].replace("-", "_").lower())
     return worth(expression, scope) if expression is not None else None
 

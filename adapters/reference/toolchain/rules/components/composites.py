@@ -15,14 +15,7 @@ from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.reference.toolchain.rules.circles import circle
-from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import (
-    COMPONENTS,
-    Specified,
-    component_type,
-    part_called,
-    port_of,
-    specified,
-)
+from ucm_cts.adapters.reference.toolchain.rules.components import part_ports
 
 
 @rule("R-9.5.5.1-02", CompositeComponentImplementation)
@@ -35,7 +28,7 @@ def has_some_part(composite: CompositeComponentImplementation, _scope: Scope) ->
 @rule("R-9.5.5.3-01", AssemblyPart)
 def parts_are_components(part: AssemblyPart, scope: Scope) -> Iterator[Complaint]:
     """A part is an instance of a component that is there."""
-    if scope.find(part.instance_of, *COMPONENTS) is None:
+    if scope.find(part.instance_of, *part_ports.COMPONENTS) is None:
         yield (
             part,
             f"part {part.name} is a '{part.instance_of}', which is no component type or implementation; declare it",
@@ -54,7 +47,7 @@ def composites_do_not_contain_themselves(_model: Model, root: Scope) -> Iterator
 def _composite_parts(composite: Declared) -> Iterator[Declared]:
     assert isinstance(composite.element, CompositeComponentImplementation)
     for part in composite.element.parts:
-        component = composite.scope.find(part.instance_of, *COMPONENTS)
+        component = composite.scope.find(part.instance_of, *part_ports.COMPONENTS)
         if component is not None and isinstance(component.element, CompositeComponentImplementation):
             yield component
 
@@ -69,10 +62,10 @@ class Ends(NamedTuple):
     inner: Declared | None
 
     @property
-    def both(self) -> tuple[Specified, Specified] | None:
+    def both(self) -> tuple[part_ports.Specified, part_ports.Specified] | None:
         """What their specifications mean; None if one of both is not there."""
-        outer = specified(self.outer) if self.outer is not None else None
-        inner = specified(self.inner) if self.inner is not None else None
+        outer = part_ports.specified(self.outer) if self.outer is not None else None
+        inner = part_ports.specified(self.inner) if self.inner is not None else None
         return (outer, inner) if outer is not None and inner is not None else None
 
 
@@ -87,14 +80,14 @@ def _find_ends(composite: CompositeComponentImplementation, scope: Scope) -> Ite
         if len(_targets(delegation)) != 1:
             continue
         ((part_name, port_name),) = _targets(delegation)
-        part = part_called(composite, part_name, scope)
-        its_type = component_type(part.instance_of, scope) if part is not None else None
+        part = part_ports.part_called(composite, part_name, scope)
+        its_type = part_ports.component_type(part.instance_of, scope) if part is not None else None
         yield Ends(
             delegation,
             part_name,
             port_name,
-            port_of(own, delegation.port) if own is not None else None,
-            port_of(its_type, port_name) if its_type is not None else None,
+            part_ports.port_of(own, delegation.port) if own is not None else None,
+            part_ports.port_of(its_type, port_name) if its_type is not None else None,
         )
 
 
@@ -113,7 +106,7 @@ def delegated_ports_are_the_composites(
     """The external port belongs to the composite's type."""
     own = scope.find(composite.type, ComponentType)
     for delegation in composite.delegations:
-        if own is not None and port_of(own, delegation.port) is None:
+        if own is not None and part_ports.port_of(own, delegation.port) is None:
             yield delegation, f"'{delegation.port}' is no port of {composite.type}; delegate one of those"
 
 
@@ -132,10 +125,10 @@ def delegations_lead_to_ports_of_parts(
 ) -> Iterator[Complaint]:
     """The inner end is at a port of a part."""
     for ends in _ends(composite, scope):
-        part = part_called(composite, ends.part, scope)
+        part = part_ports.part_called(composite, ends.part, scope)
         if part is None:
             yield ends.delegation, f"'{ends.part}' is no part of composite {composite.name}; name one of those"
-        elif ends.inner is None and component_type(part.instance_of, scope) is not None:
+        elif ends.inner is None and part_ports.component_type(part.instance_of, scope) is not None:
             yield ends.delegation, f"'{ends.port}' is no port of part {part.name}; name one of those"
 
 

@@ -6,17 +6,8 @@ import functools
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.common import Element
-from ucm_cts.adapters.contract.metamodel.components import (
-    AssemblyPart,
-    AtomicComponentImplementation,
-    ComponentType,
-    CompositeComponentImplementation,
-    ConnectionEnd,
-    Port,
-    PortRoleSpec,
-    PortTypeSpec,
-)
 from ucm_cts.adapters.contract.metamodel.contracts import (
     AbstractDataType,
     AbstractInterface,
@@ -26,7 +17,7 @@ from ucm_cts.adapters.contract.metamodel.contracts import (
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern, PortType
 from ucm_cts.adapters.contract.metamodel.names import MEMBER, Declared, Scope, lineage, member_of
 
-COMPONENTS = (ComponentType, AtomicComponentImplementation, CompositeComponentImplementation)
+COMPONENTS = (mc.ComponentType, mc.AtomicComponentImplementation, mc.CompositeComponentImplementation)
 """What a part may be an instance of (9.5.2.2)."""
 
 
@@ -35,7 +26,7 @@ class Specified(NamedTuple):
     identity of the item or abstract type that they stand for.
     """
 
-    kind: type[PortTypeSpec | PortRoleSpec]
+    kind: type[mc.PortTypeSpec | mc.PortRoleSpec]
     target: Element
     bound: dict[int, Declared]
 
@@ -49,24 +40,24 @@ class Specified(NamedTuple):
         return mine == {identity: id(actual.element) for identity, actual in other.bound.items()}
 
 
-def part_called(composite: CompositeComponentImplementation, name: str, scope: Scope) -> AssemblyPart | None:
+def part_called(composite: mc.CompositeComponentImplementation, name: str, scope: Scope) -> mc.AssemblyPart | None:
     """The part of this name of a composite that stands in ``scope``; None if there is none."""
     return scope.remembered(("parts", id(composite)), functools.partial(_parts, composite)).get(name)
 
 
-def _parts(composite: CompositeComponentImplementation) -> dict[str, AssemblyPart]:
+def _parts(composite: mc.CompositeComponentImplementation) -> dict[str, mc.AssemblyPart]:
     return {part.name: part for part in reversed(composite.parts)}
 
 
 def component_type(reference: str, scope: Scope) -> Declared | None:
     """The component type of the component that ``reference`` means; None if one of both is not there."""
     component = scope.find(reference, *COMPONENTS)
-    if component is None or isinstance(component.element, ComponentType):
+    if component is None or isinstance(component.element, mc.ComponentType):
         return component
-    return component.scope.find(getattr(component.element, "type", ""), ComponentType)
+    return component.scope.find(getattr(component.element, "type", ""), mc.ComponentType)
 
 
-def port_of_end(composite: CompositeComponentImplementation, end: ConnectionEnd, scope: Scope) -> Declared | None:
+def port_of_end(composite: mc.CompositeComponentImplementation, end: mc.ConnectionEnd, scope: Scope) -> Declared | None:
     """The port that ``end`` of a connection of ``composite`` names; None if that, its part or its type is not there."""
     part = part_called(composite, end.part, scope)
     return ports_of_component(part.instance_of, scope).get(end.port) if part is not None else None
@@ -116,11 +107,11 @@ def specified(port: Declared) -> Specified | None:
 
 
 def _specified(port: Declared) -> Specified | None:
-    assert isinstance(port.element, Port)
+    assert isinstance(port.element, mc.Port)
     specs, scope = port.element.specs, port.scope
     if len(specs) != 1:
         return None
-    if isinstance(specs[0], PortTypeSpec):
+    if isinstance(specs[0], mc.PortTypeSpec):
         return _by_type(specs[0], scope)
     return _by_role(specs[0], scope)
 
@@ -128,7 +119,7 @@ def _specified(port: Declared) -> Specified | None:
 _TYPES = (DataType, Interface, AbstractDataType, AbstractInterface)
 
 
-def _by_type(spec: PortTypeSpec, scope: Scope) -> Specified | None:
+def _by_type(spec: mc.PortTypeSpec, scope: Scope) -> Specified | None:
     port_type = scope.find(spec.type, PortType)
     if port_type is None:
         return None
@@ -138,10 +129,10 @@ def _by_type(spec: PortTypeSpec, scope: Scope) -> Specified | None:
         actual = scope.find(binding.actual_type, *_TYPES)
         if abstract is not None and actual is not None:
             bound[id(abstract.element)] = actual
-    return Specified(PortTypeSpec, port_type.element, bound)
+    return Specified(mc.PortTypeSpec, port_type.element, bound)
 
 
-def _by_role(spec: PortRoleSpec, scope: Scope) -> Specified | None:
+def _by_role(spec: mc.PortRoleSpec, scope: Scope) -> Specified | None:
     role = scope.member(spec.role, InteractionPattern, "roles")
     pattern = scope.find(spec.role.rpartition(MEMBER)[0], InteractionPattern)
     if role is None or pattern is None:
@@ -156,4 +147,4 @@ def _by_role(spec: PortRoleSpec, scope: Scope) -> Specified | None:
         actual = scope.find(binding.actual_type, *_TYPES)
         if item is not None and actual is not None:
             bound[id(item.element)] = actual
-    return Specified(PortRoleSpec, role.element, bound)
+    return Specified(mc.PortRoleSpec, role.element, bound)

@@ -6,34 +6,17 @@ import operator
 from collections.abc import Callable, Mapping
 from typing import TypeGuard
 
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    INTEGER_RANGES,
-    UNBOUNDED,
-    Constant,
-    Enumeration,
-    PrimitiveBoolean,
-    PrimitiveChar,
-    PrimitiveFloat,
-    PrimitiveInteger,
-    StringType,
-)
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.names import Scope
+from ucm_cts.adapters.reference.toolchain.rules.contracts import constant_syntax as syntax
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
-from ucm_cts.adapters.reference.toolchain.rules.contracts.constant_syntax import (
-    Expression,
-    Name,
-    NotAConstant,
-    Operation,
-    Text,
-    parsed,
-)
 
 
 class NoValueOfType(Exception):
     """It is a constant, but none that the type has."""
 
 
-Result = bool | int | float | Text
+Result = bool | int | float | syntax.Text
 
 _INTEGERS: Mapping[str, Callable[[int, int], int]] = {
     "|": operator.or_,
@@ -64,27 +47,27 @@ _LARGEST = 1 << 128
 Ranges = Mapping[str, tuple[int, int]]
 
 
-def fit(text: str, type_: str, scope: Scope, ranges: Ranges = INTEGER_RANGES) -> None:
+def fit(text: str, type_: str, scope: Scope, ranges: Ranges = c.INTEGER_RANGES) -> None:
     """Raise ``NotAConstant`` or ``NoValueOfType`` unless ``text`` is a value of what ``type_`` means in ``scope``.
 
     Values of types that IDL has no constants of are not looked at, nor are those of types that are not there.
     ``ranges`` are those of the kinds of integers.
     """
     found = actual_type(type_, scope)
-    if found is not None and isinstance(found.element, Enumeration) and _names(found.element, text):
+    if found is not None and isinstance(found.element, c.Enumeration) and _names(found.element, text):
         return  # whatever IDL may think of the name
-    if found is not None and isinstance(found.element, PrimitiveInteger):
-        _fit_integer(parsed(text), found.element, scope, ranges)
+    if found is not None and isinstance(found.element, c.PrimitiveInteger):
+        _fit_integer(syntax.parsed(text), found.element, scope, ranges)
     for cls, fitting in _FITTING.items():
         if found is not None and isinstance(found.element, cls):
-            fitting(parsed(text), found.element, scope)
+            fitting(syntax.parsed(text), found.element, scope)
 
 
-def _names(enumeration: Enumeration, text: str) -> bool:
+def _names(enumeration: c.Enumeration, text: str) -> bool:
     return any(enumerator.name == text for enumerator in enumeration.enumerators)
 
 
-def _fit_integer(expression: Expression, type_: PrimitiveInteger, scope: Scope, ranges: Ranges) -> None:
+def _fit_integer(expression: syntax.Expression, type_: c.PrimitiveInteger, scope: Scope, ranges: Ranges) -> None:
     value = _Calculation().result(expression, scope)
     if not _is_integer(value):
         raise NoValueOfType("it is no integer")
@@ -93,38 +76,38 @@ def _fit_integer(expression: Expression, type_: PrimitiveInteger, scope: Scope, 
         raise NoValueOfType(f"{type_.kind} holds {least} to {most}")
 
 
-def _fit_float(expression: Expression, _type: PrimitiveFloat, scope: Scope) -> None:
+def _fit_float(expression: syntax.Expression, _type: c.PrimitiveFloat, scope: Scope) -> None:
     value = _Calculation().result(expression, scope)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise NoValueOfType("it is no number")
 
 
-def _fit_boolean(expression: Expression, _type: PrimitiveBoolean, scope: Scope) -> None:
+def _fit_boolean(expression: syntax.Expression, _type: c.PrimitiveBoolean, scope: Scope) -> None:
     if not isinstance(_Calculation().result(expression, scope), bool):
         raise NoValueOfType("it is neither TRUE nor FALSE")
 
 
-def _fit_char(expression: Expression, _type: PrimitiveChar, scope: Scope) -> None:
+def _fit_char(expression: syntax.Expression, _type: c.PrimitiveChar, scope: Scope) -> None:
     value = _Calculation().result(expression, scope)
-    if not isinstance(value, Text) or value.is_string:
+    if not isinstance(value, syntax.Text) or value.is_string:
         raise NoValueOfType("it is no character in single quotes")
 
 
-def _fit_string(expression: Expression, type_: StringType, scope: Scope) -> None:
+def _fit_string(expression: syntax.Expression, type_: c.StringType, scope: Scope) -> None:
     value = _Calculation().result(expression, scope)
-    if not isinstance(value, Text) or not value.is_string:
+    if not isinstance(value, syntax.Text) or not value.is_string:
         raise NoValueOfType("it is no string in double quotes")
-    if type_.max_size is not None and UNBOUNDED < type_.max_size < len(value.content):
+    if type_.max_size is not None and c.UNBOUNDED < type_.max_size < len(value.content):
         raise NoValueOfType(f"it has more than {type_.max_size} characters")
 
 
-def _fit_enumeration(expression: Expression, type_: Enumeration, scope: Scope) -> None:
-    if not isinstance(expression, Name):
+def _fit_enumeration(expression: syntax.Expression, type_: c.Enumeration, scope: Scope) -> None:
+    if not isinstance(expression, syntax.Name):
         raise NoValueOfType("it is the name of no enumerator")
     if _names(type_, expression.reference):
         return
-    constant = scope.find(expression.reference, Constant)
-    if constant is None or not isinstance(constant.element, Constant):
+    constant = scope.find(expression.reference, c.Constant)
+    if constant is None or not isinstance(constant.element, c.Constant):
         raise NoValueOfType(f"{type_.name} has no enumerator {expression.reference}")
     found = actual_type(constant.element.type, constant.scope)
     if found is None or found.element is not type_:
@@ -132,11 +115,11 @@ def _fit_enumeration(expression: Expression, type_: Enumeration, scope: Scope) -
 
 
 _FITTING: Mapping[type, Callable[..., None]] = {
-    PrimitiveFloat: _fit_float,
-    PrimitiveBoolean: _fit_boolean,
-    PrimitiveChar: _fit_char,
-    StringType: _fit_string,
-    Enumeration: _fit_enumeration,
+    c.PrimitiveFloat: _fit_float,
+    c.PrimitiveBoolean: _fit_boolean,
+    c.PrimitiveChar: _fit_char,
+    c.StringType: _fit_string,
+    c.Enumeration: _fit_enumeration,
 }
 
 
@@ -147,7 +130,7 @@ class _Calculation:
         self._depth = 0
         self._steps = 0
 
-    def result(self, expression: Expression, scope: Scope) -> Result:
+    def result(self, expression: syntax.Expression, scope: Scope) -> Result:
         """What ``expression`` comes to where ``scope`` is. Raises ``NoValueOfType``."""
         self._depth += 1
         self._steps += 1
@@ -159,23 +142,23 @@ class _Calculation:
             raise NoValueOfType("no integer is so large")
         return found
 
-    def _result(self, expression: Expression, scope: Scope) -> Result:
-        if isinstance(expression, Name):
+    def _result(self, expression: syntax.Expression, scope: Scope) -> Result:
+        if isinstance(expression, syntax.Name):
             return self._of_constant(expression, scope)
-        if not isinstance(expression, Operation):
+        if not isinstance(expression, syntax.Operation):
             return expression
         right = self.result(expression.right, scope)
         if expression.left is None:
             return _of_sign(expression.sign, right)
         return _of_operands(expression.sign, self.result(expression.left, scope), right)
 
-    def _of_constant(self, name: Name, scope: Scope) -> Result:
-        found = scope.find(name.reference, Constant)
-        if found is None or not isinstance(found.element, Constant):
+    def _of_constant(self, name: syntax.Name, scope: Scope) -> Result:
+        found = scope.find(name.reference, c.Constant)
+        if found is None or not isinstance(found.element, c.Constant):
             raise NoValueOfType(f"no constant is called {name.reference}")
         try:
-            return self.result(parsed(found.element.value), found.scope)
-        except NotAConstant:
+            return self.result(syntax.parsed(found.element.value), found.scope)
+        except syntax.NotAConstant:
             raise NoValueOfType(f"{name.reference} has no value itself") from None
 
 
@@ -188,7 +171,7 @@ def _of_sign(sign: str, operand: Result) -> Result:
 def _of_operands(sign: str, left: Result, right: Result) -> Result:
     if _is_integer(left) and _is_integer(right):
         return _of_integers(sign, left, right)
-    if isinstance(left, bool | Text) or isinstance(right, bool | Text) or sign not in _FLOATS:
+    if isinstance(left, bool | syntax.Text) or isinstance(right, bool | syntax.Text) or sign not in _FLOATS:
         raise NoValueOfType(f"{sign} has no such operands")
     try:
         return _FLOATS[sign](left, right)

@@ -4,31 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    AbstractDataType,
-    AbstractInterface,
-    Alias,
-    Array,
-    Attribute,
-    Constant,
-    DataType,
-    Exception_,
-    Interface,
-    Method,
-    Sequence,
-    StructureField,
-    UnionCase,
-)
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.reference.toolchain.rules.circles import circle
 
-_DATA_TYPES = (DataType, AbstractDataType)
+_DATA_TYPES = (c.DataType, c.AbstractDataType)
 
 
-@rule("R-9.2.7-11", Method)
-def at_most_one_return_value(method: Method, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.7-11", c.Method)
+def at_most_one_return_value(method: c.Method, _scope: Scope) -> Iterator[Complaint]:
     """A method returns one thing."""
     for parameter in [p for p in method.parameters if p.direction == "RETURN"][1:]:
         yield (
@@ -37,11 +23,11 @@ def at_most_one_return_value(method: Method, _scope: Scope) -> Iterator[Complain
         )
 
 
-@rule("R-9.2.7.1-02", Interface)
-def inherits_from_interfaces(interface: Interface, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.7.1-02", c.Interface)
+def inherits_from_interfaces(interface: c.Interface, scope: Scope) -> Iterator[Complaint]:
     """What is inherited is an interface that is there."""
     for inherited in interface.inherited_interfaces:
-        if scope.find(inherited.interface, Interface, AbstractInterface) is None:
+        if scope.find(inherited.interface, c.Interface, c.AbstractInterface) is None:
             yield (
                 inherited,
                 f"interface {interface.name} inherits from '{inherited.interface}', which is no interface; declare it",
@@ -51,7 +37,7 @@ def inherits_from_interfaces(interface: Interface, scope: Scope) -> Iterator[Com
 @rule("R-9.2.7.1-05", Model)
 def interfaces_do_not_inherit_from_themselves(model: Model, root: Scope) -> Iterator[Complaint]:
     """Inheriting comes to an end."""
-    found = circle(root, Interface, parents)
+    found = circle(root, c.Interface, parents)
     if found:
         way = " inherits from ".join(one.name for one in (*found, found[0]))
         yield found[0], f"interface {way}; let it inherit from others only"
@@ -59,9 +45,9 @@ def interfaces_do_not_inherit_from_themselves(model: Model, root: Scope) -> Iter
 
 def parents(declared: Declared) -> Iterator[Declared]:
     """The interfaces that an interface names as its ancestors, as far as they are there."""
-    if isinstance(declared.element, Interface):
+    if isinstance(declared.element, c.Interface):
         for inherited in declared.element.inherited_interfaces:
-            found = declared.scope.find(inherited.interface, Interface)
+            found = declared.scope.find(inherited.interface, c.Interface)
             if found is not None:
                 yield found
 
@@ -78,14 +64,14 @@ def ancestors(declared: Declared) -> Iterator[Declared]:
                 yield parent
 
 
-@rule("R-9.2.7.1-04", Interface, under="inherited-names=refused")
-def inherited_names_differ(interface: Interface, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.7.1-04", c.Interface, under="inherited-names=refused")
+def inherited_names_differ(interface: c.Interface, scope: Scope) -> Iterator[Complaint]:
     """One name does not stand for two things of an interface and its ancestors."""
     if not interface.inherited_interfaces:
         return
     known = {member.name: interface.name for member in _members(interface)}
     for ancestor in ancestors(Declared(interface, scope)):
-        assert isinstance(ancestor.element, Interface)
+        assert isinstance(ancestor.element, c.Interface)
         for member in _members(ancestor.element):
             other = known.setdefault(member.name, ancestor.element.name)
             if other != ancestor.element.name:
@@ -96,13 +82,13 @@ def inherited_names_differ(interface: Interface, scope: Scope) -> Iterator[Compl
                 )
 
 
-def _members(interface: Interface) -> Iterator[Method | Attribute]:
+def _members(interface: c.Interface) -> Iterator[c.Method | c.Attribute]:
     yield from interface.methods
     yield from interface.attributes
 
 
-@rule("R-9.2.7.2-02", Interface)
-def methods_are_not_repeated(interface: Interface, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.7.2-02", c.Interface)
+def methods_are_not_repeated(interface: c.Interface, _scope: Scope) -> Iterator[Complaint]:
     """Two methods differ in their names or in their parameters."""
     seen: set[tuple[object, ...]] = set()
     for method in interface.methods:
@@ -112,8 +98,8 @@ def methods_are_not_repeated(interface: Interface, _scope: Scope) -> Iterator[Co
         seen.add(signature)
 
 
-@rule("R-9.2.7.2-02", Interface, under="method-overloading=refused")
-def methods_differ_in_name(interface: Interface, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.7.2-02", c.Interface, under="method-overloading=refused")
+def methods_differ_in_name(interface: c.Interface, _scope: Scope) -> Iterator[Complaint]:
     """No mapping to IDL can tell two methods of one name apart."""
     seen: dict[str, tuple[object, ...]] = {}
     for method in interface.methods:
@@ -122,27 +108,34 @@ def methods_differ_in_name(interface: Interface, _scope: Scope) -> Iterator[Comp
             yield method, f"interface {interface.name} has several methods {method.name}; give them names of their own"
 
 
-def _signature(method: Method) -> tuple[object, ...]:
+def _signature(method: c.Method) -> tuple[object, ...]:
     return (method.name, *((p.name, p.direction, p.type) for p in method.parameters))
 
 
-@rule("R-9.2.7.2-03", Method)
-def raises_exceptions(method: Method, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.7.2-03", c.Method)
+def raises_exceptions(method: c.Method, scope: Scope) -> Iterator[Complaint]:
     """What a method raises is an exception that is there."""
     for raised in method.raised_exceptions:
-        if scope.find(raised.exception, Exception_) is None:
+        if scope.find(raised.exception, c.Exception_) is None:
             yield raised, f"method {method.name} raises '{raised.exception}', which is no exception; declare it"
 
 
-Typed = StructureField | UnionCase | Alias | Array | Sequence | Constant
+Typed = c.StructureField | c.UnionCase | c.Alias | c.Array | c.Sequence | c.Constant
 
 
 @rule(
-    "R-9.2.8-03", StructureField, UnionCase, Alias, Array, Sequence, Constant, under="abstract-types-elsewhere=refused"
+    "R-9.2.8-03",
+    c.StructureField,
+    c.UnionCase,
+    c.Alias,
+    c.Array,
+    c.Sequence,
+    c.Constant,
+    under="abstract-types-elsewhere=refused",
 )
 def abstract_types_serve_interfaces_only(typed: Typed, scope: Scope) -> Iterable[Complaint]:
     """Nothing would ever bind an abstract type inside another type or a constant."""
     found = scope.find_one_of(typed.type, _DATA_TYPES)
-    if found is None or not isinstance(found.element, AbstractDataType):
+    if found is None or not isinstance(found.element, c.AbstractDataType):
         return ()
     return [(typed, f"{typed.name} is of the abstract type {typed.type}; give it an actual one")]

@@ -4,39 +4,39 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Named
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    INTEGER_RANGES,
-    AbstractInterface,
-    Alias,
-    Array,
-    ArrayDimension,
-    Attribute,
-    ConfigurationParameter,
-    Constant,
-    Enumeration,
-    Exception_,
-    ExceptionField,
-    Interface,
-    Parameter,
-    PrimitiveInteger,
-    Sequence,
-    StructureField,
-    UnionCase,
-)
 from ucm_cts.adapters.contract.metamodel.interactions import ItemBinding
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import DATA_TYPES, actual_type
 
-Typed = StructureField | UnionCase | Alias | Array | Sequence | Constant | ExceptionField | ConfigurationParameter
-TYPED = (StructureField, UnionCase, Alias, Array, Sequence, Constant, ExceptionField, ConfigurationParameter)
+Typed = (
+    c.StructureField
+    | c.UnionCase
+    | c.Alias
+    | c.Array
+    | c.Sequence
+    | c.Constant
+    | c.ExceptionField
+    | c.ConfigurationParameter
+)
+TYPED = (
+    c.StructureField,
+    c.UnionCase,
+    c.Alias,
+    c.Array,
+    c.Sequence,
+    c.Constant,
+    c.ExceptionField,
+    c.ConfigurationParameter,
+)
 """What refers to a data type (9.2.2.4)."""
 
 OF_ONE_CLASS = ("R-9.2.4.2-01", "R-9.2.4.4-01", "R-9.2.4.6-01", "R-9.2.4.9-01", "R-9.2.5.4-01")
 """Requirements that say of one class of ``TYPED`` what 9.2.2.4 says of all."""
 
-_INTERFACES = (Interface, AbstractInterface)
+_INTERFACES = (c.Interface, c.AbstractInterface)
 _TYPES = (*DATA_TYPES, *_INTERFACES)
 
 
@@ -77,37 +77,37 @@ def items_are_bound_to_no_constants(binding: ItemBinding, scope: Scope) -> Itera
     """Neither constants nor exceptions can be carried."""
     if scope.find(binding.connector_item, *DATA_TYPES, *_INTERFACES) is not None:
         return
-    if scope.find(binding.connector_item, Constant, Exception_) is not None:
+    if scope.find(binding.connector_item, c.Constant, c.Exception_) is not None:
         yield binding, f"{binding.connector_item} is no type, so no interaction can carry it; bind the item to a type"
 
 
-@rule("R-9.2.2.5-01", Parameter, Attribute)
-def types_exist(typed: Parameter | Attribute, scope: Scope) -> Iterable[Complaint]:
+@rule("R-9.2.2.5-01", c.Parameter, c.Attribute)
+def types_exist(typed: c.Parameter | c.Attribute, scope: Scope) -> Iterable[Complaint]:
     """What is named as a type is declared."""
     if _is_type(typed, scope) or _means(typed.type, scope):
         return ()
     return [(typed, f"{typed.name} has the type '{typed.type}', which is not declared; declare it")]
 
 
-@rule("R-9.2.2.5-02", Parameter, Attribute)
-def types_are_types(typed: Parameter | Attribute, scope: Scope) -> Iterable[Complaint]:
+@rule("R-9.2.2.5-02", c.Parameter, c.Attribute)
+def types_are_types(typed: c.Parameter | c.Attribute, scope: Scope) -> Iterable[Complaint]:
     """A parameter's type is a data type or an interface."""
     if _is_type(typed, scope) or not _means(typed.type, scope):
         return ()
     return [(typed, f"{typed.name} has the type {typed.type}, which is no type at all; name one")]
 
 
-@rule("R-9.2.4.1-02", Enumeration, ArrayDimension, Sequence, also=("R-9.2.4.7-03",))
-def index_types_exist(indexed: Enumeration | ArrayDimension | Sequence, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.1-02", c.Enumeration, c.ArrayDimension, c.Sequence, also=("R-9.2.4.7-03",))
+def index_types_exist(indexed: c.Enumeration | c.ArrayDimension | c.Sequence, scope: Scope) -> Iterator[Complaint]:
     """An index type is a kind of integer, or the name of a declared integer type."""
-    if indexed.index_type not in INTEGER_RANGES and not _means(indexed.index_type, scope):
-        known = ", ".join(INTEGER_RANGES)
+    if indexed.index_type not in c.INTEGER_RANGES and not _means(indexed.index_type, scope):
+        known = ", ".join(c.INTEGER_RANGES)
         yield indexed, f"the index type '{indexed.index_type}' is no integer; name one of {known}"
 
 
-@rule("R-9.2.4.1-03", Enumeration, ArrayDimension, Sequence, also=("R-9.2.4.7-03",))
+@rule("R-9.2.4.1-03", c.Enumeration, c.ArrayDimension, c.Sequence, also=("R-9.2.4.7-03",))
 def named_index_types_are_integers(
-    indexed: Enumeration | ArrayDimension | Sequence, scope: Scope
+    indexed: c.Enumeration | c.ArrayDimension | c.Sequence, scope: Scope
 ) -> Iterator[Complaint]:
     """Where a declaration is named as an index type it is an integer type."""
     if index_kind(indexed.index_type, scope) is None and _means(indexed.index_type, scope):
@@ -116,17 +116,17 @@ def named_index_types_are_integers(
 
 def index_kind(index_type: str, scope: Scope) -> str | None:
     """The kind of integer that ``index_type`` is, or names; None if it is none."""
-    if index_type in INTEGER_RANGES:
+    if index_type in c.INTEGER_RANGES:
         return index_type
     found = actual_type(index_type, scope)
-    return found.element.kind if found is not None and isinstance(found.element, PrimitiveInteger) else None
+    return found.element.kind if found is not None and isinstance(found.element, c.PrimitiveInteger) else None
 
 
 def _is_data_type(typed: Typed, scope: Scope) -> bool:
     return scope.find_one_of(typed.type, DATA_TYPES) is not None
 
 
-def _is_type(typed: Parameter | Attribute, scope: Scope) -> bool:
+def _is_type(typed: c.Parameter | c.Attribute, scope: Scope) -> bool:
     return scope.find_one_of(typed.type, _TYPES) is not None
 
 

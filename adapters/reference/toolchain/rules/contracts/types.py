@@ -4,19 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Named
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    INTEGER_RANGES,
-    UNBOUNDED,
-    Alias,
-    Array,
-    Enumeration,
-    NativeType,
-    Sequence,
-    StringType,
-    Structure,
-    Union,
-)
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
@@ -25,29 +14,29 @@ from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import DA
 from ucm_cts.adapters.reference.toolchain.rules.contracts.references import index_kind
 
 
-@rule("R-9.2.4.3-02", Structure)
-def structures_have_fields(structure: Structure, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.3-02", c.Structure)
+def structures_have_fields(structure: c.Structure, _scope: Scope) -> Iterator[Complaint]:
     """A structure groups at least one field."""
     if not structure.fields:
         yield structure, f"structure {structure.name} has no field; give it one"
 
 
-@rule("R-9.2.4.5-02", Union)
-def unions_have_cases(union: Union, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.5-02", c.Union)
+def unions_have_cases(union: c.Union, _scope: Scope) -> Iterator[Complaint]:
     """A union has at least one alternative."""
     if not union.cases:
         yield union, f"union {union.name} has no case; give it one"
 
 
-@rule("R-9.2.4.7-02", Enumeration)
-def enumerations_have_enumerators(enumeration: Enumeration, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.7-02", c.Enumeration)
+def enumerations_have_enumerators(enumeration: c.Enumeration, _scope: Scope) -> Iterator[Complaint]:
     """An enumeration has at least one value."""
     if not enumeration.enumerators:
         yield enumeration, f"enumeration {enumeration.name} has no enumerator; give it one"
 
 
-@rule("R-9.2.4.9-02", Array)
-def arrays_have_dimensions(array: Array, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.9-02", c.Array)
+def arrays_have_dimensions(array: c.Array, _scope: Scope) -> Iterator[Complaint]:
     """An array has at least one dimension."""
     if not array.dimensions:
         yield array, f"array {array.name} has no dimension; give it one"
@@ -56,21 +45,21 @@ def arrays_have_dimensions(array: Array, _scope: Scope) -> Iterator[Complaint]:
 @rule("R-9.2.4.2-03", Model)
 def aliases_lead_to_other_types(_model: Model, root: Scope) -> Iterator[Complaint]:
     """An alias that leads back to itself names nothing."""
-    yield from _told(circle(root, Alias, _renamed), "names")
+    yield from _told(circle(root, c.Alias, _renamed), "names")
 
 
 @rule("R-9.2.4.3-06", Model)
 def structures_are_finite(_model: Model, root: Scope) -> Iterator[Complaint]:
     """No structure's value contains a value of the same structure."""
     if not _all_are_finite(root):
-        yield from _told(circle(root, Structure, _structures_in), "contains")
+        yield from _told(circle(root, c.Structure, _structures_in), "contains")
 
 
 @rule("R-9.2.4.9-01", Model)
 def arrays_are_finite(_model: Model, root: Scope) -> Iterator[Complaint]:
     """No array is an element of itself."""
     if not _all_are_finite(root):
-        yield from _told(circle(root, Array, _elements), "contains")
+        yield from _told(circle(root, c.Array, _elements), "contains")
 
 
 @rule("R-9.2.4.3-06", Model, under="recursive-types=refused", also=("R-9.2.4.6-01",))
@@ -78,14 +67,14 @@ def sequences_and_unions_are_finite(_model: Model, root: Scope) -> Iterator[Comp
     """Neither does a type contain itself where a shorter value would do."""
     if _all_are_finite(root):
         return
-    plain = circle(root, Structure, _structures_in) or circle(root, Array, _elements)
+    plain = circle(root, c.Structure, _structures_in) or circle(root, c.Array, _elements)
     if not plain:
-        yield from _told(circle(root, Sequence, _sequences_in) or circle(root, Union, _unions_in), "contains")
+        yield from _told(circle(root, c.Sequence, _sequences_in) or circle(root, c.Union, _unions_in), "contains")
 
 
 def _all_are_finite(root: Scope) -> bool:
     """Whether no type at all contains itself in any way: then no rule has to look for its own circles."""
-    kinds = (Structure, Array, Sequence, Union)
+    kinds = (c.Structure, c.Array, c.Sequence, c.Union)
     return root.remembered(
         "all are finite",
         lambda: not has_circle((d for kind in kinds for d in declared_in(root, kind)), lambda d: _parts(d, kinds)),
@@ -98,9 +87,9 @@ def _told(found: list[Named], leads: str) -> Iterator[Complaint]:
 
 
 def _renamed(declared: Declared) -> Iterator[Declared]:
-    if isinstance(declared.element, Alias):
+    if isinstance(declared.element, c.Alias):
         found = declared.scope.find(declared.element.type, *DATA_TYPES)
-        if found is not None and isinstance(found.element, Alias):
+        if found is not None and isinstance(found.element, c.Alias):
             yield found
 
 
@@ -110,11 +99,11 @@ def _parts(declared: Declared, classes: tuple[type[Named], ...]) -> Iterator[Dec
     if not isinstance(element, classes):
         return
     references: Iterator[str] = iter(())
-    if isinstance(element, Structure):
+    if isinstance(element, c.Structure):
         references = (field.type for field in element.fields)
-    elif isinstance(element, Union):
+    elif isinstance(element, c.Union):
         references = (case.type for case in element.cases)
-    elif isinstance(element, Array | Sequence):
+    elif isinstance(element, c.Array | c.Sequence):
         references = iter((element.type,))
     for reference in references:
         found = actual_type(reference, declared.scope)
@@ -138,28 +127,28 @@ def _through(declared: Declared, wanted: type[Named], between: tuple[type[Named]
 
 
 def _structures_in(declared: Declared) -> Iterator[Declared]:
-    return _through(declared, Structure, (Array,))
+    return _through(declared, c.Structure, (c.Array,))
 
 
 def _elements(declared: Declared) -> Iterator[Declared]:
-    return _through(declared, Array, ())
+    return _through(declared, c.Array, ())
 
 
 def _sequences_in(declared: Declared) -> Iterator[Declared]:
-    return _through(declared, Sequence, (Structure, Array, Union))
+    return _through(declared, c.Sequence, (c.Structure, c.Array, c.Union))
 
 
 def _unions_in(declared: Declared) -> Iterator[Declared]:
-    return _through(declared, Union, (Structure, Array))
+    return _through(declared, c.Union, (c.Structure, c.Array))
 
 
-@rule("R-9.2.4.8-03", Enumeration)
-def index_values_are_in_range(enumeration: Enumeration, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.8-03", c.Enumeration)
+def index_values_are_in_range(enumeration: c.Enumeration, scope: Scope) -> Iterator[Complaint]:
     """An index value lies in the range of the enumeration's integer kind."""
     kind = index_kind(enumeration.index_type, scope)
     if kind is None:
         return
-    least, most = INTEGER_RANGES[kind]
+    least, most = c.INTEGER_RANGES[kind]
     for enumerator in enumeration.enumerators:
         if enumerator.value is not None and not least <= enumerator.value <= most:
             yield (
@@ -168,8 +157,8 @@ def index_values_are_in_range(enumeration: Enumeration, scope: Scope) -> Iterato
             )
 
 
-@rule("R-9.2.4.8-04", Enumeration, under="equal-index-values=refused")
-def index_values_differ(enumeration: Enumeration, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.8-04", c.Enumeration, under="equal-index-values=refused")
+def index_values_differ(enumeration: c.Enumeration, _scope: Scope) -> Iterator[Complaint]:
     """The value tells enumerators apart."""
     seen: set[int] = set()
     for enumerator in enumeration.enumerators:
@@ -180,57 +169,57 @@ def index_values_differ(enumeration: Enumeration, _scope: Scope) -> Iterator[Com
         seen.add(enumerator.value)
 
 
-@rule("R-9.2.4.11-03", Array, also=("R-9.2.4.9-04",))
-def sizes_are_in_range(array: Array, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.11-03", c.Array, also=("R-9.2.4.9-04",))
+def sizes_are_in_range(array: c.Array, scope: Scope) -> Iterator[Complaint]:
     """A dimension's size lies in the range of its integer kind."""
     for dimension in array.dimensions:
         kind = index_kind(dimension.index_type, scope)
-        if kind is not None and dimension.size is not None and dimension.size > INTEGER_RANGES[kind][1]:
+        if kind is not None and dimension.size is not None and dimension.size > c.INTEGER_RANGES[kind][1]:
             yield (
                 dimension,
-                f"array {array.name} has the size {dimension.size}, but {kind} ends at {INTEGER_RANGES[kind][1]}",
+                f"array {array.name} has the size {dimension.size}, but {kind} ends at {c.INTEGER_RANGES[kind][1]}",
             )
 
 
-@rule("R-9.2.4.11-04", Array)
-def sizes_are_not_negative(array: Array, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.11-04", c.Array)
+def sizes_are_not_negative(array: c.Array, _scope: Scope) -> Iterator[Complaint]:
     """Indices run from 0 to one less than the size."""
     for dimension in array.dimensions:
         if dimension.size is not None and dimension.size < 0:
             yield dimension, f"array {array.name} has the size {dimension.size}; make it positive"
 
 
-@rule("R-9.2.4.11-04", Array, under="empty-arrays=refused")
-def arrays_are_not_empty(array: Array, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.4.11-04", c.Array, under="empty-arrays=refused")
+def arrays_are_not_empty(array: c.Array, _scope: Scope) -> Iterator[Complaint]:
     """An array has an element."""
     for dimension in array.dimensions:
         if dimension.size == 0:
             yield dimension, f"array {array.name} has the size 0; make it positive"
 
 
-Resizable = StringType | NativeType | Sequence
+Resizable = c.StringType | c.NativeType | c.Sequence
 
 
-@rule("R-9.2.5.1-03", StringType, NativeType, Sequence, under="negative-max-size=refused")
+@rule("R-9.2.5.1-03", c.StringType, c.NativeType, c.Sequence, under="negative-max-size=refused")
 def greatest_sizes_are_not_negative(resizable: Resizable, _scope: Scope) -> Iterator[Complaint]:
     """Only -1 stands for no greatest size."""
-    if resizable.max_size is not None and resizable.max_size < UNBOUNDED:
+    if resizable.max_size is not None and resizable.max_size < c.UNBOUNDED:
         yield resizable, f"{resizable.name} has the greatest size {resizable.max_size}; say -1 if there is none"
 
 
-@rule("R-9.2.5.1-03", StringType, NativeType, Sequence, under="zero-max-size=refused")
+@rule("R-9.2.5.1-03", c.StringType, c.NativeType, c.Sequence, under="zero-max-size=refused")
 def greatest_sizes_are_not_zero(resizable: Resizable, _scope: Scope) -> Iterator[Complaint]:
     """What can hold nothing is of no use."""
     if resizable.max_size == 0:
         yield resizable, f"{resizable.name} has the greatest size 0; say -1 if there is none"
 
 
-@rule("R-9.2.5.4-03", Sequence, under="sequence-sizes=checked")
-def sequences_fit_their_index(sequence: Sequence, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.5.4-03", c.Sequence, under="sequence-sizes=checked")
+def sequences_fit_their_index(sequence: c.Sequence, scope: Scope) -> Iterator[Complaint]:
     """A sequence's greatest size lies in the range of its integer kind, as an array's size does."""
     kind = index_kind(sequence.index_type, scope)
-    if kind is not None and sequence.max_size is not None and sequence.max_size > INTEGER_RANGES[kind][1]:
+    if kind is not None and sequence.max_size is not None and sequence.max_size > c.INTEGER_RANGES[kind][1]:
         yield (
             sequence,
-            f"{sequence.name} has the greatest size {sequence.max_size}, but {kind} ends at {INTEGER_RANGES[kind][1]}",
+            f"{sequence.name} has the greatest size {sequence.max_size}, but {kind} ends at {c.INTEGER_RANGES[kind][1]}",
         )
