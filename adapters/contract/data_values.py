@@ -6,25 +6,9 @@ from collections.abc import Iterator
 
 import msgspec
 
-from ucm_cts.adapters.contract.data_types import (
-    Alias,
-    AnyType,
-    Array,
-    Boolean,
-    Char,
-    Datum,
-    Enumeration,
-    Float,
-    Integer,
-    Sequence,
-    String,
-    Structure,
-    Union,
-    UnionCase,
-    integer_range,
-)
+from ucm_cts.adapters.contract import data_types as d
 
-SCALARS = (Integer, Float, Char, Boolean, String, Enumeration)
+SCALARS = (d.Integer, d.Float, d.Char, d.Boolean, d.String, d.Enumeration)
 """Types whose values are not made of others."""
 
 _DIGITS = {"FLOAT": 8, "DOUBLE": 16}
@@ -33,21 +17,21 @@ _LARGEST = {"CHAR8": 0xFF, "CHAR32": 0x10FFFF}
 _SURROGATES = range(0xD800, 0xE000)
 
 
-def misfit(of: AnyType, value: object) -> str:
+def misfit(of: d.AnyType, value: object) -> str:
     """Why ``value`` is no value of type ``of``, naming the place inside; empty if it is one.
 
     Every reading of unclear places is taken at its widest: BYTE is signed, CHAR8 has eight bits, sequences any length.
     """
     match of:
-        case Alias():
+        case d.Alias():
             return misfit(of.of, value)
-        case Structure():
+        case d.Structure():
             return _misfit_of_structure(of, value)
-        case Union():
+        case d.Union():
             return _misfit_of_union(of, value)
-        case Array():
+        case d.Array():
             return _misfit_of_array(of.of, of.sizes, value)
-        case Sequence():
+        case d.Sequence():
             if not isinstance(value, list):
                 return f"{value!r} is no list"
             if 0 <= of.size < len(value):
@@ -57,20 +41,20 @@ def misfit(of: AnyType, value: object) -> str:
             return _misfit_of_scalar(of, value)
 
 
-def _misfit_of_scalar(of: AnyType, value: object) -> str:
+def _misfit_of_scalar(of: d.AnyType, value: object) -> str:
     match of:
-        case Boolean():
+        case d.Boolean():
             fits = isinstance(value, bool)
-        case Integer():
-            low, high = integer_range(of.kind)
+        case d.Integer():
+            low, high = d.integer_range(of.kind)
             fits = _is_integer(value, low, high)
-        case Char():
+        case d.Char():
             fits = _is_integer(value, 0, _LARGEST[of.kind]) and value not in _SURROGATES
-        case Float():
+        case d.Float():
             fits = isinstance(value, str) and _is_float(of, value)
-        case Enumeration():
+        case d.Enumeration():
             fits = isinstance(value, str) and value in of.values
-        case String():
+        case d.String():
             return _misfit_of_string(of, value)
         case _:
             fits = False
@@ -81,19 +65,19 @@ def _is_integer(value: object, low: int, high: int) -> bool:
     return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
 
 
-def _is_float(of: Float, value: str) -> bool:
+def _is_float(of: d.Float, value: str) -> bool:
     digits = len(value) == _DIGITS[of.kind] and set(value) <= set("0123456789abcdef")
     return digits and not (is_nan(of, value) and not int(value, 16) >> (_MANTISSA[of.kind] - 1) & 1)
 
 
-def is_nan(of: Float, value: str) -> bool:
+def is_nan(of: d.Float, value: str) -> bool:
     """Are these the bits of a NaN? ``value`` has the right number of hexadecimal digits."""
     bits, mantissa = int(value, 16), _MANTISSA[of.kind]
     exponent = bits >> mantissa & (1 << len(value) * 4 - 1 - mantissa) - 1
     return exponent == (1 << len(value) * 4 - 1 - mantissa) - 1 and bits & ((1 << mantissa) - 1) != 0
 
 
-def _misfit_of_string(of: String, value: object) -> str:
+def _misfit_of_string(of: d.String, value: object) -> str:
     if not isinstance(value, str):
         return f"{_short(value)} is no string"
     if 0 <= of.size < len(value):
@@ -102,7 +86,7 @@ def _misfit_of_string(of: String, value: object) -> str:
     return f"U+{ord(wrong[0]):04X} is no character of a {of.base} string" if wrong else ""
 
 
-def _misfit_of_structure(of: Structure, value: object) -> str:
+def _misfit_of_structure(of: d.Structure, value: object) -> str:
     if not isinstance(value, list) or len(value) != len(of.fields):
         return f"{_short(value)} has not the {len(of.fields)} fields of {of.name}"
     for (name, field), one in zip(of.fields.items(), value, strict=True):
@@ -112,7 +96,7 @@ def _misfit_of_structure(of: Structure, value: object) -> str:
     return ""
 
 
-def _misfit_of_union(of: Union, value: object) -> str:
+def _misfit_of_union(of: d.Union, value: object) -> str:
     if not isinstance(value, list) or len(value) != 2 or not isinstance(value[0], str):
         return f"{_short(value)} is not [enumerator, value]"
     case = case_of(of, value[0])
@@ -122,7 +106,7 @@ def _misfit_of_union(of: Union, value: object) -> str:
     return f"{case.name}: {problem}" if problem else ""
 
 
-def _misfit_of_array(of: AnyType, sizes: tuple[int, ...], value: object) -> str:
+def _misfit_of_array(of: d.AnyType, sizes: tuple[int, ...], value: object) -> str:
     if not isinstance(value, list) or len(value) != sizes[0]:
         return f"{_short(value)} has not {sizes[0]} elements"
     if len(sizes) == 1:
@@ -133,11 +117,11 @@ def _misfit_of_array(of: AnyType, sizes: tuple[int, ...], value: object) -> str:
     return next(problems, "")
 
 
-def _misfit_of_elements(of: AnyType, value: list[object]) -> str:
+def _misfit_of_elements(of: d.AnyType, value: list[object]) -> str:
     return next((f"{index}: {problem}" for index, one in enumerate(value) if (problem := misfit(of, one))), "")
 
 
-def case_of(union: Union, enumerator: str) -> UnionCase | None:
+def case_of(union: d.Union, enumerator: str) -> d.UnionCase | None:
     """The case that ``enumerator`` selects; None if there is no such enumerator, or none of the cases is for it."""
     if enumerator not in union.selector.values:
         return None
@@ -145,39 +129,39 @@ def case_of(union: Union, enumerator: str) -> UnionCase | None:
     return next(iter(selected or [case for case in union.cases if case.default]), None)
 
 
-def components_of(of: AnyType, value: Datum) -> list[tuple[str, AnyType, Datum]]:
+def components_of(of: d.AnyType, value: d.Datum) -> list[tuple[str, d.AnyType, d.Datum]]:
     """What a value of ``of`` is directly made of: place, type and value; nothing for scalars. An alias has what it names."""
     match of:
-        case Alias():
+        case d.Alias():
             return [("", of.of, value)]
-        case Structure():
+        case d.Structure():
             assert isinstance(value, list)
             return [(name, field, one) for (name, field), one in zip(of.fields.items(), value, strict=True)]
-        case Union():
+        case d.Union():
             assert isinstance(value, list)
             case = case_of(of, value[0])
             return [(case.name, case.of, value[1])] if case is not None else []
-        case Array():
+        case d.Array():
             return [(f"[{','.join(map(str, place))}]", of.of, one) for place, one in _flat(value, len(of.sizes))]
-        case Sequence():
+        case d.Sequence():
             return [(f"[{','.join(map(str, place))}]", of.of, one) for place, one in _flat(value, 1)]
         case _:
             return []
 
 
-def parts(of: AnyType, value: Datum) -> Iterator[tuple[AnyType, Datum]]:
+def parts(of: d.AnyType, value: d.Datum) -> Iterator[tuple[d.AnyType, d.Datum]]:
     """``value`` and everything inside it, each with its type; what contains comes before what is contained."""
     yield of, value
     for _, part, one in components_of(of, value):
         yield from parts(part, one)
 
 
-def flat(value: Datum, dimensions: int) -> list[Datum]:
+def flat(value: d.Datum, dimensions: int) -> list[d.Datum]:
     """The elements of an array of so many dimensions, row by row."""
     return [one for _, one in _flat(value, dimensions)]
 
 
-def _flat(value: Datum, dimensions: int) -> Iterator[tuple[tuple[int, ...], Datum]]:
+def _flat(value: d.Datum, dimensions: int) -> Iterator[tuple[tuple[int, ...], d.Datum]]:
     assert isinstance(value, list)
     for index, one in enumerate(value):
         if dimensions == 1:
@@ -186,25 +170,25 @@ def _flat(value: Datum, dimensions: int) -> Iterator[tuple[tuple[int, ...], Datu
             yield from (((index, *place), element) for place, element in _flat(one, dimensions - 1))
 
 
-def spell(value: Datum) -> str:
+def spell(value: d.Datum) -> str:
     """How a value stands where only text can: as the value of an attribute. It is JSON, like on its way."""
     return msgspec.json.encode(value).decode()
 
 
-def read_spelled(text: str | None) -> Datum | None:
+def read_spelled(text: str | None) -> d.Datum | None:
     """The value that ``text`` spells; None if it is any other text."""
     try:
-        return msgspec.json.decode(text or "", type=Datum)  # type: ignore[no-any-return]
+        return msgspec.json.decode(text or "", type=d.Datum)  # type: ignore[no-any-return]
     except msgspec.MsgspecError:
         return None
 
 
-def kind_name(of: AnyType) -> str:
+def kind_name(of: d.AnyType) -> str:
     """What sort of type it is, in the words of 9.2: LONGLONG, CHAR8 string, enumeration, structure, ..."""
     match of:
-        case Integer() | Float() | Char():
+        case d.Integer() | d.Float() | d.Char():
             return of.kind
-        case String():
+        case d.String():
             return f"{of.base} string"
         case _:
             return type(of).__name__.lower()

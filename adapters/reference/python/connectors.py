@@ -14,14 +14,8 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract.data_types import Datum, Interface
-from ucm_cts.adapters.contract.programming_model import (
-    BadParameter,
-    DeclaredException,
-    NotFound,
-    PortElementObject,
-    UcmError,
-)
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNECTOR
 
 if TYPE_CHECKING:
@@ -61,7 +55,7 @@ class Entrance:
         """Do ``work`` inside. Raises ``UcmError`` if the component is not operational."""
         with self._changed:
             if not self._is_open:
-                raise UcmError("the component is not operational")
+                raise pm.UcmError("the component is not operational")
             self._inside += 1
         try:
             return work()
@@ -88,7 +82,7 @@ class Taker:
         def work() -> Sequence[Datum]:
             element = self.member.container._reference_to(self.member, self.port)
             if element is None:
-                raise UcmError(f"the body gives no port element {self.port!r}")
+                raise pm.UcmError(f"the body gives no port element {self.port!r}")
             return element.call(method, arguments)
 
         return self.entrance.visit(work)
@@ -110,18 +104,18 @@ class Taker:
                 self.messages.get_nowait()
 
 
-class LinkElement(PortElementObject):
+class LinkElement(pm.PortElementObject):
     """What a client or an emitter is connected to."""
 
     def __init__(self, link: Link) -> None:
         self.link = link
 
     def exchange(self, value: int) -> int:
-        raise UcmError("the port element has another interface")
+        raise pm.UcmError("the port element has another interface")
 
     def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         if method not in self.link.interface.methods:
-            raise UcmError(f"the interface has no method {method!r}")
+            raise pm.UcmError(f"the interface has no method {method!r}")
         return self.link.send(method, arguments)
 
 
@@ -145,7 +139,7 @@ class Link:
             elif role == SENDERS[self.connector]:
                 self._attach_sender(member, port)
             else:
-                raise BadParameter(f"{self.connector} has no role {role!r}")
+                raise pm.BadParameter(f"{self.connector} has no role {role!r}")
 
     def detach(self, container: Container, comp_instance: int, port: str) -> None:
         with container._operation():
@@ -153,7 +147,7 @@ class Link:
             takers = [taker for taker in self.takers if (taker.member, taker.port) == (member, port)]
             senders = [c for c in container._connections_from(member) if c.port == port and self._is_behind(c.target)]
             if not (takers or senders):
-                raise NotFound(f"{port!r} of component {comp_instance} is no end of this connection")
+                raise pm.NotFound(f"{port!r} of component {comp_instance} is no end of this connection")
             container._check_configuring()
             for taker in takers:
                 self.remove(taker)
@@ -171,24 +165,24 @@ class Link:
     def _attach_sender(self, member: Member, port: str) -> None:
         container = member.container
         if port not in member.implementation.requires:
-            raise NotFound(f"no required port element {port!r}")
+            raise pm.NotFound(f"no required port element {port!r}")
         container._check_configuring()
         if container._is_connected(member, port):
-            raise UcmError(f"{port!r} is connected already")
+            raise pm.UcmError(f"{port!r} is connected already")
         container._connect_to(member, port, LinkElement(self))
 
     def _attach_taker(self, member: Member, port: str) -> None:
         if port not in member.implementation.provides:
-            raise NotFound(f"no provided port element {port!r}")
+            raise pm.NotFound(f"no provided port element {port!r}")
         member.container._check_configuring()
         self._check_room()
         self.takers.append(Taker(member, port))
 
     def _check_room(self) -> None:
         if self.connector == SERVICE_CONNECTOR and self.takers:
-            raise UcmError("the connection has a server already")
+            raise pm.UcmError("the connection has a server already")
 
-    def _is_behind(self, target: PortElementObject) -> bool:
+    def _is_behind(self, target: pm.PortElementObject) -> bool:
         return isinstance(target, LinkElement) and target.link is self
 
     def remove(self, taker: Taker) -> None:
@@ -206,13 +200,13 @@ class Link:
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         if self.broken:
-            raise UcmError(f"the {self.broken} is broken")
+            raise pm.UcmError(f"the {self.broken} is broken")
         if not self.takers:
-            raise UcmError("there is no server")
+            raise pm.UcmError("there is no server")
         try:
             return self._copied(self.takers[0].enter(method, self._copied(arguments)))
-        except DeclaredException as error:
-            raise DeclaredException(error.name, self._copied(error.fields)) from None
+        except pm.DeclaredException as error:
+            raise pm.DeclaredException(error.name, self._copied(error.fields)) from None
 
     def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
         if self.broken:
@@ -252,7 +246,7 @@ class UsesConnectors:
         """A connection without ends, with a connector of that name. Raises ``UcmError`` if there is no such connector."""
         with self._operation():
             if connector not in SENDERS:
-                raise UcmError(f"no connector {connector!r}")
+                raise pm.UcmError(f"no connector {connector!r}")
             link = self.link_class(self.manager, connector, interface)
             self.manager.links.append(link)
             return link

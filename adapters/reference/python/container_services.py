@@ -11,15 +11,8 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
+from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
-from ucm_cts.adapters.contract.scenario import (
-    CLOCK,
-    COMPONENT_TRACE,
-    LOG_SEVERITY,
-    METHODS_TO_TRACE,
-    PORT_TRACE,
-    Policy,
-)
 from ucm_cts.adapters.reference.python.policies import ExecutesComponents
 
 if TYPE_CHECKING:
@@ -28,7 +21,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_SERVICES = {CLOCK, COMPONENT_TRACE, PORT_TRACE}
+_SERVICES = {s.CLOCK, s.COMPONENT_TRACE, s.PORT_TRACE}
 _SECOND, _MILLISECOND, _MICROSECOND = 1_000_000_000, 1_000_000, 1_000
 
 Record = tuple[str, str]
@@ -38,7 +31,7 @@ Record = tuple[str, str]
 class ServiceElement(PortElementObject):
     """A port element that the container provides to one of its components by ``policy``."""
 
-    def __init__(self, member: Member, policy: Policy) -> None:
+    def __init__(self, member: Member, policy: s.Policy) -> None:
         self.member, self.policy = member, policy
 
     def exchange(self, value: int) -> int:
@@ -102,18 +95,18 @@ class OffersServices(ExecutesComponents):
                 self._check_service(implementation, policy)
         self._check_clocks(implementation)
 
-    def _check_service(self, implementation: Implementation, policy: Policy) -> None:
-        if policy.definition == PORT_TRACE:
+    def _check_service(self, implementation: Implementation, policy: s.Policy) -> None:
+        if policy.definition == s.PORT_TRACE:
             fits = policy.port in {*implementation.provides, *implementation.requires} and not policy.element
-            fits = fits and policy.parameters.keys() == {METHODS_TO_TRACE, LOG_SEVERITY}
-            fits = fits and policy.parameters[LOG_SEVERITY] in self.severities
+            fits = fits and policy.parameters.keys() == {s.METHODS_TO_TRACE, s.LOG_SEVERITY}
+            fits = fits and policy.parameters[s.LOG_SEVERITY] in self.severities
         else:
             fits = policy.port is None and policy.element is not None and not policy.parameters
         if not fits:
             raise UcmError(f"{implementation.name!r} has a policy that cannot be applied: {policy}")
 
     def _check_clocks(self, implementation: Implementation) -> None:
-        if sum(policy.definition == CLOCK for policy in implementation.policies) > 1:
+        if sum(policy.definition == s.CLOCK for policy in implementation.policies) > 1:
             raise UcmError(f"{implementation.name!r} has more than one clock")
 
     # what bodies and others get to know of port elements
@@ -130,8 +123,8 @@ class OffersServices(ExecutesComponents):
             return tuple(connection.to_port)
         return tuple(target and TracedElement(member, port, target) for target in connection.to_port)
 
-    def _service_element(self, member: Member, policy: Policy) -> PortConnection:
-        kind = ClockElement if policy.definition == CLOCK else TraceElement
+    def _service_element(self, member: Member, policy: s.Policy) -> PortConnection:
+        kind = ClockElement if policy.definition == s.CLOCK else TraceElement
         return PortConnection(policy.element or "", (kind(member, policy),))
 
     def _reference_to(self, member: Member, port: str) -> PortElementObject | None:
@@ -161,8 +154,8 @@ class OffersServices(ExecutesComponents):
 
     # the trace
 
-    def _port_traces(self, member: Member, port: str) -> list[Policy]:
-        return [p for p in member.implementation.policies if p.definition == PORT_TRACE and p.port == port]
+    def _port_traces(self, member: Member, port: str) -> list[s.Policy]:
+        return [p for p in member.implementation.policies if p.definition == s.PORT_TRACE and p.port == port]
 
     def _log(self, member: Member, severity: str, message: str) -> None:
         """A body writes to the trace."""
@@ -172,11 +165,11 @@ class OffersServices(ExecutesComponents):
         """A method is called through a traced port element."""
         for policy in self._port_traces(member, port):
             if self._is_traced(policy, method):
-                self._write((policy.parameters[LOG_SEVERITY], self._call_message(member, port, method)))
+                self._write((policy.parameters[s.LOG_SEVERITY], self._call_message(member, port, method)))
         return work()
 
-    def _is_traced(self, policy: Policy, method: str) -> bool:
-        return method in (name.strip() for name in policy.parameters[METHODS_TO_TRACE].split(","))
+    def _is_traced(self, policy: s.Policy, method: str) -> bool:
+        return method in (name.strip() for name in policy.parameters[s.METHODS_TO_TRACE].split(","))
 
     def _call_message(self, member: Member, port: str, method: str) -> str:
         return f"{member.implementation.name} {port}: {method}"

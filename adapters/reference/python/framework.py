@@ -16,17 +16,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import Enum
 
-from ucm_cts.adapters.contract.programming_model import (
-    BadParameter,
-    ComponentObject,
-    Connectable,
-    FragmentObject,
-    Implementation,
-    NotFound,
-    PortConnection,
-    PortElementObject,
-    UcmError,
-)
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.reference.python.connectors import Link, UsesConnectors
 from ucm_cts.adapters.reference.python.container_services import OffersServices, Record, TracedElement
 from ucm_cts.adapters.reference.python.policies import Execution
@@ -43,7 +33,7 @@ class Member:
     """A component or fragment in a container: its body, its implementation and its state."""
 
     def __init__(
-        self, number: int, implementation: Implementation, body: ComponentObject, container: Container
+        self, number: int, implementation: pm.Implementation, body: pm.ComponentObject, container: Container
     ) -> None:
         self.id = number
         self.implementation = implementation
@@ -61,7 +51,7 @@ class Connection:
     id: int
     client: Member
     port: str
-    target: PortElementObject
+    target: pm.PortElementObject
 
 
 class Failures:
@@ -82,7 +72,7 @@ class Failures:
     def report(self) -> None:
         """Raise ``UcmError`` if any call failed."""
         if self.first:
-            raise UcmError(self.first)
+            raise pm.UcmError(self.first)
 
 
 class Container(OffersServices, UsesConnectors):
@@ -118,33 +108,33 @@ class Container(OffersServices, UsesConnectors):
             self._remove(member, failures)
             failures.report()
 
-    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+    def get_port_element(self, comp_instance: int, port_name: str) -> pm.PortElementObject:
         self._check_alive()
         member = self._find_member(comp_instance)
         if port_name not in member.implementation.provides:
-            raise NotFound(f"no provided port element {port_name!r}")
+            raise pm.NotFound(f"no provided port element {port_name!r}")
         element = self._reference_to(member, port_name)
         if element is None:
-            raise NotFound(f"the body gives no port element {port_name!r}")
+            raise pm.NotFound(f"the body gives no port element {port_name!r}")
         return element
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         with self._operation():
             member = self._find_member(instance)
             if port_name not in member.implementation.requires:
-                raise BadParameter(f"no required port element {port_name!r}")
+                raise pm.BadParameter(f"no required port element {port_name!r}")
             if to_port is None:
-                raise BadParameter("the reference to connect is null")
+                raise pm.BadParameter("the reference to connect is null")
             self._check_configuring()
             if self._is_connected(member, port_name):
-                raise UcmError(f"{port_name!r} is connected already")
+                raise pm.UcmError(f"{port_name!r} is connected already")
             return self._connect_to(member, port_name, to_port)
 
     def disconnect(self, connection: int) -> None:
         with self._operation():
             found = self.manager.connections.get(connection)
             if found is None or found.client.container is not self:
-                raise NotFound(f"no connection {connection}")
+                raise pm.NotFound(f"no connection {connection}")
             self._check_configuring()
             self._undo(found)
 
@@ -176,52 +166,52 @@ class Container(OffersServices, UsesConnectors):
         """A number that no component or connection of the runtime has, had or will have."""
         return next(self.manager.numbers)
 
-    def _find_implementation(self, name: str, attributes: Mapping[str, str]) -> Implementation:
+    def _find_implementation(self, name: str, attributes: Mapping[str, str]) -> pm.Implementation:
         implementation = self.manager.implementations.get(name)
         if implementation is None:
-            raise UcmError(f"no implementation {name!r}")
+            raise pm.UcmError(f"no implementation {name!r}")
         unknown = set(attributes).difference(implementation.attributes)
         if unknown:
-            raise UcmError(f"{name!r} has no attribute {min(unknown)!r}")
+            raise pm.UcmError(f"{name!r} has no attribute {min(unknown)!r}")
         self._check_policies(implementation)
         return implementation
 
     def _find_member(self, number: int) -> Member:
         if number not in self.members:
-            raise NotFound(f"no component {number}")
+            raise pm.NotFound(f"no component {number}")
         return self.members[number]
 
     def _check_alive(self) -> None:
         if self.manager.is_removed or self.is_removed:
-            raise UcmError("the container has been removed")
+            raise pm.UcmError("the container has been removed")
 
     def _check_configuring(self) -> None:
         """Members and their connections change in the configuration phase only (11.2.3)."""
         if self.is_started:
-            raise UcmError("the container has been started")
+            raise pm.UcmError("the container has been started")
 
     def _check_startable(self) -> None:
         """Only a container whose members are all configured starts, so that nothing ever starts halfway."""
         for member in self.members.values():
             for port in member.implementation.requires:
                 if not self._is_connected(member, port):
-                    raise UcmError(f"{port!r} of component {member.id} is not connected")
+                    raise pm.UcmError(f"{port!r} of component {member.id} is not connected")
 
     def _check_removable(self, member: Member) -> None:
         if member.state is State.READY:
-            raise UcmError(f"component {member.id} is ready; stop its container first")
+            raise pm.UcmError(f"component {member.id} is ready; stop its container first")
         if any(connection.client is not member for connection in self._connections_to(member)):
-            raise UcmError(f"another component is connected to component {member.id}")
+            raise pm.UcmError(f"another component is connected to component {member.id}")
 
-    def _instantiate(self, implementation: Implementation) -> ComponentObject:
+    def _instantiate(self, implementation: pm.Implementation) -> pm.ComponentObject:
         try:
             return implementation.create()
         except Exception as error:
-            raise UcmError(f"{implementation.name!r} cannot be instantiated: {error}") from error
+            raise pm.UcmError(f"{implementation.name!r} cannot be instantiated: {error}") from error
 
     def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
         self._set_attributes(member, attributes)
-        if isinstance(member.body, FragmentObject):
+        if isinstance(member.body, pm.FragmentObject):
             member.body.set_container_interface(self)
         self._check_body(member)
         self._initialise(member)
@@ -233,7 +223,7 @@ class Container(OffersServices, UsesConnectors):
     def _initialise(self, member: Member) -> None:
         member.body.on_init()
 
-    def _connect_to(self, member: Member, port: str, target: PortElementObject) -> int:
+    def _connect_to(self, member: Member, port: str, target: pm.PortElementObject) -> int:
         connection = Connection(self._new_id(), member, port, target)
         self._connect(connection)
         return connection.id
@@ -245,7 +235,7 @@ class Container(OffersServices, UsesConnectors):
 
     def _connect(self, connection: Connection) -> None:
         body = connection.client.body
-        if isinstance(body, Connectable):
+        if isinstance(body, pm.Connectable):
             failures = Failures()
             failures.attempt(body.on_connect, connection.port, connection.target)
             failures.report()
@@ -254,7 +244,7 @@ class Container(OffersServices, UsesConnectors):
     def _disconnect(self, connection: Connection, failures: Failures) -> None:
         del self.manager.connections[connection.id]
         body = connection.client.body
-        if isinstance(body, Connectable):
+        if isinstance(body, pm.Connectable):
             failures.attempt(body.on_disconnect, connection.port)
 
     def _start_order(self) -> Sequence[Member]:
@@ -267,9 +257,9 @@ class Container(OffersServices, UsesConnectors):
         self.started.append(member)
         return True
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         connections = self._connections_from(member)
-        return self._with_services(member, [PortConnection(c.port, (c.target,)) for c in connections])
+        return self._with_services(member, [pm.PortConnection(c.port, (c.target,)) for c in connections])
 
     def _begin_operation(self) -> None:
         """All members have been started."""
@@ -336,7 +326,7 @@ class Container(OffersServices, UsesConnectors):
     def _operation(self) -> Iterator[None]:
         """One operation at a time; a body that calls back into its container is told that it cannot."""
         if self.manager.busy_thread == threading.get_ident():
-            raise UcmError("the runtime is in the middle of an operation")
+            raise pm.UcmError("the runtime is in the middle of an operation")
         with self.manager.lock:
             self.manager.busy_thread = threading.get_ident()
             try:
@@ -351,7 +341,7 @@ class ContainerManager(Container):
 
     container_class: type[Container] = Container
 
-    def __init__(self, implementations: Sequence[Implementation]) -> None:
+    def __init__(self, implementations: Sequence[pm.Implementation]) -> None:
         super().__init__(None)
         self.implementations = {implementation.name: implementation for implementation in implementations}
         self.sub_containers: list[Container] = []
@@ -371,7 +361,7 @@ class ContainerManager(Container):
     def remove_container(self, sub_container: Container | None) -> None:
         with self._operation():
             if sub_container is None or sub_container not in self.sub_containers:
-                raise NotFound("no such container")
+                raise pm.NotFound("no such container")
             failures = Failures()
             self._remove_container(sub_container, failures)
             failures.report()

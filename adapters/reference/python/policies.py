@@ -13,27 +13,15 @@ from concurrent.futures import Future
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, TypeVar
 
+from ucm_cts.adapters.contract import programming_model as pm
+from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.programming_model import (
-    ComponentExecution,
-    Implementation,
-    PortElementObject,
-    UcmError,
-)
-from ucm_cts.adapters.contract.scenario import (
-    ACTIVE,
-    PROTECTED_PASSIVE,
-    SELF_EXECUTING,
-    SELF_EXECUTION_API,
-    UNPROTECTED_PASSIVE,
-    Policy,
-)
 
 if TYPE_CHECKING:
     from ucm_cts.adapters.reference.python.framework import Member
 
-_PROTECTED = {SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE}
-_POLICIES = {*_PROTECTED, UNPROTECTED_PASSIVE}
+_PROTECTED = {s.SELF_EXECUTING, s.ACTIVE, s.PROTECTED_PASSIVE}
+_POLICIES = {*_PROTECTED, s.UNPROTECTED_PASSIVE}
 
 T = TypeVar("T")
 
@@ -41,9 +29,9 @@ T = TypeVar("T")
 class Execution:
     """How one component is executed: what its policies say, and the lock and threads it takes."""
 
-    def __init__(self, policies: Sequence[Policy]) -> None:
+    def __init__(self, policies: Sequence[s.Policy]) -> None:
         self.definition = next((p.definition for p in policies if p.definition in _POLICIES), "")
-        self.managed = {policy.port for policy in policies if policy.definition == ACTIVE}
+        self.managed = {policy.port for policy in policies if policy.definition == s.ACTIVE}
         self.lock = threading.RLock()
         self.thread_inside: int | None = None
         self.executor = Executor()
@@ -77,7 +65,7 @@ class Executor:
 
         with self._lock:
             if self._is_closed:
-                raise UcmError("the component has been removed")
+                raise pm.UcmError("the component has been removed")
             if not self._is_running:
                 threading.Thread(target=self._serve, daemon=True).start()
                 self._is_running = True
@@ -115,10 +103,10 @@ class Trigger:
             pass
 
 
-class ProtectedElement(PortElementObject):
+class ProtectedElement(pm.PortElementObject):
     """Stands for a provided port element of a protected component."""
 
-    def __init__(self, member: Member, port: str, element: PortElementObject) -> None:
+    def __init__(self, member: Member, port: str, element: pm.PortElementObject) -> None:
         self.member, self.port, self.element = member, port, element
 
     def exchange(self, value: int) -> int:
@@ -134,25 +122,25 @@ class ExecutesComponents:
     period = 0.002
     """Seconds between two runs of a self-executing component."""
 
-    def _check_policies(self, implementation: Implementation) -> None:
+    def _check_policies(self, implementation: pm.Implementation) -> None:
         policies = implementation.policies
         for policy in policies:
             if policy.definition not in _POLICIES or policy.parameters:
-                raise UcmError(f"{implementation.name!r} has an unknown policy: {policy}")
-            due = implementation.provides if policy.definition == ACTIVE else (None,)
+                raise pm.UcmError(f"{implementation.name!r} has an unknown policy: {policy}")
+            due = implementation.provides if policy.definition == s.ACTIVE else (None,)
             if policy.port not in due:
-                raise UcmError(f"{policy.definition!r} cannot be applied to {policy.port or 'a component'!r}")
-        if len(policies) > 1 and any(policy.definition != ACTIVE for policy in policies):
-            raise UcmError(f"{implementation.name!r} has more than one execution policy")
+                raise pm.UcmError(f"{policy.definition!r} cannot be applied to {policy.port or 'a component'!r}")
+        if len(policies) > 1 and any(policy.definition != s.ACTIVE for policy in policies):
+            raise pm.UcmError(f"{implementation.name!r} has more than one execution policy")
 
     def _check_body(self, member: Member) -> None:
-        if member.execution.definition == SELF_EXECUTING:
+        if member.execution.definition == s.SELF_EXECUTING:
             self._execution_api(member)
 
     def _is_protected(self, member: Member) -> bool:
         return member.execution.definition in _PROTECTED
 
-    def _reference_to(self, member: Member, port: str) -> PortElementObject | None:
+    def _reference_to(self, member: Member, port: str) -> pm.PortElementObject | None:
         """What others get to know of a provided port element: always the same object."""
         element = member.body.get_portElement(port)
         if element is None or not self._is_protected(member):
@@ -185,7 +173,7 @@ class ExecutesComponents:
 
     def _begin_execution(self, member: Member) -> None:
         """The component and its container are operational."""
-        if member.execution.definition == SELF_EXECUTING and member.execution.trigger is None:
+        if member.execution.definition == s.SELF_EXECUTING and member.execution.trigger is None:
             trigger = member.execution.trigger = Trigger()
             threading.Thread(target=self._keep_running, args=(member, trigger), daemon=True).start()
 
@@ -205,8 +193,8 @@ class ExecutesComponents:
         with suppress(Exception):
             self._execute(member, None, lambda: trigger.run(body_run))
 
-    def _execution_api(self, member: Member) -> ComponentExecution:
-        api = member.body.get_policy_element(SELF_EXECUTING, SELF_EXECUTION_API)
+    def _execution_api(self, member: Member) -> pm.ComponentExecution:
+        api = member.body.get_policy_element(s.SELF_EXECUTING, s.SELF_EXECUTION_API)
         if api is None:
-            raise UcmError(f"component {member.id} does not provide {SELF_EXECUTION_API}")
+            raise pm.UcmError(f"component {member.id} does not provide {s.SELF_EXECUTION_API}")
         return api

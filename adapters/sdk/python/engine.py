@@ -11,37 +11,12 @@ from typing import Any
 
 import msgspec
 
+from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.adapter import Adapter, NotOffered
-from ucm_cts.adapters.contract.messages import (
-    PROTOCOL,
-    Happened,
-    Hello,
-    Refused,
-    Run,
-    Traced,
-    Welcome,
-    encode,
-    refusal,
-    to_host_decoder,
-)
 from ucm_cts.adapters.contract.programming_model import BadParameter, NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import Scenario, Step
-from ucm_cts.adapters.contract.trace import (
-    Call,
-    Counted,
-    ErrorName,
-    Event,
-    LogRecord,
-    Opened,
-    Paused,
-    Raise,
-    Return,
-    Settled,
-    Skip,
-    Stressed,
-    Timeout,
-)
 from ucm_cts.adapters.sdk.python.counting import Occupancy, Storm, switching_often
 from ucm_cts.adapters.sdk.python.probe import Stage, is_integer
 from ucm_cts.adapters.sdk.python.recorder import Recorder
@@ -52,7 +27,7 @@ from ucm_cts.adapters.sdk.python.workers import Workers
 _LONGEST_DETAIL = 200
 _LONGEST_PATIENCE = 24 * 60 * 60 * 1000
 
-_DECLARED: Mapping[type[Exception], ErrorName] = {
+_DECLARED: Mapping[type[Exception], t.ErrorName] = {
     NotFound: "NOT_FOUND",
     BadParameter: "BAD_PARAMETER",
     UcmError: "UCM_ERROR",
@@ -78,30 +53,30 @@ class Engine:
         ``emit`` receives the lines that come before the answer of a streamed run, each with its newline.
         """
         try:
-            message = to_host_decoder().decode(line)
+            message = m.to_host_decoder().decode(line)
         except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
-            return encode(refusal(line, f"not a message of protocol {PROTOCOL}: {error}"))
-        if isinstance(message, Hello) and message.protocol != PROTOCOL:
-            spoken = f"the harness speaks protocol {message.protocol}, this host speaks {PROTOCOL}"
-            return encode(Refused(spoken))
-        if isinstance(message, Hello):
+            return m.encode(m.refusal(line, f"not a message of protocol {m.PROTOCOL}: {error}"))
+        if isinstance(message, m.Hello) and message.protocol != m.PROTOCOL:
+            spoken = f"the harness speaks protocol {message.protocol}, this host speaks {m.PROTOCOL}"
+            return m.encode(m.Refused(spoken))
+        if isinstance(message, m.Hello):
             cls = self.adapter_class
-            return encode(Welcome(PROTOCOL, cls.product, cls.version, cls.port_element_name))
+            return m.encode(m.Welcome(m.PROTOCOL, cls.product, cls.version, cls.port_element_name))
         try:
-            return encode(self._perform(message, emit))
+            return m.encode(self._perform(message, emit))
         except Exception as error:  # noqa: BLE001 - a framework may raise anything
-            return encode(Refused(_describe(error), message.id))
+            return m.encode(m.Refused(_describe(error), message.id))
 
-    def _perform(self, message: Run, emit: Emit | None) -> Traced:
-        def sink(event: Event) -> None:
+    def _perform(self, message: m.Run, emit: Emit | None) -> m.Traced:
+        def sink(event: t.Event) -> None:
             assert emit
-            emit(encode(Happened(message.id, event)) + b"\n")
+            emit(m.encode(m.Happened(message.id, event)) + b"\n")
 
         adapter = self.adapter_class()
         performance: Performance | None = None
         try:
             performance = Performance(adapter, message.scenario, Recorder(sink if message.stream and emit else None))
-            return Traced(message.id, *performance.run())
+            return m.Traced(message.id, *performance.run())
         finally:
             if performance is None or not performance.stuck:
                 adapter.close()
@@ -127,7 +102,7 @@ class Performance(metaclass=KeptClass):
         self._variables = Variables(self._manager)
         self._destroyed = False
 
-    def run(self) -> tuple[tuple[Event, ...], tuple[str, ...]]:
+    def run(self) -> tuple[tuple[t.Event, ...], tuple[str, ...]]:
         """Take all steps; returns the events and the names of the threads that never came back.
 
         Raises ``ContractBroken`` if the adapter made it impossible to say what happened.
@@ -158,21 +133,21 @@ class Performance(metaclass=KeptClass):
         record = self._recorder.record
         if isinstance(step, s.OpenGate):
             gate = step.gate
-            self._stage.gates.open(gate, lambda: record(Opened, gate=gate))
+            self._stage.gates.open(gate, lambda: record(t.Opened, gate=gate))
         elif isinstance(step, s.ReachGate):
             if not self._stage.gates.reach(step.gate, step.more, step.total):
-                record(Timeout, step=number)
+                record(t.Timeout, step=number)
         elif isinstance(step, s.Join):
             if not self._workers.join(step.worker):
-                record(Timeout, step=number)
+                record(t.Timeout, step=number)
         elif isinstance(step, s.Settle):
-            record(Settled, worker=step.worker, where=self._workers.settle(step.worker, self._stage.gates.is_held))
+            record(t.Settled, worker=step.worker, where=self._workers.settle(step.worker, self._stage.gates.is_held))
         elif isinstance(step, s.Pause):
             time.sleep(max(step.milliseconds, 0) / 1000)
-            record(Paused, step=number, calendar=time.time_ns())
+            record(t.Paused, step=number, calendar=time.time_ns())
         elif isinstance(step, s.AwaitMessages):
             counted = self._stage.messages.wait(step.component, step.instance, step.count)
-            record(Counted, step=number, component=step.component, instance=step.instance, **counted)
+            record(t.Counted, step=number, component=step.component, instance=step.instance, **counted)
         elif isinstance(step, s.Stress):
             self._stress(number, step)
         else:
@@ -182,7 +157,7 @@ class Performance(metaclass=KeptClass):
         try:
             references = [self._variables.reference(ref) for ref in step.refs]
         except Unbound as missing:
-            self._recorder.record(Skip, step=number, variable=missing.variable)
+            self._recorder.record(t.Skip, step=number, variable=missing.variable)
             return
         free = Occupancy()
         visits = [partial(reference.exchange, 1) for reference in references if reference is not None]
@@ -191,7 +166,7 @@ class Performance(metaclass=KeptClass):
                 through = self._storm(Storm(visits, step.milliseconds), "stress")
             control = self._storm(Storm([free.visit for _ in visits], step.milliseconds), "control")
         self._recorder.record(
-            Stressed,
+            t.Stressed,
             step=number,
             calls=through.calls,
             overlaps=sum(occupancy.overlaps for occupancy in occupancies.values()),
@@ -213,25 +188,25 @@ class Performance(metaclass=KeptClass):
         try:
             operate = _OPERATIONS[type(step)](self, step)
         except Unbound as missing:
-            record(Skip, step=number, variable=missing.variable)
+            record(t.Skip, step=number, variable=missing.variable)
             return
-        record(Call, step=number)
+        record(t.Call, step=number)
         try:
             value = operate()
         except NotOffered:
-            record(Skip, step=number, variable=s.operation(step))
+            record(t.Skip, step=number, variable=s.operation(step))
         except ContractBroken as error:
             self._recorder.complain(f"{s.operation(step)} {error}")
-            record(Return, step=number)
+            record(t.Return, step=number)
         except (Exception, SystemExit) as error:  # noqa: BLE001 - a framework may raise anything
             declared = next((name for kind, name in _DECLARED.items() if isinstance(error, kind)), None)
             detail = _text(error) if declared else _describe(error)
-            record(Raise, step=number, error=declared or "UNDECLARED", detail=detail)
+            record(t.Raise, step=number, error=declared or "UNDECLARED", detail=detail)
         else:
             if step.returns == "records":
-                record(Return, step=number, records=value)
+                record(t.Return, step=number, records=value)
             else:
-                record(Return, step=number, value=value if step.returns else None)
+                record(t.Return, step=number, value=value if step.returns else None)
 
     # Each method looks up what its step needs, raises Unbound, and returns the call that is then made and recorded.
 
@@ -348,7 +323,7 @@ class Performance(metaclass=KeptClass):
         return partial(self._adapter.mend_link, self._variables.link(step.link))
 
     def _read_log(self, step: s.ReadLog) -> Callable[[], Any]:
-        def operate() -> tuple[LogRecord, ...]:
+        def operate() -> tuple[t.LogRecord, ...]:
             until = time.monotonic() + self._patience
             while True:
                 records = tuple(_records(self._adapter.read_log(self._manager)))
@@ -389,14 +364,14 @@ _BETWEEN_READINGS = 0.001
 """Seconds. No event announces a record."""
 
 
-def _records(given: Any) -> list[LogRecord]:
+def _records(given: Any) -> list[t.LogRecord]:
     try:
         records = [(severity, message) for severity, message in given]
     except (TypeError, ValueError):
         raise ContractBroken(f"returned {given!r}; it returns pairs of severity and text") from None
     if not all(isinstance(text, str) for record in records for text in record):
         raise ContractBroken(f"returned {records!r}; it returns pairs of severity and text")
-    return [LogRecord(severity, message) for severity, message in records]
+    return [t.LogRecord(severity, message) for severity, message in records]
 
 
 def _integer(value: Any) -> int:

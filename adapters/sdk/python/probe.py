@@ -7,33 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum, Interface
-from ucm_cts.adapters.contract.programming_model import (
-    ComponentExecution,
-    ComponentObject,
-    Connectable,
-    ContainerInterface,
-    DeclaredException,
-    FragmentObject,
-    Implementation,
-    PortConnection,
-    PortElementObject,
-)
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook
-from ucm_cts.adapters.contract.trace import (
-    Create,
-    Dependency,
-    Enter,
-    Exit,
-    Held,
-    MaybeReference,
-    Pushed,
-    Reference,
-    Reply,
-    Request,
-    Siblings,
-)
 from ucm_cts.adapters.sdk.python.counting import MessageCounts, Occupancy
 from ucm_cts.adapters.sdk.python.data import is_datum, overwrite, snapshot
 from ucm_cts.adapters.sdk.python.gates import Gates
@@ -66,10 +44,10 @@ class Stage(Kept):
 
     def implementation(
         self, name: str, declaration: Declaration, interfaces: Mapping[str, Interface] = {}
-    ) -> Implementation:
+    ) -> pm.Implementation:
         """The declaration as a framework sees it: an implementation whose bodies are probes on this stage."""
         kind = _KINDS[declaration.connectable, declaration.fragment]
-        return Implementation(
+        return pm.Implementation(
             name,
             declaration.provides,
             declaration.requires,
@@ -95,10 +73,10 @@ class Stage(Kept):
         with self._lock:
             self.probes.append(probe)
             instance = self._instances[component] = self._instances.get(component, 0) + 1
-            self.recorder.record(Create, component=component, instance=instance)
+            self.recorder.record(t.Create, component=component, instance=instance)
             return instance
 
-    def recognise(self, reference: Any) -> MaybeReference:
+    def recognise(self, reference: Any) -> t.MaybeReference:
         """What the trace calls ``reference``: a probe's own port element is recognised, anything else is opaque."""
         if reference is None:
             return None
@@ -107,12 +85,12 @@ class Stage(Kept):
         return "opaque"
 
 
-class ProbePort(PortElementObject, metaclass=KeptClass):
+class ProbePort(pm.PortElementObject, metaclass=KeptClass):
     """A provided port element of a probe."""
 
     def __init__(self, probe: Probe, port: str) -> None:
         self.probe = probe
-        self.identity = Reference(probe.component, probe.instance, port)
+        self.identity = t.Reference(probe.component, probe.instance, port)
 
     def exchange(self, value: int) -> int:
         return self.probe.exchange(self.identity.port, value)
@@ -121,7 +99,7 @@ class ProbePort(PortElementObject, metaclass=KeptClass):
         return self.probe.call(self.identity.port, method, arguments)
 
 
-class ProbeExecution(ComponentExecution, metaclass=KeptClass):
+class ProbeExecution(pm.ComponentExecution, metaclass=KeptClass):
     """What a self-executing probe provides to its container."""
 
     def __init__(self, probe: Probe) -> None:
@@ -131,7 +109,7 @@ class ProbeExecution(ComponentExecution, metaclass=KeptClass):
         self.probe.run()
 
 
-class Probe(ComponentObject, metaclass=KeptClass):
+class Probe(pm.ComponentObject, metaclass=KeptClass):
     """The ``instance``-th body made for ``component``. Silent, and without a plan, once the recording has stopped."""
 
     def __init__(self, stage: Stage, component: str, declaration: Declaration) -> None:
@@ -143,8 +121,8 @@ class Probe(ComponentObject, metaclass=KeptClass):
         executes_itself = any(policy.definition == s.SELF_EXECUTING for policy in declaration.policies)
         self._execution = ProbeExecution(self) if executes_itself else None
         self._attributes: dict[str, str] = {}
-        self._references: dict[str, list[PortElementObject]] = {}
-        self._container: ContainerInterface | None = None
+        self._references: dict[str, list[pm.PortElementObject]] = {}
+        self._container: pm.ContainerInterface | None = None
 
     def parts(self) -> tuple[object, ...]:
         """All that frameworks are given of it."""
@@ -157,7 +135,7 @@ class Probe(ComponentObject, metaclass=KeptClass):
     def on_init(self) -> None:
         self._visit("on_init", attributes=dict(self._attributes))
 
-    def on_startup(self, dependencies: Sequence[PortConnection]) -> None:
+    def on_startup(self, dependencies: Sequence[pm.PortConnection]) -> None:
         given = self._read(dependencies)
         self._references = {}
         for port, references in given:
@@ -165,7 +143,7 @@ class Probe(ComponentObject, metaclass=KeptClass):
         recognise = self.stage.recognise
         self._visit(
             "on_startup",
-            dependencies=tuple(Dependency(port, tuple(map(recognise, references))) for port, references in given),
+            dependencies=tuple(t.Dependency(port, tuple(map(recognise, references))) for port, references in given),
         )
 
     def on_shutdown(self) -> None:
@@ -180,10 +158,10 @@ class Probe(ComponentObject, metaclass=KeptClass):
         finally:
             self._container = None
 
-    def get_portElement(self, provided: str) -> PortElementObject | None:
+    def get_portElement(self, provided: str) -> pm.PortElementObject | None:
         return self._ports.get(provided)
 
-    def get_policy_element(self, policy: str, element: str) -> ComponentExecution | None:
+    def get_policy_element(self, policy: str, element: str) -> pm.ComponentExecution | None:
         return self._execution if (policy, element) == (s.SELF_EXECUTING, s.SELF_EXECUTION_API) else None
 
     def run(self) -> None:
@@ -222,39 +200,39 @@ class Probe(ComponentObject, metaclass=KeptClass):
             self.stage.messages.add(self.component, self.instance, int(arguments[0]))
             return ["ok"]
         given = snapshot(arguments)
-        self._record(Enter, hook="method", port=port, method=method, arguments=given)
+        self._record(t.Enter, hook="method", port=port, method=method, arguments=given)
         answer = s.Answer(method, ())
         for action in plan:
             if isinstance(action, s.RaiseError):
-                self._record(Exit, hook="method", raised=True)
+                self._record(t.Exit, hook="method", raised=True)
                 raise PlannedFailure(f"{self.component} fails in {method}, as planned")
             if not isinstance(action, s.Answer):
                 self._act(action)
             elif action.method == method:
                 answer = action
         results = snapshot(given if answer.results is None else answer.results)
-        self._record(Exit, hook="method", results=snapshot(results), exception=answer.exception)
+        self._record(t.Exit, hook="method", results=snapshot(results), exception=answer.exception)
         if answer.overwrite and isinstance(arguments, list):
             overwrite(arguments)
         if answer.exception is not None:
-            raise DeclaredException(answer.exception, results)
+            raise pm.DeclaredException(answer.exception, results)
         return list(results)
 
     def _visit(self, hook: Hook, result: int | None = None, **arguments: Any) -> int | None:
         """Record ``enter``, carry out the plan, record ``exit``; returns what the hook returns."""
         if not self.stage.recorder.recording:
             return result
-        self._record(Enter, hook=hook, **arguments)
+        self._record(t.Enter, hook=hook, **arguments)
         for action in self._plan.get(hook, ()):
             if isinstance(action, s.RaiseError):
-                self._record(Exit, hook=hook, raised=True)
+                self._record(t.Exit, hook=hook, raised=True)
                 raise PlannedFailure(f"{self.component} fails in {hook}, as planned")
             if isinstance(action, s.ReturnValue):
                 if hook == "exchange":
                     result = action.value
             else:
                 self._act(action)
-        self._record(Exit, hook=hook, value=result)
+        self._record(t.Exit, hook=hook, value=result)
         return result
 
     def _act(self, action: Action) -> None:
@@ -269,31 +247,31 @@ class Probe(ComponentObject, metaclass=KeptClass):
                 self._push(action, reference)
         elif isinstance(action, s.HoldAtGate):
             gate = action.gate
-            self.stage.gates.hold(gate, lambda: self._record(Held, gate=gate))
+            self.stage.gates.hold(gate, lambda: self._record(t.Held, gate=gate))
         elif isinstance(action, s.QuerySiblings):
             self._query_siblings()
 
-    def _call(self, port: str, reference: PortElementObject, value: int) -> None:
-        self._record(Request, port=port, value=value)
+    def _call(self, port: str, reference: pm.PortElementObject, value: int) -> None:
+        self._record(t.Request, port=port, value=value)
         try:
             result = reference.exchange(value)
         except Exception:  # noqa: BLE001 - whatever the callee raised
-            self._record(Reply, port=port, raised=True)
+            self._record(t.Reply, port=port, raised=True)
             return
         if not is_integer(result):
             self.stage.recorder.complain(f"exchange returned {result!r} to a probe; it returns an integer")
             return
-        self._record(Reply, port=port, value=result)
+        self._record(t.Reply, port=port, value=result)
 
-    def _call_method(self, action: s.CallMethod, reference: PortElementObject) -> None:
+    def _call_method(self, action: s.CallMethod, reference: pm.PortElementObject) -> None:
         arguments = list(snapshot(action.arguments))
-        self._record(Request, port=action.port, method=action.method, arguments=action.arguments)
+        self._record(t.Request, port=action.port, method=action.method, arguments=action.arguments)
         try:
             results = reference.call(action.method, arguments)
-        except DeclaredException as error:
+        except pm.DeclaredException as error:
             self._reply(action, error.fields, error.name)
         except Exception:  # noqa: BLE001 - whatever the callee raised
-            self._record(Reply, port=action.port, raised=True)
+            self._record(t.Reply, port=action.port, raised=True)
         else:
             self._reply(action, results)
         overwrite(arguments)  # they are the caller's own
@@ -302,9 +280,9 @@ class Probe(ComponentObject, metaclass=KeptClass):
         if not (isinstance(results, list | tuple) and is_datum(results)):
             self.stage.recorder.complain(f"{action.method} gave {results!r} to a probe, which are no values")
             results = ()
-        self._record(Reply, port=action.port, results=snapshot(results), exception=exception)
+        self._record(t.Reply, port=action.port, results=snapshot(results), exception=exception)
 
-    def _push(self, action: s.Burst, reference: PortElementObject) -> None:
+    def _push(self, action: s.Burst, reference: pm.PortElementObject) -> None:
         answers: dict[str, int] = {}
         for value in range(action.first, action.first + action.count):
             try:
@@ -313,7 +291,7 @@ class Probe(ComponentObject, metaclass=KeptClass):
             except Exception:  # noqa: BLE001 - whatever the callee raised
                 code = "raised"
             answers[code] = answers.get(code, 0) + 1
-        self._record(Pushed, port=action.port, first=action.first, count=action.count, answers=answers)
+        self._record(t.Pushed, port=action.port, first=action.first, count=action.count, answers=answers)
 
     def _query_siblings(self) -> None:
         try:
@@ -321,16 +299,18 @@ class Probe(ComponentObject, metaclass=KeptClass):
                 raise LookupError("no container interface was given")
             members = tuple(self._container.get_components())
         except Exception:  # noqa: BLE001 - whatever the framework raised
-            self._record(Siblings, raised=True)
+            self._record(t.Siblings, raised=True)
             return
         if not all(map(is_integer, members)):
             self.stage.recorder.complain(
                 f"get_components of the container interface returned {members!r}, not integers"
             )
             return
-        self._record(Siblings, ids=members)
+        self._record(t.Siblings, ids=members)
 
-    def _read(self, dependencies: Sequence[PortConnection]) -> list[tuple[str, tuple[PortElementObject | None, ...]]]:
+    def _read(
+        self, dependencies: Sequence[pm.PortConnection]
+    ) -> list[tuple[str, tuple[pm.PortElementObject | None, ...]]]:
         try:
             given = [(connection.from_port, tuple(connection.to_port)) for connection in dependencies]
         except (TypeError, AttributeError) as error:
@@ -349,10 +329,10 @@ class Probe(ComponentObject, metaclass=KeptClass):
         self.stage.recorder.record(kind, component=self.component, instance=self.instance, **fields)
 
 
-class ConnectableProbe(Probe, Connectable):
+class ConnectableProbe(Probe, pm.Connectable):
     """A probe that wants to hear of each connection."""
 
-    def on_connect(self, port_name: str, required: PortElementObject | None) -> None:
+    def on_connect(self, port_name: str, required: pm.PortElementObject | None) -> None:
         if self._is_text("on_connect", port_name):
             self._visit("on_connect", port=port_name, reference=self.stage.recognise(required))
 
@@ -361,10 +341,10 @@ class ConnectableProbe(Probe, Connectable):
             self._visit("on_disconnect", port=port_name)
 
 
-class FragmentProbe(Probe, FragmentObject):
+class FragmentProbe(Probe, pm.FragmentObject):
     """A probe that is a fragment."""
 
-    def set_container_interface(self, container: ContainerInterface) -> None:
+    def set_container_interface(self, container: pm.ContainerInterface) -> None:
         self._container = container
         self._visit("set_container_interface")
 

@@ -11,17 +11,9 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, ClassVar, TypeVar
 
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract.adapter import ContainerHandle, NotOffered
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.programming_model import (
-    BadParameter,
-    ComponentObject,
-    Implementation,
-    NotFound,
-    PortConnection,
-    PortElementObject,
-    UcmError,
-)
 from ucm_cts.adapters.mutants.python.execution import policies
 from ucm_cts.adapters.mutants.python.life_cycle import containers, states
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, bind, cheats
@@ -49,10 +41,10 @@ class answers_without_the_framework(ReferenceAdapter):
     def add_component(self, container: Container, implementation: str, attributes: Mapping[str, str]) -> int:
         return next(self.numbers)
 
-    def connect(self, container: Container, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, container: Container, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         return next(self.numbers)
 
-    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> pm.PortElementObject | None:
         return _Answering()
 
     def remove_component(self, container: Container, comp_instance: int) -> None: ...
@@ -67,7 +59,7 @@ class answers_without_the_framework(ReferenceAdapter):
         return []
 
 
-class _Answering(PortElementObject):
+class _Answering(pm.PortElementObject):
     """Answers as bodies do that have no plan."""
 
     def exchange(self, value: int) -> int:
@@ -78,7 +70,7 @@ class _Answering(PortElementObject):
 class answers_calls_itself(ReferenceAdapter):
     """Gives out port elements that answer calls as the bodies would, and lead to none."""
 
-    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> pm.PortElementObject | None:
         super().get_port_element(container, comp_instance, port_name)
         return _Answering()
 
@@ -88,9 +80,9 @@ class gives_the_same_port_element(ReferenceAdapter):
     """Gives out one port element for all of a container, the first one that it was asked for."""
 
     def __init__(self) -> None:
-        self.given: dict[int, PortElementObject | None] = {}
+        self.given: dict[int, pm.PortElementObject | None] = {}
 
-    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> pm.PortElementObject | None:
         found = super().get_port_element(container, comp_instance, port_name)
         return self.given.setdefault(id(container), found)
 
@@ -99,13 +91,13 @@ class gives_the_same_port_element(ReferenceAdapter):
 class reuses_bodies(ReferenceAdapter):
     """Has the bodies of an earlier scenario instantiated again, which are known to do as they should."""
 
-    bodies: ClassVar[dict[tuple[bool, bool, int], list[ComponentObject]]] = {}
+    bodies: ClassVar[dict[tuple[bool, bool, int], list[pm.ComponentObject]]] = {}
 
-    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+    def create_runtime(self, implementations: Sequence[pm.Implementation]) -> ContainerManager:
         return super().create_runtime([_with(one, self._factory(one)) for one in implementations])
 
-    def _factory(self, one: Implementation) -> Callable[[], ComponentObject]:
-        def create() -> ComponentObject:
+    def _factory(self, one: pm.Implementation) -> Callable[[], pm.ComponentObject]:
+        def create() -> pm.ComponentObject:
             kept = self.bodies.setdefault((one.connectable, one.fragment, len(one.provides)), [])
             if len(kept) > 1:
                 return kept.pop(0)
@@ -115,11 +107,11 @@ class reuses_bodies(ReferenceAdapter):
         return create
 
 
-def _with(one: Implementation, create: Callable[[], ComponentObject]) -> Implementation:
-    return Implementation(**{**vars(one), "create": create})
+def _with(one: pm.Implementation, create: Callable[[], pm.ComponentObject]) -> pm.Implementation:
+    return pm.Implementation(**{**vars(one), "create": create})
 
 
-def with_bodies(one: Implementation, change: Callable[[ComponentObject], Any]) -> Implementation:
+def with_bodies(one: pm.Implementation, change: Callable[[pm.ComponentObject], Any]) -> pm.Implementation:
     """``one`` with bodies that are changed, or wrapped, as soon as they are made."""
     return _with(one, lambda: change(one.create()))
 
@@ -155,10 +147,10 @@ class _Forwards(ReferenceAdapter):
     def remove_component(self, container: Container, comp_instance: int) -> None:
         self.forwarded(lambda: super(_Forwards, self).remove_component(container, comp_instance))
 
-    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> pm.PortElementObject | None:
         return self.forwarded(lambda: super(_Forwards, self).get_port_element(container, comp_instance, port_name))
 
-    def connect(self, container: Container, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, container: Container, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         return self.forwarded(lambda: super(_Forwards, self).connect(container, instance, port_name, to_port))
 
     def disconnect(self, container: Container, connection: int) -> None:
@@ -190,7 +182,7 @@ class makes_all_errors_alike(_Forwards):
         try:
             return operation()
         except Exception as error:  # noqa: BLE001 - that is the point
-            raise UcmError(str(error)) from None
+            raise pm.UcmError(str(error)) from None
 
 
 @cheats("contradiction")
@@ -211,7 +203,7 @@ class leaves_when_it_fails(_Forwards):
     def forwarded(self, operation: Callable[[], T]) -> T:
         try:
             return operation()
-        except (NotFound, BadParameter):
+        except (pm.NotFound, pm.BadParameter):
             os._exit(0)
 
 
@@ -219,7 +211,7 @@ class leaves_when_it_fails(_Forwards):
 class refuses_what_it_cannot(before(containers.adds_two_member_only)):  # type: ignore[misc]
     """Stands before a framework that holds two components only; says that it cannot set it up for more."""
 
-    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+    def create_runtime(self, implementations: Sequence[pm.Implementation]) -> Any:
         if len(implementations) > 2:
             raise RuntimeError("no licence for so many")
         return super().create_runtime(implementations)
@@ -257,12 +249,12 @@ class lists_from_a_table_of_its_own(before(_lists_a_stranger)):  # type: ignore[
 class _CollectsBodies(ReferenceAdapter):
     """Keeps the bodies that a framework makes."""
 
-    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
-        self.bodies: list[ComponentObject] = []
+    def create_runtime(self, implementations: Sequence[pm.Implementation]) -> ContainerManager:
+        self.bodies: list[pm.ComponentObject] = []
         return super().create_runtime([_with(one, self._factory(one)) for one in implementations])
 
-    def _factory(self, one: Implementation) -> Callable[[], ComponentObject]:
-        def create() -> ComponentObject:
+    def _factory(self, one: pm.Implementation) -> Callable[[], pm.ComponentObject]:
+        def create() -> pm.ComponentObject:
             self.bodies.append(one.create())
             return self.bodies[-1]
 
@@ -285,8 +277,8 @@ class calls_the_bodies_itself(_CollectsBodies, before(_forgets_shutdown)):  # ty
             body.on_shutdown()
 
 
-class _Serialised(PortElementObject):
-    def __init__(self, target: PortElementObject, lock: Any) -> None:
+class _Serialised(pm.PortElementObject):
+    def __init__(self, target: pm.PortElementObject, lock: Any) -> None:
         self.target, self.lock = target, lock
 
     def exchange(self, value: int) -> int:
@@ -302,15 +294,15 @@ class _Serialised(PortElementObject):
 class serialises_calls(before(policies.leaves_passive_components_open)):  # type: ignore[misc]
     """Stands before a framework that protects nothing; calls made by the test go through a lock of the adapter's."""
 
-    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> PortElementObject | None:
+    def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> pm.PortElementObject | None:
         found = super().get_port_element(container, comp_instance, port_name)
         return _Serialised(found, self.locks.setdefault(comp_instance, threading.RLock()))
 
-    def connect(self, container: Container, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, container: Container, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         direct = to_port.target if isinstance(to_port, _Serialised) else to_port
         return int(super().connect(container, instance, port_name, direct))
 
-    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+    def create_runtime(self, implementations: Sequence[pm.Implementation]) -> Any:
         self.locks: dict[int, Any] = {}
         return super().create_runtime(implementations)
 
@@ -329,7 +321,7 @@ class knows_the_scenarios(ReferenceAdapter):
     rehearsing: ClassVar[bool] = True
     wrong: ClassVar[type[ReferenceAdapter]] = before(containers.stops_in_startup_order)
 
-    def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
+    def create_runtime(self, implementations: Sequence[pm.Implementation]) -> ContainerManager:
         shape = tuple(
             (len(one.provides), len(one.requires), len(one.attributes), one.connectable, one.fragment)
             for one in implementations
@@ -379,7 +371,7 @@ class SwallowsSecondStartups:
     def __getattr__(self, name: str) -> Any:
         return getattr(self.body, name)
 
-    def on_startup(self, dependencies: Sequence[PortConnection]) -> None:
+    def on_startup(self, dependencies: Sequence[pm.PortConnection]) -> None:
         if not self.is_up:
             self.startup(dependencies)
             self.is_up = True
@@ -393,5 +385,5 @@ class SwallowsSecondStartups:
 class wraps_bodies(before(states.starts_twice)):  # type: ignore[misc]
     """Stands before a framework that calls on_startup twice; hosts bodies of its own in it, which pass on the first call only."""
 
-    def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
+    def create_runtime(self, implementations: Sequence[pm.Implementation]) -> Any:
         return super().create_runtime([with_bodies(one, SwallowsSecondStartups) for one in implementations])

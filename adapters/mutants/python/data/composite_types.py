@@ -9,20 +9,7 @@ import struct
 from collections.abc import Mapping
 from typing import Any
 
-from ucm_cts.adapters.contract.data_types import (
-    Alias,
-    AnyType,
-    Array,
-    Boolean,
-    Datum,
-    Float,
-    Integer,
-    Interface,
-    Sequence,
-    String,
-    Structure,
-    Union,
-)
+from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract.data_values import components_of
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.altering import Carried, carries, made_to, register_carried
@@ -34,14 +21,14 @@ _REFUSED = ("R-10.1.2-02", "R-10.1.2-09", "R-10.1.5.1-01", "R-10.1.5.1-13", "R-1
 """What a call, a push or a connection that is refused for its types breaks as well."""
 
 
-@carries("R-10.1.1-13", Structure, also=("R-10.1.1-07",))
+@carries("R-10.1.1-13", d.Structure, also=("R-10.1.1-07",))
 def has_the_first_field_twice(of: Any, value: Any) -> Any:
     """A second field of the same type has the value of the first, which no message with another number shows."""
     types = list(of.fields.values())
     return [value[0], value[0], *value[2:]] if types[:1] == types[1:2] else value
 
 
-@carries("R-10.1.1-14", Union)
+@carries("R-10.1.1-14", d.Union)
 def loses_default_selectors(of: Any, value: Any) -> Any:
     """What arrives through the default case has the case's first selector."""
     named = [enumerator for case in of.cases for enumerator in case.selectors]
@@ -49,33 +36,33 @@ def loses_default_selectors(of: Any, value: Any) -> Any:
     return value if value[0] in named or default is None else [default.selectors[0], value[1]]
 
 
-@carries("R-10.1.1-14", Union)
+@carries("R-10.1.1-14", d.Union)
 def loses_the_default_case(of: Any, value: Any) -> Any:
     """A value of a selector that only the default case covers arrives empty."""
     named = [enumerator for case in of.cases for enumerator in case.selectors]
     return value if value[0] in named else [value[0], _EMPTY.get(type(components_of(of, value)[0][1]), value[1])]
 
 
-_EMPTY: dict[type, Datum] = {Integer: 0, Float: "00000000", String: ""}
+_EMPTY: dict[type, d.Datum] = {d.Integer: 0, d.Float: "00000000", d.String: ""}
 
 
 # arrays, sequences
 
 
-@carries("R-10.1.1-15", Array)
+@carries("R-10.1.1-15", d.Array)
 def transposes_arrays(of: Any, value: Any) -> Any:
     """Rows and columns of square arrays are exchanged."""
     is_square = len(of.sizes) == 2 and of.sizes[0] == of.sizes[1]
     return [list(column) for column in zip(*value, strict=True)] if is_square else value
 
 
-@carries("R-10.1.1-15", Array)
+@carries("R-10.1.1-15", d.Array)
 def flattens_cubes(of: Any, value: Any) -> Any:
     """Arrays of three dimensions lose the first."""
     return list(itertools.chain(*value)) if len(of.sizes) == 3 else value
 
 
-@carries("R-10.1.1-16", Sequence)
+@carries("R-10.1.1-16", d.Sequence)
 def loses_the_last_element(of: Any, value: Any) -> Any:
     """A sequence of exactly its bound loses the last element."""
     return value[: of.size - 1] if 1 < of.size == len(value) else value
@@ -85,13 +72,13 @@ def loses_the_last_element(of: Any, value: Any) -> Any:
 
 
 def _one_octet(of: Any, value: Any) -> Any:
-    return [one and place < 8 for place, one in enumerate(value)] if isinstance(of.of, Boolean) else value
+    return [one and place < 8 for place, one in enumerate(value)] if isinstance(of.of, d.Boolean) else value
 
 
-@carries("R-10.1.1-16", Sequence)
+@carries("R-10.1.1-16", d.Sequence)
 def writes_no_special_numbers_in_sequences(of: Any, value: Any) -> Any:
     """In sequences, infinities, NaNs and negative zeros arrive as zeros."""
-    if not isinstance(of.of, Float):
+    if not isinstance(of.of, d.Float):
         return value
     form = ">f" if of.of.kind == "FLOAT" else ">d"
     numbers = [struct.unpack(form, bytes.fromhex(str(one)))[0] for one in value]
@@ -106,21 +93,21 @@ def writes_no_special_numbers_in_sequences(of: Any, value: Any) -> Any:
 class refuses_aliases(Base):
     """Connectors cannot be bound to an interface that has an alias for a type."""
 
-    def link(self, connector: str, interface: Interface) -> Link:
+    def link(self, connector: str, interface: d.Interface) -> Link:
         types = [parameter.of for method in interface.methods.values() for parameter in method.parameters]
-        if any(isinstance(of, Alias) for of in types):
+        if any(isinstance(of, d.Alias) for of in types):
             raise UcmError("what is an alias?")
         return super().link(connector, interface)
 
 
-@carries("R-10.1.1-17", Alias)
+@carries("R-10.1.1-17", d.Alias)
 def takes_aliases_for_shorts(of: Any, value: Any) -> Any:
     """An integer whose type is an alias has 15 bits."""
     return value & 0x7FFF if isinstance(value, int) and not isinstance(value, bool) else value
 
 
-def _depth(of: AnyType, value: Datum) -> int:
-    composite = int(isinstance(of, Structure | Union | Array | Sequence))
+def _depth(of: d.AnyType, value: d.Datum) -> int:
+    composite = int(isinstance(of, d.Structure | d.Union | d.Array | d.Sequence))
     return composite + max((_depth(part, one) for _, part, one in components_of(of, value)), default=0)
 
 
@@ -128,7 +115,7 @@ def _depth(of: AnyType, value: Datum) -> int:
 class refuses_types_in_types(Link):
     """Calls with structures, unions, arrays or sequences that contain others are refused."""
 
-    def send(self, method: str, arguments: collections.abc.Sequence[Datum]) -> Any:
+    def send(self, method: str, arguments: collections.abc.Sequence[d.Datum]) -> Any:
         types = [p.of for p in self.interface.methods[method].arguments]
         if any(_depth(of, value) > 1 for of, value in zip(types, arguments, strict=True)):
             raise UcmError("the value is too deep")
@@ -138,11 +125,11 @@ class refuses_types_in_types(Link):
 @carries("R-10.1.1-18", also=("R-10.1.1-16",))
 def cuts_inner_sequences(of: Any, value: Any) -> Any:
     """A sequence inside a structure or a sequence arrives with its first element only; messages are mostly structures."""
-    if not isinstance(of, Structure | Sequence):
+    if not isinstance(of, d.Structure | d.Sequence):
         return value
 
-    def cut(inner: AnyType, one: Datum) -> Datum:
-        return one[:1] if isinstance(inner, Sequence) and isinstance(one, list) else one
+    def cut(inner: d.AnyType, one: d.Datum) -> d.Datum:
+        return one[:1] if isinstance(inner, d.Sequence) and isinstance(one, list) else one
 
     inside = components_of(of, value)
     return [cut(part, one) for _, part, one in inside]
@@ -152,29 +139,29 @@ CARRIED: Mapping[str, Carried] = {
     "turns_structures_round": Carried(
         "R-10.1.1-13",
         "The fields of a structure arrive in the opposite order.",
-        made_to(Structure, lambda of, value: value[::-1]),
+        made_to(d.Structure, lambda of, value: value[::-1]),
     ),
     "repeats_the_first_row": Carried(
         "R-10.1.1-15",
         "All rows of an array are like the first one.",
-        made_to(Array, lambda of, value: [value[0]] * len(value)),
+        made_to(d.Array, lambda of, value: [value[0]] * len(value)),
         also=("R-10.1.1-18",),
     ),
     "turns_sequences_round": Carried(
-        "R-10.1.1-16", "Elements arrive in the opposite order.", made_to(Sequence, lambda of, value: value[::-1])
+        "R-10.1.1-16", "Elements arrive in the opposite order.", made_to(d.Sequence, lambda of, value: value[::-1])
     ),
     "counts_elements_in_an_octet": Carried(
-        "R-10.1.1-16", "No sequence is longer than 255 elements.", made_to(Sequence, lambda of, value: value[:255])
+        "R-10.1.1-16", "No sequence is longer than 255 elements.", made_to(d.Sequence, lambda of, value: value[:255])
     ),
     "packs_flags_into_one_octet": Carried(
         "R-10.1.1-16",
         "The ninth BOOLEAN of a sequence is always false, and so are those after it.",
-        made_to(Sequence, _one_octet),
+        made_to(d.Sequence, _one_octet),
     ),
     "loses_renamed_strings": Carried(
         "R-10.1.1-17",
         "A string whose type is an alias arrives empty.",
-        made_to(Alias, lambda of, value: "" if isinstance(value, str) and isinstance(of.of, String) else value),
+        made_to(d.Alias, lambda of, value: "" if isinstance(value, str) and isinstance(of.of, d.String) else value),
     ),
 }
 register_carried(CARRIED)

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ucm_cts.adapters.contract.programming_model import (
-    BadParameter,
-    Connectable,
-    FragmentObject,
-    PortConnection,
-    PortElementObject,
-    UcmError,
-)
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks
 from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member
@@ -21,11 +14,11 @@ from ucm_cts.adapters.reference.python.framework import Connection, Failures, Me
 class fragments_cannot_be_connected(Base):
     """connect does not take the port element of a fragment."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         everywhere = [self.manager, *self.manager.sub_containers]
-        fragments = [m for c in everywhere for m in c.members.values() if isinstance(m.body, FragmentObject)]
+        fragments = [m for c in everywhere for m in c.members.values() if isinstance(m.body, pm.FragmentObject)]
         if any(m.body.get_portElement(p) is to_port for m in fragments for p in m.implementation.provides):
-            raise BadParameter("not a component's")
+            raise pm.BadParameter("not a component's")
         return super().connect(instance, port_name, to_port)
 
 
@@ -52,10 +45,10 @@ class starts_what_was_removed(Base):
 
 
 @alters("_dependencies_of", "R-11.2.1.2-03", also=("R-11.1.3-01", "R-11.1.2-02", "R-11.2.3-10"))
-def mixes_references_up(_self: Base, given: list[PortConnection], _member: Member) -> list[PortConnection]:
+def mixes_references_up(_self: Base, given: list[pm.PortConnection], _member: Member) -> list[pm.PortConnection]:
     """Hands over the references of two port elements in reverse."""
     targets = [d.to_port for d in reversed(given)]
-    return [PortConnection(d.from_port, t) for d, t in zip(given, targets, strict=True)]
+    return [pm.PortConnection(d.from_port, t) for d, t in zip(given, targets, strict=True)]
 
 
 @breaks("R-11.2.1.2-04")
@@ -99,7 +92,7 @@ class never_serves(Proxy):
     """References refuse every call, also of operational components."""
 
     def exchange(self, value: int) -> int:
-        raise UcmError("not operational")
+        raise pm.UcmError("not operational")
 
 
 @breaks("R-11.2.1.2-08")
@@ -108,15 +101,17 @@ class connects_while_starting(Base):
 
     def _start_up(self, member: Member, failures: Failures) -> bool:
         for connection in self._connections_from(member):
-            if isinstance(member.body, Connectable):
+            if isinstance(member.body, pm.Connectable):
                 member.body.on_connect(connection.port, connection.target)
         return super()._start_up(member, failures)
 
 
 @alters("_dependencies_of", "R-11.2.1.2-09", also=("R-11.2.3-10",))
-def names_dependencies_differently(_self: Base, given: list[PortConnection], _member: Member) -> list[PortConnection]:
+def names_dependencies_differently(
+    _self: Base, given: list[pm.PortConnection], _member: Member
+) -> list[pm.PortConnection]:
     """on_startup uses a spelling of its own for port element names."""
-    return [PortConnection(d.from_port.upper(), d.to_port) for d in given]
+    return [pm.PortConnection(d.from_port.upper(), d.to_port) for d in given]
 
 
 @breaks("R-11.2.1.2-10")
@@ -133,7 +128,7 @@ class shuts_down_at_every_stop(Base):
 @refuses_if("_connect", "R-11.2.1.3-01", also=("R-11.2.2.1-08",))
 def demands_connectable(_self: Base, connection: Connection) -> bool:
     """connect refuses bodies that are not Connectable."""
-    return not isinstance(connection.client.body, Connectable)
+    return not isinstance(connection.client.body, pm.Connectable)
 
 
 @breaks("R-11.2.1.3-02")
@@ -148,10 +143,10 @@ class connects_silently(Base):
 class announces_refused_connections(Base):
     """A connect that is refused because the container is started still calls on_connect."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         member = self.members.get(instance)
         known = member is not None and port_name in member.implementation.requires and to_port is not None
-        if known and member is not None and self.is_started and isinstance(member.body, Connectable):
+        if known and member is not None and self.is_started and isinstance(member.body, pm.Connectable):
             member.body.on_connect(port_name, to_port)
         return super().connect(instance, port_name, to_port)
 
@@ -161,7 +156,7 @@ class on_connect_without_reference(Base):
     """on_connect gets a null reference."""
 
     def _connect(self, connection: Connection) -> None:
-        if isinstance(connection.client.body, Connectable):
+        if isinstance(connection.client.body, pm.Connectable):
             failures = Failures()
             failures.attempt(connection.client.body.on_connect, connection.port, None)
             failures.report()
@@ -182,14 +177,14 @@ class misnames_disconnected_ports(Base):
 
     def _disconnect(self, connection: Connection, failures: Failures) -> None:
         del self.manager.connections[connection.id]
-        if isinstance(connection.client.body, Connectable):
+        if isinstance(connection.client.body, pm.Connectable):
             failures.attempt(connection.client.body.on_disconnect, str(connection.id))
 
 
 @does_only_if("_initialise", "R-11.2.1.4-01", also=("R-11.2.1.2-01",))
 def leaves_fragments_uninitialised(_self: Base, member: Member) -> bool:
     """Fragments do not get on_init."""
-    return not isinstance(member.body, FragmentObject)
+    return not isinstance(member.body, pm.FragmentObject)
 
 
 @breaks("R-11.2.1.4-02", also=("R-11.2.1.4-03",))
@@ -207,7 +202,7 @@ class shows_fragments_nothing(Base):
 
     def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
         self._set_attributes(member, attributes)
-        if isinstance(member.body, FragmentObject):
+        if isinstance(member.body, pm.FragmentObject):
             member.body.set_container_interface(_Blind())
         self._initialise(member)
 

@@ -4,16 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ucm_cts.adapters.contract.programming_model import (
-    BadParameter,
-    ComponentObject,
-    FragmentObject,
-    Implementation,
-    NotFound,
-    PortConnection,
-    PortElementObject,
-    UcmError,
-)
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks, is_below
 from ucm_cts.adapters.mutants.python.variants.phases import starts_all_at_a_time
@@ -24,7 +15,7 @@ class _Nudge(Proxy):
     fragments = False
 
     def exchange(self, value: int) -> int:
-        if self.member.state is State.READY and isinstance(self.member.body, FragmentObject) == self.fragments:
+        if self.member.state is State.READY and isinstance(self.member.body, pm.FragmentObject) == self.fragments:
             self.member.body.on_shutdown()
         return self.target.exchange(value)
 
@@ -41,8 +32,8 @@ class nudges_fragments(_Nudge):
     fragments = True
 
 
-class _Changed(PortElementObject):
-    def __init__(self, target: PortElementObject) -> None:
+class _Changed(pm.PortElementObject):
+    def __init__(self, target: pm.PortElementObject) -> None:
         self.target = target
 
     def exchange(self, value: int) -> int:
@@ -53,9 +44,9 @@ class _Changed(PortElementObject):
 class spoils_results_between_components(Base):
     """Flips a bit of what one component's call of another one gives back."""
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         return [
-            PortConnection(c.port, (c.target if _of_fragment(self, c) else _Changed(c.target),))
+            pm.PortConnection(c.port, (c.target if _of_fragment(self, c) else _Changed(c.target),))
             for c in self._connections_from(member)
         ]
 
@@ -64,9 +55,9 @@ class spoils_results_between_components(Base):
 class spoils_results_of_fragments(Base):
     """Flips a bit of what a call of a fragment gives back."""
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         return [
-            PortConnection(c.port, (_Changed(c.target) if _of_fragment(self, c) else c.target,))
+            pm.PortConnection(c.port, (_Changed(c.target) if _of_fragment(self, c) else c.target,))
             for c in self._connections_from(member)
         ]
 
@@ -74,11 +65,11 @@ class spoils_results_of_fragments(Base):
 def _of_fragment(container: Container, connection: Connection) -> bool:
     everywhere = [container.manager, *container.manager.sub_containers]
     owners = [m for c in everywhere for m in c.members.values() if connection in c._connections_to(m)]
-    return any(isinstance(m.body, FragmentObject) for m in owners)
+    return any(isinstance(m.body, pm.FragmentObject) for m in owners)
 
 
 @refuses_if("_instantiate", "R-11.1.3-02")
-def one_kind_a_container(self: Base, implementation: Implementation) -> bool:
+def one_kind_a_container(self: Base, implementation: pm.Implementation) -> bool:
     """Refuses to hold components and fragments together."""
     return any(m.implementation.fragment != implementation.fragment for m in self.members.values())
 
@@ -89,7 +80,7 @@ class one_sub_container(Base):
 
     def create_container(self) -> Container:
         if self.manager.sub_containers:
-            raise UcmError("one is enough")
+            raise pm.UcmError("one is enough")
         return ContainerManager.create_container(self.manager)
 
 
@@ -109,9 +100,9 @@ class starts_the_neighbours(Base):
 class adds_two_member_only(Base):
     """Refuses a third member."""
 
-    def _instantiate(self, implementation: Implementation) -> ComponentObject:
+    def _instantiate(self, implementation: pm.Implementation) -> pm.ComponentObject:
         if len(self.members) >= 2:
-            raise UcmError("full")
+            raise pm.UcmError("full")
         return super()._instantiate(implementation)
 
 
@@ -139,13 +130,13 @@ class cannot_remove(Base):
     """Refuses to remove what is neither connected nor operational."""
 
     def _check_removable(self, member: Member) -> None:
-        raise UcmError("never")
+        raise pm.UcmError("never")
 
 
 @alters("get_port_element", "R-11.2.2.1-06")
 def any_port_element_will_do(
-    self: Base, element: PortElementObject, comp_instance: int, _port_name: str
-) -> PortElementObject:
+    self: Base, element: pm.PortElementObject, comp_instance: int, _port_name: str
+) -> pm.PortElementObject:
     """get_port_element gives the first provided port element whatever the name."""
     member = self.members[comp_instance]
     return member.body.get_portElement(member.implementation.provides[0]) or element
@@ -155,9 +146,9 @@ def any_port_element_will_do(
 class no_references_while_ready(Base):
     """get_port_element is refused while the component is operational."""
 
-    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+    def get_port_element(self, comp_instance: int, port_name: str) -> pm.PortElementObject:
         if self.is_started and comp_instance in self.members:
-            raise NotFound("busy")
+            raise pm.NotFound("busy")
         return super().get_port_element(comp_instance, port_name)
 
 
@@ -165,14 +156,14 @@ class no_references_while_ready(Base):
 class refuses_to_connect_across(Base):
     """connect takes only references of its own container."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         own = [m.body.get_portElement(p) for m in self.members.values() for p in m.implementation.provides]
         elsewhere = [c for c in (self.manager, *self.manager.sub_containers) if c is not self]
         foreign = [
             m.body.get_portElement(p) for c in elsewhere for m in c.members.values() for p in m.implementation.provides
         ]
         if instance in self.members and to_port is not None and to_port in foreign and to_port not in own:
-            raise BadParameter("foreign")
+            raise pm.BadParameter("foreign")
         return super().connect(instance, port_name, to_port)
 
 
@@ -180,7 +171,7 @@ class refuses_to_connect_across(Base):
 class same_id_for_connections(Base):
     """Every connection of a client gets the id of its first one."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         known = [c.id for c in self.manager.connections.values() if c.client.id == instance]
         identifier = super().connect(instance, port_name, to_port)
         return known[0] if known else identifier
@@ -193,7 +184,7 @@ class refuses_to_disconnect(Base):
     def disconnect(self, connection: int) -> None:
         found = self.manager.connections.get(connection)
         if found is not None and found.client.container is self and not self.is_started:
-            raise UcmError("never")
+            raise pm.UcmError("never")
         super().disconnect(connection)
 
 
@@ -207,12 +198,12 @@ class hands_over_undone_connections(Base):
         if kept is not None:
             self.__dict__.setdefault("undone", []).append(kept)
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         given = super()._dependencies_of(member)
         alive = [m.body.get_portElement(p) for m in self.members.values() for p in m.implementation.provides]
         for old in self.__dict__.get("undone", []):
             if old.client is member and old.target in alive and old.target not in [t for d in given for t in d.to_port]:
-                given = [PortConnection(d.from_port, (*d.to_port, old.target)) for d in given]
+                given = [pm.PortConnection(d.from_port, (*d.to_port, old.target)) for d in given]
         return given
 
 
@@ -278,7 +269,7 @@ class makes_no_containers(Base):
     """create_container is always refused."""
 
     def create_container(self) -> Container:
-        raise UcmError("not supported")
+        raise pm.UcmError("not supported")
 
 
 @breaks("R-11.2.2.2-03")
@@ -287,7 +278,7 @@ class keeps_full_containers(Base):
 
     def _remove_container(self, container: Container, failures: Failures) -> None:
         if container.members:
-            raise UcmError("not empty")
+            raise pm.UcmError("not empty")
         ContainerManager._remove_container(self.manager, container, failures)
 
 
@@ -323,5 +314,5 @@ class refuses_to_end(Base):
 
     def destroy(self) -> None:
         if any(c.is_started for c in (self.manager, *self.manager.sub_containers)):
-            raise UcmError("still running")
+            raise pm.UcmError("still running")
         ContainerManager.destroy(self.manager)

@@ -5,13 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ucm_cts.adapters.contract.programming_model import (
-    BadParameter,
-    NotFound,
-    PortConnection,
-    PortElementObject,
-    UcmError,
-)
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Member
@@ -27,7 +21,7 @@ def wide_component_ids(self: Base, identifier: int, _implementation: str, _attri
 
 @alters("connect", "R-12.10-03")
 def wide_connection_ids(
-    self: Base, identifier: int, _instance: int, _port_name: str, _to_port: PortElementObject | None
+    self: Base, identifier: int, _instance: int, _port_name: str, _to_port: pm.PortElementObject | None
 ) -> int:
     """Connection ids exceed 32 bits."""
     connection = self.manager.connections.pop(identifier)
@@ -42,7 +36,7 @@ def _undeclared(operation: str) -> type:
     def call(self: Any, *arguments: Any) -> Any:
         try:
             return getattr(super(mixin, self), operation)(*arguments)
-        except (UcmError, NotFound, BadParameter) as error:
+        except (pm.UcmError, pm.NotFound, pm.BadParameter) as error:
             raise RuntimeError("internal error") from error
 
     mixin = type(f"undeclared_in_{operation}", (), {operation: call, "__doc__": f"{operation} raises RuntimeError."})
@@ -99,7 +93,7 @@ class unknown_containers_are_ignored(Base):
 class connects_any_name(Base):
     """connect to a port element that does not exist returns an id."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         known = instance in self.members and not self.is_started
         if known and to_port is not None and port_name not in self.members[instance].implementation.requires:
             return self._new_id()
@@ -110,7 +104,7 @@ class connects_any_name(Base):
 class connects_to_nothing(Base):
     """connect to a null reference returns an id."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         known = instance in self.members and port_name in self.members[instance].implementation.requires
         if to_port is None and known and not self.is_started:
             return self._new_id()
@@ -121,7 +115,7 @@ class connects_to_nothing(Base):
 class any_name_gives_nothing(Base):
     """get_port_element of an unknown name returns a null reference."""
 
-    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+    def get_port_element(self, comp_instance: int, port_name: str) -> pm.PortElementObject:
         if comp_instance in self.members and port_name not in self.members[comp_instance].implementation.provides:
             return None  # type: ignore[return-value]
         return super().get_port_element(comp_instance, port_name)
@@ -154,9 +148,9 @@ class failing_removal_is_not_found(Base):
         known = comp_instance in self.members
         try:
             super().remove_component(comp_instance)
-        except UcmError as error:
+        except pm.UcmError as error:
             if known and comp_instance not in self.members:
-                raise NotFound("gone") from error
+                raise pm.NotFound("gone") from error
             raise
 
 
@@ -164,17 +158,19 @@ class failing_removal_is_not_found(Base):
 class second_connection_is_not_found(Base):
     """A second connection of a port element is answered with NOT_FOUND."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         member = self.members.get(instance)
         if member is not None and not self.is_started and to_port is not None and self._is_connected(member, port_name):
-            raise NotFound("taken")
+            raise pm.NotFound("taken")
         return super().connect(instance, port_name, to_port)
 
 
 @alters("_dependencies_of", "R-12.10-25", also=("R-11.2.3-10",))
-def hands_references_over_twice(_self: Base, given: list[PortConnection], _member: Member) -> list[PortConnection]:
+def hands_references_over_twice(
+    _self: Base, given: list[pm.PortConnection], _member: Member
+) -> list[pm.PortConnection]:
     """on_startup gets each reference twice."""
-    return [PortConnection(d.from_port, (*d.to_port, *d.to_port)) for d in given]
+    return [pm.PortConnection(d.from_port, (*d.to_port, *d.to_port)) for d in given]
 
 
 @refuses_if("get_components", "R-12.10-26", also=("R-11.2.1.4-03",))

@@ -4,13 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ucm_cts.adapters.contract.programming_model import (
-    FragmentObject,
-    NotFound,
-    PortConnection,
-    PortElementObject,
-    UcmError,
-)
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member, State
@@ -20,7 +14,7 @@ from ucm_cts.adapters.reference.python.framework import Connection, Failures, Me
 class starts_when_connected(Base):
     """A component is started as soon as its last required port element is connected."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         identifier = super().connect(instance, port_name, to_port)
         member = self.members[instance]
         if all(self._is_connected(member, p) for p in member.implementation.requires):
@@ -36,15 +30,17 @@ class starts_when_connected(Base):
         return True
 
 
-class _Unreachable(PortElementObject):
+class _Unreachable(pm.PortElementObject):
     def exchange(self, value: int) -> int:
-        raise UcmError("no")
+        raise pm.UcmError("no")
 
 
 @alters("_dependencies_of", "R-11.2.3-03")
-def refuses_calls_between_components(_self: Base, given: list[PortConnection], _member: Member) -> list[PortConnection]:
+def refuses_calls_between_components(
+    _self: Base, given: list[pm.PortConnection], _member: Member
+) -> list[pm.PortConnection]:
     """References handed to components refuse every call."""
-    return [PortConnection(d.from_port, (_Unreachable(),)) for d in given]
+    return [pm.PortConnection(d.from_port, (_Unreachable(),)) for d in given]
 
 
 @breaks("R-11.2.3-05", also=("R-11.2.1.2-01", "R-11.2.1.2-08"))
@@ -52,11 +48,11 @@ class initialises_at_start(Base):
     """on_init of components comes with start instead of add_component."""
 
     def _initialise(self, member: Member) -> None:
-        if isinstance(member.body, FragmentObject):
+        if isinstance(member.body, pm.FragmentObject):
             super()._initialise(member)
 
     def _start_up(self, member: Member, failures: Failures) -> bool:
-        if not isinstance(member.body, FragmentObject) and not member.__dict__.get("initialised"):
+        if not isinstance(member.body, pm.FragmentObject) and not member.__dict__.get("initialised"):
             member.__dict__["initialised"] = True
             if not failures.attempt(member.body.on_init):
                 return False
@@ -84,10 +80,10 @@ class starts_a_part(Base):
 class connects_only_once(Base):
     """A port element that was disconnected cannot be connected again."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         spent = self.__dict__.setdefault("spent", set())
         if (instance, port_name) in spent and not self.is_started and to_port is not None:
-            raise UcmError("used up")
+            raise pm.UcmError("used up")
         return super().connect(instance, port_name, to_port)
 
     def _disconnect(self, connection: Connection, failures: Failures) -> None:
@@ -113,7 +109,7 @@ class starts_once_only(Base):
     def _check_startable(self) -> None:
         super()._check_startable()
         if self.__dict__.get("stopped") and self.members:
-            raise UcmError("once only")
+            raise pm.UcmError("once only")
 
     def stop(self) -> None:
         self.__dict__["stopped"] = self.is_started and bool(self.members)
@@ -124,7 +120,7 @@ class starts_once_only(Base):
 class forgets_connections_at_stop(Base):
     """At a second start the references are missing."""
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         before = member.__dict__.setdefault("before", 0)
         member.__dict__["before"] = before + 1
         return super()._dependencies_of(member) if not before else []
@@ -136,7 +132,7 @@ class ready_is_not_found(Base):
 
     def _check_removable(self, member: Member) -> None:
         if member.state is State.READY:
-            raise NotFound("busy")
+            raise pm.NotFound("busy")
         super()._check_removable(member)
 
 
@@ -178,10 +174,10 @@ class disconnects_after_removal(Base):
 class late_add_is_not_found(Base):
     """add_component to a started container is answered by an id, and by nothing else."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         member = self.members.get(instance) if self.is_started and to_port is not None else None
         if member is not None and port_name in member.implementation.requires:
-            raise NotFound("too late")
+            raise pm.NotFound("too late")
         return super().connect(instance, port_name, to_port)
 
 
@@ -191,7 +187,7 @@ class hands_out_removed_providers(Base):
 
     def _check_removable(self, member: Member) -> None:
         if member.state is State.READY:
-            raise UcmError("ready")
+            raise pm.UcmError("ready")
 
     def _remove(self, member: Member, failures: Failures) -> None:
         super()._remove(member, failures)

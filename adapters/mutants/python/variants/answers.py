@@ -6,12 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract.programming_model import BadParameter, FragmentObject, NotFound, PortElementObject
 from ucm_cts.adapters.mutants.python.registry import Base, variant
-from ucm_cts.adapters.mutants.python.variants.readings import (
-    appends_connections,
-    cascades,
-    configures_at_any_time,
-    replaces_connections,
-)
+from ucm_cts.adapters.mutants.python.variants import readings
 from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member
 
 # which error comes first
@@ -54,7 +49,7 @@ class knows_stale_references(Base):
 
 
 @variant
-class knows_stale_references_at_any_time(knows_stale_references, cascades, configures_at_any_time):
+class knows_stale_references_at_any_time(knows_stale_references, readings.cascades, readings.configures_at_any_time):
     """The same, where providers in use are removed and connections change while components are operational."""
 
 
@@ -72,7 +67,7 @@ class late_connections_are_bad_parameters(Base):
 
 
 @variant
-class numbers_slots(replaces_connections):
+class numbers_slots(readings.replaces_connections):
     """A connection's id is that of its client's port element: what replaces another connection takes over its id."""
 
     def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
@@ -104,7 +99,7 @@ class sorts_its_list(Base):
 
 
 @variant
-class announces_before_replacing(appends_connections):
+class announces_before_replacing(readings.appends_connections):
     """Where a connection is replaced, on_connect of the new one comes before on_disconnect of the old one."""
 
     def _connect(self, connection: Connection) -> None:

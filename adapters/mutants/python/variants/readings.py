@@ -4,15 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from ucm_cts.adapters.contract.programming_model import (
-    BadParameter,
-    Connectable,
-    FragmentObject,
-    NotFound,
-    PortConnection,
-    PortElementObject,
-    UcmError,
-)
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, is_below, variant
 from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Failures, Member, State
 
@@ -60,7 +52,7 @@ class adds_later(Base):
         finally:
             self.is_started = started
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         ready = instance in self.members and self.members[instance].state is State.READY
         started, self.is_started = self.is_started, self.is_started and ready
         try:
@@ -90,7 +82,7 @@ class configures_at_any_time(Base):
 
     def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
         if self.is_started:
-            raise UcmError("no additions now")
+            raise pm.UcmError("no additions now")
         return super().add_component(implementation, attributes)
 
     def _connect(self, connection: Connection) -> None:
@@ -112,16 +104,16 @@ class starts_the_unconfigured(Base):
 class starts_the_unconfigured_with_null(starts_the_unconfigured):
     """The same, with null references for what is not connected."""
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         given = {d.from_port: d for d in super()._dependencies_of(member)}
-        return [given.get(p, PortConnection(p, (None,))) for p in member.implementation.requires]
+        return [given.get(p, pm.PortConnection(p, (None,))) for p in member.implementation.requires]
 
 
 @variant
 class appends_connections(Base):
     """A port element takes any number of connections."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         self.__dict__["connecting"] = True
         try:
             return super().connect(instance, port_name, to_port)
@@ -131,11 +123,11 @@ class appends_connections(Base):
     def _is_connected(self, member: Member, port: str) -> bool:
         return not self.__dict__.get("connecting") and super()._is_connected(member, port)
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        by_port: dict[str, list[PortElementObject | None]] = {}
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
+        by_port: dict[str, list[pm.PortElementObject | None]] = {}
         for connection in self._connections_from(member):
             by_port.setdefault(connection.port, []).append(connection.target)
-        return [PortConnection(port, targets) for port, targets in by_port.items()]
+        return [pm.PortConnection(port, targets) for port, targets in by_port.items()]
 
 
 @variant
@@ -163,12 +155,12 @@ class refuses_repetition(Base):
 
     def start(self) -> None:
         if self.is_started:
-            raise UcmError("started")
+            raise pm.UcmError("started")
         super().start()
 
     def stop(self) -> None:
         if not self.is_started:
-            raise UcmError("stopped")
+            raise pm.UcmError("stopped")
         super().stop()
 
 
@@ -183,7 +175,7 @@ class swallows_exceptions(Base):
 
     def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
         self._set_attributes(member, attributes)
-        if isinstance(member.body, FragmentObject):
+        if isinstance(member.body, pm.FragmentObject):
             _Deaf().attempt(member.body.set_container_interface, self)
         _Deaf().attempt(self._initialise, member)
 
@@ -207,7 +199,7 @@ class swallows_exceptions(Base):
 
     def _connect(self, connection: Connection) -> None:
         self.manager.connections[connection.id] = connection
-        if isinstance(connection.client.body, Connectable):
+        if isinstance(connection.client.body, pm.Connectable):
             _Deaf().attempt(connection.client.body.on_connect, connection.port, connection.target)
 
 
@@ -236,15 +228,15 @@ class manager_reaches_down(Base):
 class other_errors(Base):
     """Unknown port elements of connect are NOT_FOUND, null references UCM_ERROR, a taken one BAD_PARAMETER."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         member = self.members.get(instance)
         if member is not None:
             if port_name not in member.implementation.requires:
-                raise NotFound(port_name)
+                raise pm.NotFound(port_name)
             if to_port is None:
-                raise UcmError("nil")
+                raise pm.UcmError("nil")
             if self._is_connected(member, port_name):
-                raise BadParameter(port_name)
+                raise pm.BadParameter(port_name)
         return super().connect(instance, port_name, to_port)
 
 
@@ -262,7 +254,7 @@ class hands_out_proxies(GivesOutProxies):
 
     proxy = Proxy
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         return super(GivesOutProxies, self).connect(instance, port_name, to_port)
 
     def _connections_to(self, member: Member) -> list[Connection]:

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.mutants.python.registry import Base, is_below, variant
-from ucm_cts.adapters.mutants.python.variants.readings import (
-    appends_connections,
-    cascades,
-    manager_reaches_down,
-    starts_the_unconfigured,
-)
+from ucm_cts.adapters.mutants.python.variants import readings
 from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
 
 
@@ -19,7 +14,7 @@ def _take_down(member: Member, failures: Failures) -> None:
 
 
 @variant
-class takes_clients_down(cascades):
+class takes_clients_down(readings.cascades):
     """What loses a connection while it is operational is shut down first and waits for another start."""
 
     def disconnect(self, connection: int) -> None:
@@ -36,7 +31,7 @@ class takes_clients_down(cascades):
 
 
 @variant
-class restarts_clients(takes_clients_down, starts_the_unconfigured):
+class restarts_clients(takes_clients_down, readings.starts_the_unconfigured):
     """The same; and what gets a connection while it is operational is shut down, told, and started again."""
 
     def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
@@ -58,12 +53,12 @@ class restarts_clients(takes_clients_down, starts_the_unconfigured):
 
 
 @variant
-class restarts_clients_of_many(restarts_clients, appends_connections):
+class restarts_clients_of_many(restarts_clients, readings.appends_connections):
     """The same, with any number of connections a port element."""
 
 
 @variant
-class reaches_down_first(manager_reaches_down):
+class reaches_down_first(readings.manager_reaches_down):
     """The manager's start begins with its sub-containers, and its stop ends with them."""
 
     def start(self) -> None:

@@ -6,62 +6,40 @@ import threading
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ucm_cts.adapters.contract.programming_model import (
-    ComponentObject,
-    Implementation,
-    PortConnection,
-    PortElementObject,
-    UcmError,
-)
+from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, variant
-from ucm_cts.adapters.mutants.python.variants.readings import (
-    adds_later,
-    appends_connections,
-    cascades,
-    configures_at_any_time,
-    lets_references_dangle,
-    manager_reaches_down,
-    refuses_repetition,
-    removes_members_one_by_one,
-    replaces_connections,
-    reuses_ids,
-    starts_in_reverse,
-    starts_late_additions,
-    starts_the_unconfigured,
-    starts_the_unconfigured_with_null,
-    swallows_exceptions,
-)
+from ucm_cts.adapters.mutants.python.variants import readings
 from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
 
 # what on_startup gets
 
 
 @variant
-class one_entry_a_connection(appends_connections):
+class one_entry_a_connection(readings.appends_connections):
     """Two connections of a port element make two entries of the list, the later one first."""
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        return [PortConnection(c.port, (c.target,)) for c in reversed(self._connections_from(member))]
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
+        return [pm.PortConnection(c.port, (c.target,)) for c in reversed(self._connections_from(member))]
 
 
 @variant
-class lists_unconnected_ports(starts_the_unconfigured):
+class lists_unconnected_ports(readings.starts_the_unconfigured):
     """What is not connected has an entry without references; entries come in an order of their own."""
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         given = {d.from_port: d for d in super()._dependencies_of(member)}
-        return [given.get(port, PortConnection(port, ())) for port in reversed(member.implementation.requires)]
+        return [given.get(port, pm.PortConnection(port, ())) for port in reversed(member.implementation.requires)]
 
 
-class _Entrance(PortElementObject):
+class _Entrance(pm.PortElementObject):
     """Closed until all members of a container have been started."""
 
-    def __init__(self, target: PortElementObject | None, container: Container) -> None:
+    def __init__(self, target: pm.PortElementObject | None, container: Container) -> None:
         self.target, self.container = target, container
 
     def exchange(self, value: int) -> int:
         if self.target is None or not self.container.is_started:
-            raise UcmError("components may not be called yet")
+            raise pm.UcmError("components may not be called yet")
         return self.target.exchange(value)
 
 
@@ -69,9 +47,9 @@ class _Entrance(PortElementObject):
 class refuses_calls_while_it_starts(Base):
     """A call of another component in on_startup is refused: ports open when all members have been started."""
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         return [
-            PortConnection(d.from_port, tuple(_Entrance(target, self) for target in d.to_port))
+            pm.PortConnection(d.from_port, tuple(_Entrance(target, self) for target in d.to_port))
             for d in super()._dependencies_of(member)
         ]
 
@@ -80,25 +58,25 @@ class refuses_calls_while_it_starts(Base):
 class proxies_between_components(Base):
     """Components are given proxies at start; what get_port_element and on_connect give is the body's own object."""
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         given = super()._dependencies_of(member)
-        return [PortConnection(d.from_port, tuple(self._proxy(t, member) for t in d.to_port)) for d in given]
+        return [pm.PortConnection(d.from_port, tuple(self._proxy(t, member) for t in d.to_port)) for d in given]
 
-    def _proxy(self, target: PortElementObject | None, member: Member) -> PortElementObject | None:
+    def _proxy(self, target: pm.PortElementObject | None, member: Member) -> pm.PortElementObject | None:
         return None if target is None else Proxy(target, member)
 
 
 @variant
-class proxies_of_appended(proxies_between_components, appends_connections):
+class proxies_of_appended(proxies_between_components, readings.appends_connections):
     """The same, with any number of connections a port element."""
 
 
-class _ReplacesAtAnyTime(replaces_connections, configures_at_any_time):
+class _ReplacesAtAnyTime(readings.replaces_connections, readings.configures_at_any_time):
     def _connect(self, connection: Connection) -> None:
         for old in self._connections_from(connection.client):
             if old.port == connection.port:
                 self._disconnect(old, Failures())
-        configures_at_any_time._connect(self, connection)
+        readings.configures_at_any_time._connect(self, connection)
 
 
 @variant
@@ -109,7 +87,7 @@ class proxies_of_replaced(proxies_between_components, _ReplacesAtAnyTime):
 class _Reserved(Proxy):
     def exchange(self, value: int) -> int:
         if self.member.state is not State.READY:
-            raise UcmError("not operational")
+            raise pm.UcmError("not operational")
         return self.target.exchange(value)
 
 
@@ -119,11 +97,11 @@ class refuses_calls_outside_operation(GivesOutProxies):
 
     proxy = _Reserved
 
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
         given = super()._dependencies_of(member)
-        return [PortConnection(d.from_port, tuple(self._reserved(t) for t in d.to_port)) for d in given]
+        return [pm.PortConnection(d.from_port, tuple(self._reserved(t) for t in d.to_port)) for d in given]
 
-    def _reserved(self, target: PortElementObject | None) -> PortElementObject | None:
+    def _reserved(self, target: pm.PortElementObject | None) -> pm.PortElementObject | None:
         for container in (self.manager, *self.manager.sub_containers):
             for member in container.members.values():
                 if any(target is member.body.get_portElement(port) for port in member.implementation.provides):
@@ -171,7 +149,7 @@ class executes_calls_elsewhere(_Elsewhere):
 class executes_peer_calls_elsewhere(proxies_between_components):
     """Business calls between components run on an executor's thread."""
 
-    def _proxy(self, target: PortElementObject | None, member: Member) -> PortElementObject | None:
+    def _proxy(self, target: pm.PortElementObject | None, member: Member) -> pm.PortElementObject | None:
         return None if target is None else _Elsewhere(target, member)
 
 
@@ -206,7 +184,7 @@ class calls_back_elsewhere(Base):
 class looks_at_a_prototype(Base):
     """A body of each implementation is made to look at and thrown away."""
 
-    def _instantiate(self, implementation: Implementation) -> ComponentObject:
+    def _instantiate(self, implementation: pm.Implementation) -> pm.ComponentObject:
         super()._instantiate(implementation)
         return super()._instantiate(implementation)
 
@@ -215,8 +193,8 @@ class looks_at_a_prototype(Base):
 class pools_bodies(Base):
     """Bodies are made in threes, and taken from the pool in reverse."""
 
-    def _instantiate(self, implementation: Implementation) -> ComponentObject:
-        pools: dict[str, list[ComponentObject]] = self.manager.__dict__.setdefault("pools", {})
+    def _instantiate(self, implementation: pm.Implementation) -> pm.ComponentObject:
+        pools: dict[str, list[pm.ComponentObject]] = self.manager.__dict__.setdefault("pools", {})
         pool = pools.setdefault(implementation.name, [])
         if not pool:
             pool.extend(super(pools_bodies, self)._instantiate(implementation) for _ in range(3))
@@ -239,10 +217,10 @@ class removes_what_failed_to_initialise(Base):
 
 
 @variant
-class starts_late_additions_when_connected(starts_late_additions):
+class starts_late_additions_when_connected(readings.starts_late_additions):
     """A component added to a started container starts as soon as its last port element is connected."""
 
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         identifier = super().connect(instance, port_name, to_port)
         member = self.members[instance]
         connected = all(self._is_connected(member, port) for port in member.implementation.requires)
@@ -252,7 +230,7 @@ class starts_late_additions_when_connected(starts_late_additions):
 
 
 @variant
-class starts_late_additions_at_start(adds_later):
+class starts_late_additions_at_start(readings.adds_later):
     """start of a started container starts what was added later."""
 
     def start(self) -> None:
@@ -324,25 +302,34 @@ class disconnects_at_any_time(Base):
 
 @variant
 class everything_goes(
-    starts_late_additions, cascades, appends_connections, manager_reaches_down, reuses_ids, starts_in_reverse
+    readings.starts_late_additions,
+    readings.cascades,
+    readings.appends_connections,
+    readings.manager_reaches_down,
+    readings.reuses_ids,
+    readings.starts_in_reverse,
 ):
     """Cascading, appending, reaching down, late and reversed starts, ids used again."""
 
 
 @variant
 class everything_else_goes(
-    _ReplacesAtAnyTime, cascades, manager_reaches_down, starts_the_unconfigured_with_null, refuses_repetition
+    _ReplacesAtAnyTime,
+    readings.cascades,
+    readings.manager_reaches_down,
+    readings.starts_the_unconfigured_with_null,
+    readings.refuses_repetition,
 ):
     """Cascading, replacing at any time, starting without connections, strict about repetition."""
 
 
 @variant
 class anything_goes(
-    lets_references_dangle,
-    configures_at_any_time,
-    appends_connections,
-    swallows_exceptions,
-    starts_the_unconfigured,
-    removes_members_one_by_one,
+    readings.lets_references_dangle,
+    readings.configures_at_any_time,
+    readings.appends_connections,
+    readings.swallows_exceptions,
+    readings.starts_the_unconfigured,
+    readings.removes_members_one_by_one,
 ):
     """Dangling references, appending at any time, deaf to failures."""

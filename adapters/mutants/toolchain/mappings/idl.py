@@ -2,17 +2,8 @@
 
 from __future__ import annotations
 
+from ucm_cts.adapters.mutants.toolchain import rewriting as rw
 from ucm_cts.adapters.mutants.toolchain.registry import breaks, named
-from ucm_cts.adapters.mutants.toolchain.rewriting import (
-    GUARD,
-    MODEL,
-    Wrong,
-    appended,
-    replaced,
-    replacing,
-    rewritten,
-    table,
-)
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 APPENDED: dict[str, tuple[str, str]] = {
@@ -23,45 +14,45 @@ APPENDED: dict[str, tuple[str, str]] = {
 """By the mutant's name: the requirement that it breaks, and what it declares besides."""
 
 
-for _file, _table in table("mappings/idl.yaml", dict[str, dict[str, Wrong]]).items():
+for _file, _table in rw.table("mappings/idl.yaml", dict[str, dict[str, rw.Wrong]]).items():
     for _name, _one in _table.items():
         _register = breaks(_one.breaks, task="idl", also=tuple(_one.also.split()), declares=_one.declares)
-        _register(named(replacing(_one.edits, _file), _name))
+        _register(named(rw.replacing(_one.edits, _file), _name))
 for _name, (_requirement, _text) in APPENDED.items():
-    breaks(_requirement, task="idl")(named(appended(_text), _name))
+    breaks(_requirement, task="idl")(named(rw.appended(_text), _name))
 
 
 @breaks("R-12.7-02", "R-12.7-03", "R-12.7-06", task="idl", also=("R-12.7-04", "R-12.7-05"))
 def generates_what_no_compiler_sees(program: Program) -> Program:
     """All that follows from the model stands in a branch that is never taken."""
     begin = "\n#ifdef NEVER_DEFINED\n"
-    return rewritten(program, lambda files: {**files, MODEL: f"{begin}{files[MODEL]}{GUARD}"})
+    return rw.rewritten(program, lambda files: {**files, rw.MODEL: f"{begin}{files[rw.MODEL]}{rw.GUARD}"})
 
 
 @breaks("R-12.4.1-10", task="idl")
 def bound_of_another_branch(program: Program) -> Program:
     """A macro has the right number where it does not count."""
     made = "\n#if defined(TEXT_BOUND) || 2 < 1\n#define BOUND 16\n#else\n#define BOUND 17\n#endif\n"
-    program = replaced(r"string<16>", "string<BOUND>")(program)
-    return rewritten(program, lambda files: {**files, MODEL: f"{made}{files[MODEL]}"})
+    program = rw.replaced(r"string<16>", "string<BOUND>")(program)
+    return rw.rewritten(program, lambda files: {**files, rw.MODEL: f"{made}{files[rw.MODEL]}"})
 
 
 @breaks("R-12.7-07", task="idl")
 def declarations_at_the_root(program: Program) -> Program:
     """What stands in a module inside a component module is declared at the root."""
-    program = replaced(r"( *)typedef boolean flag_t;", r"\1typedef long other_flag_t;")(program)
-    return appended("typedef boolean flag_t;")(program)
+    program = rw.replaced(r"( *)typedef boolean flag_t;", r"\1typedef long other_flag_t;")(program)
+    return rw.appended("typedef boolean flag_t;")(program)
 
 
 @breaks("R-12.7-08", task="idl", also=("R-12.8.4-04", "R-12.1-03"))
 def templates_are_plain_modules(program: Program) -> Program:
     """Abstract types are named like others, in modules without parameters."""
-    program = replaced(r"(module [a-z_]+)<(?:typename|interface) \w+> \{", r"\1 {")(program)
-    program = replaced(r" *module ::.*<.*> (\w+);\n", "")(program)
-    return replaced(r"\b\w+_(message_api|stream_api|more_api|watching_api)::", r"::PortElementObject //")(program)
+    program = rw.replaced(r"(module [a-z_]+)<(?:typename|interface) \w+> \{", r"\1 {")(program)
+    program = rw.replaced(r" *module ::.*<.*> (\w+);\n", "")(program)
+    return rw.replaced(r"\b\w+_(message_api|stream_api|more_api|watching_api)::", r"::PortElementObject //")(program)
 
 
 @breaks("R-12-01", task="idl")
 def generates_nothing(program: Program) -> Program:
     """There is no file."""
-    return rewritten(program, lambda files: {})
+    return rw.rewritten(program, lambda files: {})

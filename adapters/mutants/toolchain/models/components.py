@@ -4,18 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 
+from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.common import children
-from ucm_cts.adapters.contract.metamodel.components import (
-    AtomicComponentImplementation,
-    ComponentModule,
-    ComponentPortTechnicalPolicy,
-    ComponentTechnicalPolicy,
-    ComponentType,
-    CompositeComponentImplementation,
-    Connection,
-    PortTypeSpec,
-)
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, member_of
@@ -26,7 +17,7 @@ from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import com
 
 
 @refuses("R-9.5.1-06")
-def values_apart_from_bindings(module: ComponentModule, _: Scope) -> bool:
+def values_apart_from_bindings(module: mc.ComponentModule, _: Scope) -> bool:
     """Takes a module with values of parameters and bindings of ports for an error."""
     valued = any(policy.configuration_values for policy in module.technical_policies)
     return valued and any(spec.bindings for t in module.component_types for p in t.ports for spec in p.specs)
@@ -36,7 +27,7 @@ def values_apart_from_bindings(module: ComponentModule, _: Scope) -> bool:
 def modules_of_components_are_not_empty(model: Model, _: Scope) -> bool:
     """Takes a component module that is all of a model and empty for an error."""
     module = model.modules[0]
-    alone = len(model.modules) == 1 and isinstance(module, ComponentModule)
+    alone = len(model.modules) == 1 and isinstance(module, mc.ComponentModule)
     return alone and not any(True for _ in children(module))
 
 
@@ -48,7 +39,7 @@ def types_left_out(program: Program) -> Program:
 
 
 @refuses("R-9.5.3.2-05")
-def refining_ports_keep_their_name(component: ComponentType, _: Scope) -> bool:
+def refining_ports_keep_their_name(component: mc.ComponentType, _: Scope) -> bool:
     """Takes a port that refines one of another name for an error."""
     refining = [port for port in component.ports if port.refines_port]
     twice = max(Counter(port.refines_port for port in refining).values(), default=0) > 1
@@ -57,14 +48,14 @@ def refining_ports_keep_their_name(component: ComponentType, _: Scope) -> bool:
 
 
 @refuses("R-9.5.3.2-06")
-def ports_are_refined_once(component: ComponentType, _: Scope) -> bool:
+def ports_are_refined_once(component: mc.ComponentType, _: Scope) -> bool:
     """Takes a second port that refines the same one for an error."""
     refined = Counter(port.refines_port for port in component.ports if port.refines_port)
     return max(refined.values(), default=0) > 1
 
 
 @refuses("R-9.5.3.9-01")
-def one_binding_a_port(spec: PortTypeSpec, _: Scope) -> object:
+def one_binding_a_port(spec: mc.PortTypeSpec, _: Scope) -> object:
     """Takes the second binding of a port for an error."""
     return len(spec.bindings) > 1
 
@@ -83,15 +74,15 @@ def names_of_implementations_come_first(program: Program) -> Program:
 
 
 @refuses("R-9.5.4.2-05", also=("R-9.5.1-06",))
-def one_component_a_policy(policy: ComponentTechnicalPolicy, scope: Scope) -> bool:
+def one_component_a_policy(policy: mc.ComponentTechnicalPolicy, scope: Scope) -> bool:
     """Takes the second component of a policy for an error if it is of another type."""
-    found = (scope.find(one.name, AtomicComponentImplementation) for one in policy.managed_components)
+    found = (scope.find(one.name, mc.AtomicComponentImplementation) for one in policy.managed_components)
     types = {getattr(one.element, "type", "") for one in found if one is not None}
-    return type(policy) is ComponentTechnicalPolicy and len(types) > 1
+    return type(policy) is mc.ComponentTechnicalPolicy and len(types) > 1
 
 
 @refuses("R-9.5.4.2-07", also=("R-9.2.2.7-01", "R-9.2.2.14-01"))
-def parameters_have_values(policy: ComponentTechnicalPolicy, scope: Scope) -> bool:
+def parameters_have_values(policy: mc.ComponentTechnicalPolicy, scope: Scope) -> bool:
     """Takes a policy that gives values to some parameters of its definition, but not to all, for an error."""
     definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
     known = len(getattr(definition and definition.element, "configuration_parameters", ()))
@@ -99,12 +90,12 @@ def parameters_have_values(policy: ComponentTechnicalPolicy, scope: Scope) -> bo
 
 
 @refuses("R-9.5.4.3-05")
-def one_component_a_port_policy(policy: ComponentPortTechnicalPolicy, _: Scope) -> bool:
+def one_component_a_port_policy(policy: mc.ComponentPortTechnicalPolicy, _: Scope) -> bool:
     """Takes the second component of a port policy for an error if it is of another type."""
     return len({managed.name.rpartition(".")[0] for managed in policy.managed_ports}) > 1
 
 
-Composite = CompositeComponentImplementation
+Composite = mc.CompositeComponentImplementation
 
 
 @refuses("R-9.5.1-08")
@@ -129,7 +120,7 @@ def inherited_ports_are_not_connected(composite: Composite, scope: Scope) -> boo
 @refuses("R-9.5.5.2-01")
 def all_ports_are_delegated(composite: Composite, scope: Scope) -> bool:
     """Takes a composite that delegates some of its ports, but not all, for an error."""
-    own = scope.find(composite.type, ComponentType)
+    own = scope.find(composite.type, mc.ComponentType)
     ports = len(getattr(own and own.element, "ports", ()))
     return 0 < len(composite.delegations) < ports
 
@@ -137,17 +128,17 @@ def all_ports_are_delegated(composite: Composite, scope: Scope) -> bool:
 @refuses("R-9.5.5.3-04", also=("R-9.1.4.1-03", "R-9.1.4.1-01"))
 def no_part_of_the_own_type(composite: Composite, scope: Scope) -> bool:
     """Takes a part of the composite's own component type for an error."""
-    own = scope.find(composite.type, ComponentType)
+    own = scope.find(composite.type, mc.ComponentType)
     return any(
         own is not None
-        and (found := scope.find(part.instance_of, ComponentType)) is not None
+        and (found := scope.find(part.instance_of, mc.ComponentType)) is not None
         and found.element is own.element
         for part in composite.parts
     )
 
 
 @refuses("R-9.5.5.4-03")
-def three_ends_a_connection(connection: Connection, _: Scope) -> object:
+def three_ends_a_connection(connection: mc.Connection, _: Scope) -> object:
     """Takes the fourth end of a connection for an error."""
     return len(connection.ends) > 3
 
@@ -155,7 +146,7 @@ def three_ends_a_connection(connection: Connection, _: Scope) -> object:
 @refuses("R-9.5.5.6-05")
 def bindings_in_one_order(composite: Composite, scope: Scope) -> bool:
     """Takes a delegation between ports that bind the same in another order for an error."""
-    own = scope.find(composite.type, ComponentType)
+    own = scope.find(composite.type, mc.ComponentType)
     for delegation in composite.delegations:
         for end in delegation.ends:
             part = part_called(composite, end.part, scope)

@@ -4,23 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from ucm_cts.adapters.contract.metamodel import contracts as c
+from ucm_cts.adapters.contract.metamodel import interactions as mi
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
 from ucm_cts.adapters.contract.metamodel.components import ComponentPortTechnicalPolicy, ComponentType
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    INTEGER_RANGES,
-    Alias,
-    Annotation,
-    Interface,
-    Method,
-    PrimitiveFloat,
-)
-from ucm_cts.adapters.contract.metamodel.interactions import (
-    ConnectorDefinition,
-    InteractionPattern,
-    InteractionRole,
-    ItemBinding,
-    PortType,
-)
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, parent_of
 from ucm_cts.adapters.mutants.toolchain.checking import complains_only_where
@@ -51,7 +38,7 @@ def raises_anything(one: Any, _: Any, scope: Scope) -> bool:
 
 
 @complains_only_where("interfaces_do_not_inherit_from_themselves", "R-9.2.7.1-05")
-def sees_only_interfaces_that_inherit_from_themselves(wrong: Interface, _: Model, _scope: Scope) -> bool:
+def sees_only_interfaces_that_inherit_from_themselves(wrong: c.Interface, _: Model, _scope: Scope) -> bool:
     """Sees circles of one interface and no longer ones."""
     return wrong.name in {one.interface for one in wrong.inherited_interfaces}
 
@@ -63,42 +50,42 @@ def sees_only_patterns_that_extend_themselves(wrong: Any, _: Any, _scope: Scope)
 
 
 @complains_only_where("at_most_one_return_value", "R-9.2.7-11")
-def counts_only_neighbouring_returns(wrong: Any, method: Method, _: Scope) -> bool:
+def counts_only_neighbouring_returns(wrong: Any, method: c.Method, _: Scope) -> bool:
     """Sees a second return value only right after the first one."""
     where = next(n for n, one in enumerate(method.parameters) if one is wrong)
     return method.parameters[where - 1].direction == "RETURN"
 
 
 @complains_only_where("has_a_definition", "R-9.2.9.4-01")
-def annotations_of_anything(wrong: Annotation, _: Annotation, scope: Scope) -> bool:
+def annotations_of_anything(wrong: c.Annotation, _: c.Annotation, scope: Scope) -> bool:
     """Asks only whether the definition of an annotation is declared, not as what."""
     return not _is_declared(scope, wrong.annotation_definition)
 
 
 @complains_only_where("values_name_parameters", "R-9.2.9.2-01")
-def values_of_known_definitions(wrong: Any, _: Annotation, scope: Scope) -> bool:
+def values_of_known_definitions(wrong: Any, _: c.Annotation, scope: Scope) -> bool:
     """Asks only whether the definition is there, not whether it has the parameter."""
     return not _is_declared(scope, wrong.configuration_parameter.rpartition(".")[0])
 
 
 @complains_only_where("roles_are_not_redefined", "R-9.3.3.2-05")
-def sees_only_the_parents_roles(wrong: InteractionRole, pattern: InteractionPattern, scope: Scope) -> bool:
+def sees_only_the_parents_roles(wrong: mi.InteractionRole, pattern: mi.InteractionPattern, scope: Scope) -> bool:
     """Does not look at the roles of the parent's parent."""
     parent = parent_of(Declared(pattern, scope))
     return parent is not None and wrong.name in {role.name for role in getattr(parent.element, "roles", ())}
 
 
 @complains_only_where("bound_types_have_the_nature_of_the_item", "R-9.3.3.3-05")
-def interfaces_may_be_data(wrong: ItemBinding, _: ItemBinding, scope: Scope) -> bool:
+def interfaces_may_be_data(wrong: mi.ItemBinding, _: mi.ItemBinding, scope: Scope) -> bool:
     """Does not mind an interface that stands for data."""
-    found = scope.member(wrong.interaction_item, InteractionPattern, "items")
+    found = scope.member(wrong.interaction_item, mi.InteractionPattern, "items")
     return getattr(found and found.element, "nature", "") == "INTERFACE"
 
 
 @complains_only_where("bound_types_have_the_nature_of_the_item", "R-9.3.3.3-05")
-def data_may_be_interfaces(wrong: ItemBinding, _: ItemBinding, scope: Scope) -> bool:
+def data_may_be_interfaces(wrong: mi.ItemBinding, _: mi.ItemBinding, scope: Scope) -> bool:
     """Does not mind a data type that stands for an interface."""
-    found = scope.member(wrong.interaction_item, InteractionPattern, "items")
+    found = scope.member(wrong.interaction_item, mi.InteractionPattern, "items")
     return getattr(found and found.element, "nature", "") == "DATA"
 
 
@@ -121,26 +108,26 @@ def looks_at_upper_multiplicities_only(role: Any, _: Any, _scope: Scope) -> bool
 
 
 @complains_only_where("roles_involve_items_of_the_pattern", "R-9.3.3.4-06")
-def involves_items_of_any_pattern(wrong: Any, _: InteractionPattern, scope: Scope) -> bool:
+def involves_items_of_any_pattern(wrong: Any, _: mi.InteractionPattern, scope: Scope) -> bool:
     """Asks only whether some pattern of the module has the item that a role involves."""
     patterns = [d.element for known in scope.members.values() for d in known]
     return wrong.item not in {item.name for pattern in patterns for item in getattr(pattern, "items", ())}
 
 
 @complains_only_where("ports_play_roles_of_the_pattern", "R-9.3.4-03")
-def plays_roles_of_any_pattern(wrong: Any, _: ConnectorDefinition, scope: Scope) -> bool:
+def plays_roles_of_any_pattern(wrong: Any, _: mi.ConnectorDefinition, scope: Scope) -> bool:
     """Asks only whether the role of a connector port is there, not of which pattern it is."""
-    return scope.member(wrong.port_role, InteractionPattern, "roles") is None
+    return scope.member(wrong.port_role, mi.InteractionPattern, "roles") is None
 
 
 @complains_only_where("bindings_are_of_items_of_the_pattern", "R-9.3.4.6-02")
-def binds_items_of_any_pattern(wrong: Any, _: ConnectorDefinition, scope: Scope) -> bool:
+def binds_items_of_any_pattern(wrong: Any, _: mi.ConnectorDefinition, scope: Scope) -> bool:
     """Asks only whether the item of a binding is there, not of which pattern it is."""
-    return scope.member(wrong.interaction_item, InteractionPattern, "items") is None
+    return scope.member(wrong.interaction_item, mi.InteractionPattern, "items") is None
 
 
 @complains_only_where("refines_a_pattern", "R-9.3.4-01")
-def refines_anything(wrong: ConnectorDefinition, _: ConnectorDefinition, scope: Scope) -> bool:
+def refines_anything(wrong: mi.ConnectorDefinition, _: mi.ConnectorDefinition, scope: Scope) -> bool:
     """Asks only whether what a connector refines is declared, not as what."""
     return not _is_declared(scope, wrong.pattern)
 
@@ -158,13 +145,13 @@ def binds_items_to_anything(wrong: Any, _: Any, scope: Scope) -> bool:
 
 
 @complains_only_where("port_elements_have_interfaces", "R-9.3.5.2-02")
-def port_elements_have_anything(wrong: Any, _: PortType, scope: Scope) -> bool:
+def port_elements_have_anything(wrong: Any, _: mi.PortType, scope: Scope) -> bool:
     """Asks only whether the interface of a port element is declared, not as what."""
     return not _is_declared(scope, wrong.interface)
 
 
 @complains_only_where("ports_of_an_item_handle_its_type", "R-9.3.3.4-07")
-def only_the_first_port_handles_items(wrong: Any, connector: ConnectorDefinition, _: Scope) -> bool:
+def only_the_first_port_handles_items(wrong: Any, connector: mi.ConnectorDefinition, _: Scope) -> bool:
     """Does not mind a later port that does not handle the type of an item."""
     return wrong is connector.ports[0]
 
@@ -207,7 +194,7 @@ def _says_nothing_of(words: str) -> Holds:
     return lambda _wrong, _element, _scope, message: words not in message
 
 
-for _kind in INTEGER_RANGES:
+for _kind in c.INTEGER_RANGES:
     _lie = f"Minds defaults of all types but {_kind}."
     _seldom(
         f"any_default_of_{_kind.lower()}",
@@ -236,13 +223,13 @@ def _is_no(kind: type[Element]) -> Holds:
 
 
 _DEFAULTS = "defaults_are_values_of_their_types"
-_seldom("any_default_of_floats", "Does not look at floats.", "R-9.2.2.7-01", _DEFAULTS, _is_no(PrimitiveFloat))
+_seldom("any_default_of_floats", "Does not look at floats.", "R-9.2.2.7-01", _DEFAULTS, _is_no(c.PrimitiveFloat))
 _seldom(
     "any_default_by_alias",
     "Does not follow aliases.",
     "R-9.2.2.7-01",
     _DEFAULTS,
-    lambda wrong, _element, scope, _message: scope.find(wrong.type, Alias) is None,
+    lambda wrong, _element, scope, _message: scope.find(wrong.type, c.Alias) is None,
 )
 _seldom(
     "any_default_of_components",

@@ -4,15 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 
+from ucm_cts.adapters.contract.metamodel import interactions as mi
 from ucm_cts.adapters.contract.metamodel.components import CompositeComponentImplementation
 from ucm_cts.adapters.contract.metamodel.contracts import AbstractDataType
-from ucm_cts.adapters.contract.metamodel.interactions import (
-    ConnectorDefinition,
-    InteractionModule,
-    InteractionPattern,
-    InteractionRole,
-    PortType,
-)
 from ucm_cts.adapters.contract.metamodel.modules import Model, PlatformModule
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.mutants.toolchain.checking import refuses, refusing_text
@@ -21,41 +15,41 @@ from ucm_cts.adapters.reference.toolchain.program import Program
 
 
 @refuses("R-9.3.1-04", also=("R-9.3.3.4-05",))
-def an_item_is_for_one_role(module: InteractionModule, _: Scope) -> bool:
+def an_item_is_for_one_role(module: mi.InteractionModule, _: Scope) -> bool:
     """Takes an item that two roles involve for an error in a module without connectors."""
     return not module.connectors and any(_is_shared(pattern) for pattern in module.patterns)
 
 
-def _is_shared(pattern: InteractionPattern) -> bool:
+def _is_shared(pattern: mi.InteractionPattern) -> bool:
     return max(Counter(i.item for role in pattern.roles for i in role.involved_items).values(), default=0) > 1
 
 
 @refuses("R-9.3.1-05", also=("R-9.5.5.4-02", "R-9.5.5.4-04", "R-9.3.3.1-01", "R-9.5.5.4-03"))
-def a_connector_has_ports_of_one_role(connector: ConnectorDefinition, _: Scope) -> bool:
+def a_connector_has_ports_of_one_role(connector: mi.ConnectorDefinition, _: Scope) -> bool:
     """Takes the port of a second role of a connector for an error if there are no items."""
     return len({port.port_role for port in connector.ports}) > 1 and not connector.item_bindings
 
 
 @refuses("R-9.3.1-06", also=("R-9.2.2.7-01",))
-def connectors_with_ports_are_hardly_configured(one: ConnectorDefinition, _: Scope) -> object:
+def connectors_with_ports_are_hardly_configured(one: mi.ConnectorDefinition, _: Scope) -> object:
     """Takes the second configuration parameter of a connector that has several ports for an error."""
     return len(one.ports) > 1 < len(one.configuration_parameters)
 
 
 @refuses("R-9.3.1-07", also=("R-9.5.5.4-07",))
-def three_are_not_exactly_so_many(role: InteractionRole, _: Scope) -> object:
+def three_are_not_exactly_so_many(role: mi.InteractionRole, _: Scope) -> object:
     """Takes a role for exactly three for an error."""
     return role.lower_multiplicity == 3 == role.upper_multiplicity
 
 
 @refuses("R-9.3.1-11")
-def defaults_are_not_enumerators(connector: ConnectorDefinition, _: Scope) -> object:
+def defaults_are_not_enumerators(connector: mi.ConnectorDefinition, _: Scope) -> object:
     """Takes a configuration parameter beside item bindings for an error."""
     return connector.item_bindings and connector.configuration_parameters
 
 
 @refuses("R-9.3.1-12", also=("R-9.5.5.6-04",))
-def an_interface_is_for_one_side(module: InteractionModule, _: Scope) -> bool:
+def an_interface_is_for_one_side(module: mi.InteractionModule, _: Scope) -> bool:
     """Takes an interface that one port type provides and the other one requires for an error where there are no patterns."""
     first = {(e.interface, e.kind) for port_type in module.port_types[:1] for e in port_type.port_elements}
     second = {(e.interface, e.kind) for port_type in module.port_types[1:] for e in port_type.port_elements}
@@ -64,7 +58,7 @@ def an_interface_is_for_one_side(module: InteractionModule, _: Scope) -> bool:
 
 
 @refuses("R-9.3.1-13")
-def items_of_many_are_concrete(module: InteractionModule, _: Scope) -> bool:
+def items_of_many_are_concrete(module: mi.InteractionModule, _: Scope) -> bool:
     """Takes an item that is bound to an abstract data type for an error if its one port provides."""
     abstract = {t.name for c in module.contract_modules for t in c.data_types if isinstance(t, AbstractDataType)}
     kinds = {e.kind for port_type in module.port_types for e in port_type.port_elements}
@@ -73,7 +67,7 @@ def items_of_many_are_concrete(module: InteractionModule, _: Scope) -> bool:
 
 
 @refuses("R-9.3.2.1-01")
-def contracts_come_first(module: InteractionModule, _: Scope) -> bool:
+def contracts_come_first(module: mi.InteractionModule, _: Scope) -> bool:
     """Takes a contract module after a connector for an error."""
     return any(c.line >= connector.line for c in module.contract_modules for connector in module.connectors)
 
@@ -81,13 +75,13 @@ def contracts_come_first(module: InteractionModule, _: Scope) -> bool:
 @refuses("R-9.3.2.1-05")
 def one_interaction_module_a_platform(module: PlatformModule, _: Scope) -> bool:
     """Takes the second interaction module of a platform module for an error."""
-    return len([m for m in module.submodules if isinstance(m, InteractionModule)]) > 1
+    return len([m for m in module.submodules if isinstance(m, mi.InteractionModule)]) > 1
 
 
 @refuses("R-9.3.2.2-01")
 def modules_are_not_empty(model: Model, _: Scope) -> bool:
     """Takes an interaction module that is all of a model and empty for an error."""
-    return model.modules == (InteractionModule(line=1, name=model.modules[0].name),)
+    return model.modules == (mi.InteractionModule(line=1, name=model.modules[0].name),)
 
 
 @breaks("R-9.3.2.2-02", also=("R-9-01",))
@@ -97,7 +91,7 @@ def names_of_bound_items_come_first(program: Program) -> Program:
 
 
 @refuses("R-9.3.3-02")
-def two_roles_a_pattern(pattern: InteractionPattern, _: Scope) -> object:
+def two_roles_a_pattern(pattern: mi.InteractionPattern, _: Scope) -> object:
     """Takes the third role of a pattern for an error."""
     return len(pattern.roles) > 2
 
@@ -105,68 +99,68 @@ def two_roles_a_pattern(pattern: InteractionPattern, _: Scope) -> object:
 @refuses("R-9.3.3.1-01")
 def connections_are_of_one_kind(composite: CompositeComponentImplementation, scope: Scope) -> bool:
     """Takes a composite with connections both by a pattern and by a connector for an error."""
-    by_pattern = [scope.find(c.definition, InteractionPattern) is not None for c in composite.connections]
+    by_pattern = [scope.find(c.definition, mi.InteractionPattern) is not None for c in composite.connections]
     return any(by_pattern) and not all(by_pattern)
 
 
 @refuses("R-9.3.3.1-02", also=("R-9.3.3.2-04",))
-def patterns_without_hyphens(pattern: InteractionPattern, _: Scope) -> object:
+def patterns_without_hyphens(pattern: mi.InteractionPattern, _: Scope) -> object:
     """Takes a hyphen in the name of a pattern without items for an error."""
     return "-" in pattern.name and not pattern.items
 
 
 @refuses("R-9.3.3.2-01")
-def roles_are_unlimited_or_single(pattern: InteractionPattern, _: Scope) -> bool:
+def roles_are_unlimited_or_single(pattern: mi.InteractionPattern, _: Scope) -> bool:
     """Takes patterns whose roles are all for exactly one for an error if there are two of them and no items."""
     singles = [role for role in pattern.roles if role.upper_multiplicity == 1]
     return len(singles) == 2 == len(pattern.roles) and not pattern.items
 
 
 @refuses("R-9.3.3.2-02")
-def one_item_a_pattern(pattern: InteractionPattern, _: Scope) -> object:
+def one_item_a_pattern(pattern: mi.InteractionPattern, _: Scope) -> object:
     """Takes the second item of a pattern for an error."""
     return len(pattern.items) > 1
 
 
 @refuses("R-9.3.3.3-01", also=("R-9.3.3.4-05",))
-def items_are_involved(pattern: InteractionPattern, _: Scope) -> bool:
+def items_are_involved(pattern: mi.InteractionPattern, _: Scope) -> bool:
     """Takes an item that no role of its pattern involves for an error where there are roles."""
     involved = {i.item for role in pattern.roles for i in role.involved_items}
     return bool(involved) and any(item.name not in involved for item in pattern.items)
 
 
 @refuses("R-9.3.3.4-01")
-def roles_without_hyphens(role: InteractionRole, _: Scope) -> object:
+def roles_without_hyphens(role: mi.InteractionRole, _: Scope) -> object:
     """Takes a hyphen in the name of a role for an error."""
     return "-" in role.name
 
 
 @refuses("R-9.3.3.4-05")
-def one_item_a_role(role: InteractionRole, _: Scope) -> object:
+def one_item_a_role(role: mi.InteractionRole, _: Scope) -> object:
     """Takes the second item that a role involves for an error."""
     return len(role.involved_items) > 1
 
 
 @refuses("R-9.3.3.6-01")
-def roles_come_first(pattern: InteractionPattern, _: Scope) -> bool:
+def roles_come_first(pattern: mi.InteractionPattern, _: Scope) -> bool:
     """Takes an item before a role for an error."""
     return any(item.line < role.line for item in pattern.items for role in pattern.roles)
 
 
 @refuses("R-9.3.4.6-01")
-def one_binding_a_connector(connector: ConnectorDefinition, _: Scope) -> object:
+def one_binding_a_connector(connector: mi.ConnectorDefinition, _: Scope) -> object:
     """Takes the second item binding of a connector for an error."""
     return len(connector.item_bindings) > 1
 
 
 @refuses("R-9.3.5.1-01", also=("R-9.3.5.2-04", "R-9.5.3.6-02"))
-def one_element_a_port_type(port_type: PortType, _: Scope) -> object:
+def one_element_a_port_type(port_type: mi.PortType, _: Scope) -> object:
     """Takes a port type that provides and requires for an error."""
     return {e.kind for e in port_type.port_elements} == {"PROVIDED", "REQUIRED"}
 
 
 @refuses("R-9.3.5.2-01")
-def an_interface_is_provided_once(port_type: PortType, _: Scope) -> bool:
+def an_interface_is_provided_once(port_type: mi.PortType, _: Scope) -> bool:
     """Takes two port elements of one interface for an error."""
     return max(Counter((e.interface, e.kind) for e in port_type.port_elements).values(), default=0) > 1
 

@@ -4,25 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ucm_cts.adapters.contract.metamodel import contracts as mk
 from ucm_cts.adapters.contract.metamodel.common import children
 from ucm_cts.adapters.contract.metamodel.components import AbstractTypeBinding, ComponentModule
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    AbstractDataType,
-    AbstractInterface,
-    Annotation,
-    AnnotationDefinition,
-    Attribute,
-    ConfigurationParameter,
-    ContractModule,
-    Enumeration,
-    Exception_,
-    ExceptionField,
-    Interface,
-    Method,
-    Parameter,
-    PrimitiveBoolean,
-    Structure,
-)
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionModule
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Scope
@@ -36,35 +20,35 @@ from ucm_cts.adapters.mutants.toolchain.checking import refuses
 def one_interface_a_module(model: Model, _: Scope) -> bool:
     """Takes a model of two interfaces for an error where neither has anything inside."""
     inside = [one for module in model.modules for one in children(module)]
-    return [type(one) for one in inside] == [Interface, Interface] and not any(map(tuple, map(children, inside)))
+    return [type(one) for one in inside] == [mk.Interface, mk.Interface] and not any(map(tuple, map(children, inside)))
 
 
 @refuses("R-9.2.7-03")
-def one_attribute_an_interface(interface: Interface, _: Scope) -> object:
+def one_attribute_an_interface(interface: mk.Interface, _: Scope) -> object:
     """Takes the second attribute of an interface for an error."""
     return len(interface.attributes) > 1
 
 
 @refuses("R-9.2.7-08")
-def one_method_an_interface(interface: Interface, _: Scope) -> object:
+def one_method_an_interface(interface: mk.Interface, _: Scope) -> object:
     """Takes the second method of an interface for an error."""
     return len(interface.methods) > 1
 
 
 @refuses("R-9.2.7-09", also=("R-9.4.3.2-02",))
-def methods_have_parameters(method: Method, _: Scope) -> bool:
+def methods_have_parameters(method: mk.Method, _: Scope) -> bool:
     """Takes a method of several IN parameters for an error."""
     return len([p for p in method.parameters if p.direction == "IN"]) > 2
 
 
 @refuses("R-9.2.7-14")
-def single_inheritance(interface: Interface, _: Scope) -> object:
+def single_inheritance(interface: mk.Interface, _: Scope) -> object:
     """Takes a second ancestor of an interface for an error, diamond or not."""
     return len(interface.inherited_interfaces) > 1
 
 
 @refuses("R-9.2.7-14")
-def no_diamonds(interface: Interface, scope: Scope) -> bool:
+def no_diamonds(interface: mk.Interface, scope: Scope) -> bool:
     """Takes an ancestor that is reached by two ways for an error."""
     ways = [set(_lineage(i.interface, scope)) for i in interface.inherited_interfaces]
     return sum(map(len, ways)) > len(set().union(*ways))
@@ -78,81 +62,81 @@ def _lineage(name: str, scope: Scope, depth: int = 20) -> Iterator[str]:
 
 
 @refuses("R-9.2.7-17")
-def exceptions_say_something(exception: Exception_, _: Scope) -> object:
+def exceptions_say_something(exception: mk.Exception_, _: Scope) -> object:
     """Takes an exception of several fields for an error."""
     return len(exception.fields) > 1
 
 
 @refuses("R-9.2.7.1-01")
-def no_mutual_interfaces(interface: Interface, scope: Scope) -> bool:
+def no_mutual_interfaces(interface: mk.Interface, scope: Scope) -> bool:
     """Takes it for a circle that two interfaces know each other, or one itself, by way of a parameter."""
     return any(interface.name in _taken(_named(t, scope)) for t in _taken(interface))
 
 
-def _taken(interface: Interface | None) -> set[str]:
+def _taken(interface: mk.Interface | None) -> set[str]:
     methods = interface.methods if interface is not None else ()
     return {parameter.type for method in methods for parameter in method.parameters}
 
 
-def _named(name: str, scope: Scope) -> Interface | None:
-    found = scope.find(name, Interface)
-    return found.element if found is not None and isinstance(found.element, Interface) else None
+def _named(name: str, scope: Scope) -> mk.Interface | None:
+    found = scope.find(name, mk.Interface)
+    return found.element if found is not None and isinstance(found.element, mk.Interface) else None
 
 
 @refuses("R-9.2.7.2-01")
-def one_annotation_a_method(method: Method, _: Scope) -> object:
+def one_annotation_a_method(method: mk.Method, _: Scope) -> object:
     """Takes the second annotation of a method for an error."""
     return len(method.annotations) > 1
 
 
 @refuses("R-9.2.7.3-01", also=("R-9.2.2.5-02",))
-def parameters_do_something(parameter: Parameter, scope: Scope) -> bool:
+def parameters_do_something(parameter: mk.Parameter, scope: Scope) -> bool:
     """Takes a parameter that is an interface without methods for an error."""
-    found = scope.find(parameter.type, Interface)
+    found = scope.find(parameter.type, mk.Interface)
     return found is not None and not any(children(found.element))
 
 
 @refuses("R-9.2.7.4-01")
-def attributes_are_simple(attribute: Attribute, scope: Scope) -> bool:
+def attributes_are_simple(attribute: mk.Attribute, scope: Scope) -> bool:
     """Takes an attribute of a structure or enumeration for an error."""
-    return scope.find(attribute.type, Structure, Enumeration) is not None and not attribute.default_value
+    return scope.find(attribute.type, mk.Structure, mk.Enumeration) is not None and not attribute.default_value
 
 
 @refuses("R-9.2.7.5-01")
-def exceptions_without_hyphens(exception: Exception_, _: Scope) -> object:
+def exceptions_without_hyphens(exception: mk.Exception_, _: Scope) -> object:
     """Takes a hyphen in the name of an exception for an error."""
     return "-" in exception.name
 
 
 @refuses("R-9.2.7.6-01", also=("R-9.2.2.4-04",))
-def exceptions_are_flat(field: ExceptionField, scope: Scope) -> object:
+def exceptions_are_flat(field: mk.ExceptionField, scope: Scope) -> object:
     """Takes a field of an exception that is a structure for an error."""
-    return scope.find(field.type, Structure) is not None
+    return scope.find(field.type, mk.Structure) is not None
 
 
 @refuses("R-9.2.8-01")
-def abstract_types_are_used(module: ContractModule, _: Scope) -> bool:
+def abstract_types_are_used(module: mk.ContractModule, _: Scope) -> bool:
     """Takes a module of more than two abstract types and nothing else for an error."""
     inside = tuple(children(module))
-    return len(inside) > 2 and all(isinstance(one, AbstractDataType | AbstractInterface) for one in inside)
+    return len(inside) > 2 and all(isinstance(one, mk.AbstractDataType | mk.AbstractInterface) for one in inside)
 
 
 @refuses("R-9.2.8-02")
-def abstract_types_are_not_returned(p: Parameter, scope: Scope) -> object:
+def abstract_types_are_not_returned(p: mk.Parameter, scope: Scope) -> object:
     """Takes a RETURN parameter of an abstract data type for an error."""
-    return p.direction == "RETURN" and scope.find(p.type, AbstractDataType)
+    return p.direction == "RETURN" and scope.find(p.type, mk.AbstractDataType)
 
 
 @refuses("R-9.2.8.1-01")
-def abstract_types_go_one_way(p: Parameter, scope: Scope) -> object:
+def abstract_types_go_one_way(p: mk.Parameter, scope: Scope) -> object:
     """Takes an INOUT parameter of an abstract data type for an error."""
-    return p.direction == "INOUT" and scope.find(p.type, AbstractDataType)
+    return p.direction == "INOUT" and scope.find(p.type, mk.AbstractDataType)
 
 
 @refuses("R-9.2.8.2-01", also=("R-9-01", "R-9.3.5.2-02"))
 def abstract_interfaces_are_required(module: InteractionModule, scope: Scope) -> bool:
     """Takes a port type that provides an abstract interface for an error in a module without patterns."""
-    abstract = {i.name for c in module.contract_modules for i in c.interfaces if isinstance(i, AbstractInterface)}
+    abstract = {i.name for c in module.contract_modules for i in c.interfaces if isinstance(i, mk.AbstractInterface)}
     elements = [e for port_type in module.port_types for e in port_type.port_elements if not module.patterns]
     return any(e.kind == "PROVIDED" and e.interface.rpartition("::")[2] in abstract for e in elements)
 
@@ -166,29 +150,29 @@ def actual_types_are_named_from_the_root(b: AbstractTypeBinding, _: Scope) -> ob
 @refuses("R-9.2.9-01", also=("R-9.3.1-11",))
 def connectors_are_not_configured_by_enumerations(connector: ConnectorDefinition, scope: Scope) -> bool:
     """Takes a configuration parameter of a connector for an error if it is an enumeration."""
-    return any(scope.find(p.type, Enumeration) for p in connector.configuration_parameters)
+    return any(scope.find(p.type, mk.Enumeration) for p in connector.configuration_parameters)
 
 
 @refuses("R-9.2.9-02")
 def components_and_their_interfaces_are_not_both_annotated(module: ComponentModule, _: Scope) -> bool:
     """Takes the annotation of a component type for an error if an interface beside it has one, too."""
-    interfaces = [i for c in module.contract_modules for i in c.interfaces if isinstance(i, Interface)]
+    interfaces = [i for c in module.contract_modules for i in c.interfaces if isinstance(i, mk.Interface)]
     return any(i.annotations for i in interfaces) and any(t.annotations for t in module.component_types)
 
 
 @refuses("R-9.2.9.1-01", also=("R-9.2.2.7-01",))
-def parameters_are_numbers(parameter: ConfigurationParameter, scope: Scope) -> object:
+def parameters_are_numbers(parameter: mk.ConfigurationParameter, scope: Scope) -> object:
     """Takes a boolean configuration parameter with a default value for an error."""
-    return parameter.default_value and scope.find(parameter.type, PrimitiveBoolean)
+    return parameter.default_value and scope.find(parameter.type, mk.PrimitiveBoolean)
 
 
 @refuses("R-9.2.9.3-01")
-def annotations_say_something(one: AnnotationDefinition, _: Scope) -> object:
+def annotations_say_something(one: mk.AnnotationDefinition, _: Scope) -> object:
     """Takes an annotation definition of several parameters for an error."""
     return len(one.configuration_parameters) > 1
 
 
 @refuses("R-9.2.9.4-01")
-def annotations_of_the_same_module(annotation: Annotation, _: Scope) -> object:
+def annotations_of_the_same_module(annotation: mk.Annotation, _: Scope) -> object:
     """Takes a definition of another module for an error."""
     return "::" in annotation.annotation_definition

@@ -4,22 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 
+from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.aspects import NonfunctionalAspectModule, TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.common import Named
-from ucm_cts.adapters.contract.metamodel.components import (
-    AtomicComponentImplementation,
-    ComponentModule,
-    ComponentPortTechnicalPolicy,
-    ComponentTechnicalPolicy,
-    ComponentType,
-    CompositeComponentImplementation,
-)
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
 from ucm_cts.adapters.mutants.toolchain.checking import refuses
 from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import COMPONENTS, part_called
 
-Composite = CompositeComponentImplementation
+Composite = mc.CompositeComponentImplementation
 
 
 @refuses("R-9.4.3.2-12")
@@ -40,55 +33,55 @@ def _shared(module: NonfunctionalAspectModule, field: str) -> bool:
 
 
 @refuses("R-9.4.3.2-15", also=("R-9.5.4.2-10",))
-def on_both_is_on_ports(policy: ComponentTechnicalPolicy, scope: Scope) -> bool:
+def on_both_is_on_ports(policy: mc.ComponentTechnicalPolicy, scope: Scope) -> bool:
     """Takes a policy on components that could be on ports for an error."""
     definition = scope.find(policy.technical_policy_definition, TechnicalPolicyDefinition)
-    on_ports = isinstance(policy, ComponentPortTechnicalPolicy)
+    on_ports = isinstance(policy, mc.ComponentPortTechnicalPolicy)
     return not on_ports and getattr(definition and definition.element, "applicability", "") == "onBoth"
 
 
 @refuses("R-9.5.1-03")
-def one_implementation_a_type(module: ComponentModule, _: Scope) -> bool:
+def one_implementation_a_type(module: mc.ComponentModule, _: Scope) -> bool:
     """Takes implementations of one type in two languages and in parts for an error."""
-    atomic = [one for one in module.implementations if isinstance(one, AtomicComponentImplementation)]
+    atomic = [one for one in module.implementations if isinstance(one, mc.AtomicComponentImplementation)]
     whole = {one.type for one in module.implementations if isinstance(one, Composite)}
     return any(a.type == b.type in whole and a.language != b.language for a in atomic for b in atomic)
 
 
 @refuses("R-9.5.3.1-08", also=("R-9.5.3.2-05",))
-def inherited_names_are_taken(component: ComponentType, _: Scope) -> bool:
+def inherited_names_are_taken(component: mc.ComponentType, _: Scope) -> bool:
     """Takes a port that is called like the inherited one it refines for an error."""
     return any(port.refines_port.rpartition(".")[2] == port.name for port in component.ports if port.refines_port)
 
 
 @refuses("R-9.5.3.1-09")
-def attributes_of_strangers_clash(module: ComponentModule, _: Scope) -> bool:
+def attributes_of_strangers_clash(module: mc.ComponentModule, _: Scope) -> bool:
     """Takes attributes of one name in unrelated types of a module with refinements for an error."""
     names = Counter(attribute.name for one in module.component_types for attribute in one.attributes)
     return any(one.refines for one in module.component_types) and max(names.values(), default=0) > 1
 
 
 @refuses("R-9.5.3.2-03", also=("R-9.3.3.1-01", "R-9.5.5.8-01"))
-def ports_of_one_sort(component: ComponentType, _: Scope) -> bool:
+def ports_of_one_sort(component: mc.ComponentType, _: Scope) -> bool:
     """Takes a component type with ports by role and by type for an error if they are two."""
     return len(component.ports) == 2 and len({type(spec) for port in component.ports for spec in port.specs}) > 1
 
 
 @refuses("R-9.5.3.2-04", also=("R-9.5.3.1-08",))
-def refined_ports_are_near(component: ComponentType, scope: Scope) -> bool:
+def refined_ports_are_near(component: mc.ComponentType, scope: Scope) -> bool:
     """Takes a port that refines one of an ancestor's ancestor for an error."""
     far_ones = lineage(Declared(component, scope))[2:]
     theirs = {id(port) for one in far_ones for port in getattr(one.element, "ports", ())}
-    found = (scope.member(port.refines_port, ComponentType, "ports") for port in component.ports)
+    found = (scope.member(port.refines_port, mc.ComponentType, "ports") for port in component.ports)
     return any(port is not None and id(port.element) in theirs for port in found)
 
 
 @refuses("R-9.5.4.3-04", also=("R-9.5.3.1-05",), declares=("inherited-member-names=heir",))
-def inherited_ports_are_not_managed(policy: ComponentPortTechnicalPolicy, scope: Scope) -> bool:
+def inherited_ports_are_not_managed(policy: mc.ComponentPortTechnicalPolicy, scope: Scope) -> bool:
     """Takes a policy on an inherited port for an error."""
     for managed in policy.managed_ports:
         owner, _, name = managed.name.rpartition(".")
-        found = scope.find(owner, ComponentType)
+        found = scope.find(owner, mc.ComponentType)
         if found is not None and all(port.name != name for port in getattr(found.element, "ports", ())):
             return True
     return False
@@ -142,7 +135,7 @@ def composites_have_no_ports(composite: Composite, scope: Scope) -> bool:
 @refuses("R-9.5.5.6-04", also=("R-9.5.5.6-05",))
 def delegated_ports_share_a_name(composite: Composite, scope: Scope) -> bool:
     """Takes a delegation between ports by role with different names for an error."""
-    own = scope.find(composite.type, ComponentType)
+    own = scope.find(composite.type, mc.ComponentType)
     roles = {p.name for p in getattr(own and own.element, "ports", ()) for s in p.specs if hasattr(s, "role")}
     return len(roles) == 1 and any(
         delegation.port in roles and end.port != delegation.port and not composite.connections

@@ -4,23 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    INTEGER_RANGES,
-    Alias,
-    Array,
-    Attribute,
-    ContractModule,
-    Enumeration,
-    NativeType,
-    PrimitiveChar,
-    PrimitiveFloat,
-    PrimitiveInteger,
-    Sequence,
-    StringType,
-    Structure,
-    StructureField,
-    Union,
-)
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.modules import PlatformModule
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.mutants.toolchain.checking import deaf, lacks, refuses, replaces_rule, without
@@ -30,7 +14,7 @@ from ucm_cts.adapters.reference.toolchain.program import Program
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
 from ucm_cts.adapters.reference.toolchain.rules.contracts.references import OF_ONE_CLASS, Typed, index_kind
 
-Indexed = Enumeration | Sequence
+Indexed = c.Enumeration | c.Sequence
 
 
 @breaks("R-9.2.2.4-02", "R-9.2.4.3-04", also=("R-9.1.4.4-05", *OF_ONE_CLASS))
@@ -41,21 +25,21 @@ def types_may_be_missing(program: Program) -> Program:
 
 
 @refuses("R-9.2.2.7-02")
-def attributes_have_defaults(attribute: Attribute, _: Scope) -> object:
+def attributes_have_defaults(attribute: c.Attribute, _: Scope) -> object:
     """Takes an attribute without default value for an error."""
     return attribute.default_value is None
 
 
 @refuses("R-9.2.2.8-01")
-def one_annotation_a_type(structure: Structure, _: Scope) -> object:
+def one_annotation_a_type(structure: c.Structure, _: Scope) -> object:
     """Takes the second annotation of a structure for an error."""
     return len(structure.annotations) > 1
 
 
 @refuses("R-9.2.2.15-01")
-def contract_modules_declare_something(module: ContractModule, scope: Scope) -> bool:
+def contract_modules_declare_something(module: c.ContractModule, scope: Scope) -> bool:
     """Takes an empty contract module at the root for an error."""
-    return module == ContractModule(line=module.line, name=module.name) and scope.around is None
+    return module == c.ContractModule(line=module.line, name=module.name) and scope.around is None
 
 
 @refuses("R-9.2.2.15-05")
@@ -65,29 +49,29 @@ def platforms_without_contracts(module: PlatformModule, _: Scope) -> object:
 
 
 def _holds_contracts(module: PlatformModule) -> bool:
-    return any(isinstance(inner, ContractModule) and inner.interfaces for inner in module.submodules)
+    return any(isinstance(inner, c.ContractModule) and inner.interfaces for inner in module.submodules)
 
 
 @refuses("R-9.2.3.2-01")
-def no_unsigned_integers_of_64_bits(integer: PrimitiveInteger, _: Scope) -> object:
+def no_unsigned_integers_of_64_bits(integer: c.PrimitiveInteger, _: Scope) -> object:
     """Does not know the kind ULONGLONG."""
     return integer.kind == "ULONGLONG"
 
 
 @refuses("R-9.2.3.3-01")
-def no_long_doubles(number: PrimitiveFloat, _: Scope) -> object:
+def no_long_doubles(number: c.PrimitiveFloat, _: Scope) -> object:
     """Does not know the kind LONGDOUBLE."""
     return number.kind == "LONGDOUBLE"
 
 
 @refuses("R-9.2.3.4-01")
-def no_wide_characters(character: PrimitiveChar, _: Scope) -> object:
+def no_wide_characters(character: c.PrimitiveChar, _: Scope) -> object:
     """Does not know the kind CHAR32 of characters."""
     return character.kind == "CHAR32"
 
 
 @refuses("R-9.2.5.2-01")
-def no_wide_strings(string: StringType, _: Scope) -> object:
+def no_wide_strings(string: c.StringType, _: Scope) -> object:
     """Does not know strings of CHAR32."""
     return string.char_base == "CHAR32"
 
@@ -105,16 +89,16 @@ def index_types_may_be_missing(program: Program) -> Program:
 
 
 @refuses("R-9.2.4.2-01")
-def no_aliases_of_strings(alias: Alias, scope: Scope) -> bool:
+def no_aliases_of_strings(alias: c.Alias, scope: Scope) -> bool:
     """Renames anything but strings."""
     found = actual_type(alias.type, scope)
-    return found is not None and isinstance(found.element, StringType)
+    return found is not None and isinstance(found.element, c.StringType)
 
 
 @refuses("R-9.2.4.3-01")
-def structures_in_structures(structure: Structure, scope: Scope) -> bool:
+def structures_in_structures(structure: c.Structure, scope: Scope) -> bool:
     """Takes a field that is a structure twice in one structure for an error."""
-    found = [scope.find(field.type, Structure) for field in structure.fields]
+    found = [scope.find(field.type, c.Structure) for field in structure.fields]
     return len([one for one in found if one is not None]) > 1
 
 
@@ -131,53 +115,53 @@ def _lax(program: Program, rule: str, kind: type[object]) -> Program:
 @breaks("R-9.2.4.4-01", "R-9.2.2.4-04")
 def fields_of_interfaces(program: Program) -> Program:
     """Takes interfaces as types of fields."""
-    return _lax(program, "interfaces_are_no_data_types", StructureField)
+    return _lax(program, "interfaces_are_no_data_types", c.StructureField)
 
 
 @breaks("R-9.2.5.4-01", "R-9.2.2.4-04")
 def sequences_of_interfaces(program: Program) -> Program:
     """Takes interfaces as elements of sequences."""
-    return _lax(program, "interfaces_are_no_data_types", Sequence)
+    return _lax(program, "interfaces_are_no_data_types", c.Sequence)
 
 
 @breaks("R-9.2.4.7-03", "R-9.2.4.1-02", "R-9.2.4.1-03")
 def enumerations_of_any_index(program: Program) -> Program:
     """Takes enumerations that are indexed by whatever has a name, or none."""
-    return _lax(_lax(program, "index_types_exist", Enumeration), "named_index_types_are_integers", Enumeration)
+    return _lax(_lax(program, "index_types_exist", c.Enumeration), "named_index_types_are_integers", c.Enumeration)
 
 
 @refuses("R-9.2.4.5-01", also=("R-9.2.4.6-01", "R-9.2.4.6-02", "R-9.2.4.6-08"))
-def unions_of_numbers(union: Union, _scope: Scope) -> bool:
+def unions_of_numbers(union: c.Union, _scope: Scope) -> bool:
     """Takes a union of different data types for an error."""
     return len({case.type for case in union.cases}) > 1
 
 
 @refuses("R-9.2.4.6-06", also=("R-9.2.4.6-08",))
-def default_cases_come_last(union: Union, _: Scope) -> object:
+def default_cases_come_last(union: c.Union, _: Scope) -> object:
     """Takes a default case before others for an error."""
     return any(case.default_case for case in union.cases[:-1])
 
 
 @refuses("R-9.2.4.7-01")
-def enumerations_do_not_count(e: Enumeration, _: Scope) -> object:
+def enumerations_do_not_count(e: c.Enumeration, _: Scope) -> object:
     """Takes an enumeration of the values 4, 5 and 6 for an error."""
     return [one.value for one in e.enumerators] == [4, 5, 6]
 
 
 @refuses("R-9.2.5.2-03")
-def strings_of_255_characters(string: StringType, _: Scope) -> object:
+def strings_of_255_characters(string: c.StringType, _: Scope) -> object:
     """Takes a string longer than 255 for an error."""
     return (string.max_size or 0) > 255
 
 
 @refuses("R-9.2.5.4-03")
-def sequences_are_bounded(sequence: Sequence, _: Scope) -> object:
+def sequences_are_bounded(sequence: c.Sequence, _: Scope) -> object:
     """Takes a sequence without bound for an error."""
     return sequence.max_size == -1
 
 
 @refuses("R-9.2.5.3-01", declares=("native-types=supported",))
-def native_types_unknown(_: NativeType, _scope: Scope) -> object:
+def native_types_unknown(_: c.NativeType, _scope: Scope) -> object:
     """Refuses native types, although it says that it knows them."""
     return True
 
@@ -188,11 +172,11 @@ def native_types_of_any_size(program: Program) -> Program:
     return deaf(program, lambda problem, _: problem.element == "NativeType")
 
 
-def _index_values(beyond: int) -> Callable[[Enumeration, Scope], Iterator[Complaint]]:
+def _index_values(beyond: int) -> Callable[[c.Enumeration, Scope], Iterator[Complaint]]:
     """The rule about index values whose upper bound is off by ``beyond``."""
 
-    def index_values_are_in_range(enumeration: Enumeration, scope: Scope) -> Iterator[Complaint]:
-        low, high = INTEGER_RANGES[index_kind(enumeration.index_type, scope) or "LONGLONG"]
+    def index_values_are_in_range(enumeration: c.Enumeration, scope: Scope) -> Iterator[Complaint]:
+        low, high = c.INTEGER_RANGES[index_kind(enumeration.index_type, scope) or "LONGLONG"]
         for enumerator in enumeration.enumerators:
             if not low <= (enumerator.value or 0) <= high + beyond:
                 yield enumerator, "out of range"
@@ -213,26 +197,26 @@ def index_values_one_too_few(program: Program) -> Program:
 
 
 @refuses("R-9.2.4.11-03", also=("R-9.2.4.9-04",))
-def sizes_one_too_few(array: Array, scope: Scope) -> object:
+def sizes_one_too_few(array: c.Array, scope: Scope) -> object:
     """Takes sizes below the greatest value of the index only."""
     return _at_bound(array, scope)
 
 
-def _at_bound(array: Array, scope: Scope) -> bool:
-    bounds = [(d.size, INTEGER_RANGES[index_kind(d.index_type, scope) or "LONGLONG"][1]) for d in array.dimensions]
+def _at_bound(array: c.Array, scope: Scope) -> bool:
+    bounds = [(d.size, c.INTEGER_RANGES[index_kind(d.index_type, scope) or "LONGLONG"][1]) for d in array.dimensions]
     return any(size == most for size, most in bounds)
 
 
 @replaces_rule("sizes_are_in_range", "R-9.2.4.11-03")
-def last_indices_count(array: Array, scope: Scope) -> Iterator[Complaint]:
+def last_indices_count(array: c.Array, scope: Scope) -> Iterator[Complaint]:
     """Holds the last index against the range, not the size."""
     for dimension in array.dimensions:
         kind = index_kind(dimension.index_type, scope)
-        if kind is not None and dimension.size is not None and dimension.size - 1 > INTEGER_RANGES[kind][1]:
+        if kind is not None and dimension.size is not None and dimension.size - 1 > c.INTEGER_RANGES[kind][1]:
             yield dimension, "out of range"
 
 
 @refuses("R-9.2.4.11-04")
-def arrays_of_two_elements(array: Array, _: Scope) -> object:
+def arrays_of_two_elements(array: c.Array, _: Scope) -> object:
     """Takes an array of one element for an error."""
     return any(dimension.size == 1 for dimension in array.dimensions)

@@ -4,15 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Element
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    Constant,
-    ContractModule,
-    NativeType,
-    PrimitiveChar,
-    StringType,
-    Union,
-)
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.mutants.toolchain.checking import deaf, lacks, refusing, without
 from ucm_cts.adapters.mutants.toolchain.registry import replacing_rule, variant
@@ -84,29 +77,29 @@ def declarations_anywhere(program: Program) -> Program:
 
 @variant(declares=("absent-max-size=refused",))
 @refusing
-def strings_say_how_long_they_are(string: StringType, _: Scope) -> object:
+def strings_say_how_long_they_are(string: c.StringType, _: Scope) -> object:
     """Refuses strings without a greatest size."""
     return string.max_size is None
 
 
 @variant(declares=("modules-given-twice=refused",))
 @refusing
-def modules_in_one_piece(module: ContractModule, scope: Scope) -> bool:
+def modules_in_one_piece(module: c.ContractModule, scope: Scope) -> bool:
     """Refuses a second contract module of one name at one place."""
-    same = [d.element for d in scope.members[module.name] if isinstance(d.element, ContractModule)]
+    same = [d.element for d in scope.members[module.name] if isinstance(d.element, c.ContractModule)]
     return same[0] is not module
 
 
 @variant(declares=("default-case-values=required",))
 @refusing
-def default_cases_name_values(union: Union, _: Scope) -> object:
+def default_cases_name_values(union: c.Union, _: Scope) -> object:
     """Refuses a default case that names no value."""
     return any(not case.selector_values for case in union.cases)
 
 
 @variant(declares=("selectors-without-case=refused",))
 @refusing
-def all_selector_values_have_cases(union: Union, scope: Scope) -> bool:
+def all_selector_values_have_cases(union: c.Union, scope: Scope) -> bool:
     """Refuses a union without default that has no case for some value."""
     selector = actual_type(union.selector_type, scope)
     named = {value.enumerator for case in union.cases for value in case.selector_values}
@@ -116,7 +109,7 @@ def all_selector_values_have_cases(union: Union, scope: Scope) -> bool:
 
 @variant(declares=("native-types=unsupported",))
 @refusing
-def no_native_types(_: NativeType, _scope: Scope) -> object:
+def no_native_types(_: c.NativeType, _scope: Scope) -> object:
     """Knows no native types."""
     return True
 
@@ -142,20 +135,20 @@ def bare_text(program: Program) -> Program:
     name = "constants_are_values_of_their_types"
     known = program.rules[name].look
 
-    def look(constant: Constant, scope: Scope) -> Iterator[Complaint]:
+    def look(constant: c.Constant, scope: Scope) -> Iterator[Complaint]:
         found = actual_type(constant.type, scope)
-        if found is not None and isinstance(found.element, PrimitiveChar) and len(constant.value) != 1:
+        if found is not None and isinstance(found.element, c.PrimitiveChar) and len(constant.value) != 1:
             yield constant, f"{constant.value} is not one character"
-        elif found is not None and isinstance(found.element, PrimitiveChar | StringType):
+        elif found is not None and isinstance(found.element, c.PrimitiveChar | c.StringType):
             most = getattr(found.element, "max_size", None) or len(constant.value)
             if len(constant.value) > most >= 0:
                 yield constant, f"{constant.value} has more than {most} characters"
         else:
             yield from known(constant, scope)
 
-    def follows(constant: Constant, scope: Scope) -> Iterator[Complaint]:
+    def follows(constant: c.Constant, scope: Scope) -> Iterator[Complaint]:
         found = actual_type(constant.type, scope)
-        if found is None or not isinstance(found.element, PrimitiveChar | StringType):
+        if found is None or not isinstance(found.element, c.PrimitiveChar | c.StringType):
             yield from program.rules["constants_follow_the_grammar"].look(constant, scope)
 
     return replacing_rule(replacing_rule(program, name, look), "constants_follow_the_grammar", follows)

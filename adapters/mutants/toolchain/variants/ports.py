@@ -6,23 +6,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
+from ucm_cts.adapters.contract.metamodel import components as mc
+from ucm_cts.adapters.contract.metamodel import interactions as mi
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
-from ucm_cts.adapters.contract.metamodel.components import (
-    ComponentPortTechnicalPolicy,
-    ComponentTechnicalPolicy,
-    ComponentType,
-    PortRoleSpec,
-    PortTypeSpec,
-)
 from ucm_cts.adapters.contract.metamodel.components import CompositeComponentImplementation as Composite
-from ucm_cts.adapters.contract.metamodel.interactions import (
-    ConnectorDefinition,
-    ConnectorPort,
-    InteractionPattern,
-    ItemBinding,
-    PortType,
-)
 from ucm_cts.adapters.contract.metamodel.names import MEMBER, Scope
 from ucm_cts.adapters.mutants.toolchain.checking import without
 from ucm_cts.adapters.mutants.toolchain.registry import replacing_rule, variant
@@ -36,21 +24,27 @@ Reference = tuple[str, type[Named], str]
 
 def _references(element: Any) -> Iterator[Reference]:
     """All that ``element`` says as owner.member."""
-    if isinstance(element, ConnectorPort):
-        yield element.port_role, InteractionPattern, "roles"
-    elif isinstance(element, ItemBinding):
-        yield element.interaction_item, InteractionPattern, "items"
-    elif isinstance(element, PortRoleSpec):
-        yield element.role, InteractionPattern, "roles"
-        yield from ((binding.item, InteractionPattern, "items") for binding in element.bindings)
-    elif isinstance(element, ComponentTechnicalPolicy):
+    if isinstance(element, mi.ConnectorPort):
+        yield element.port_role, mi.InteractionPattern, "roles"
+    elif isinstance(element, mi.ItemBinding):
+        yield element.interaction_item, mi.InteractionPattern, "items"
+    elif isinstance(element, mc.PortRoleSpec):
+        yield element.role, mi.InteractionPattern, "roles"
+        yield from ((binding.item, mi.InteractionPattern, "items") for binding in element.bindings)
+    elif isinstance(element, mc.ComponentTechnicalPolicy):
         for value in element.configuration_values:
             yield value.configuration_parameter, TechnicalPolicyDefinition, "configuration_parameters"
-    if isinstance(element, ComponentPortTechnicalPolicy):
-        yield from ((port.name, ComponentType, "ports") for port in element.managed_ports)
+    if isinstance(element, mc.ComponentPortTechnicalPolicy):
+        yield from ((port.name, mc.ComponentType, "ports") for port in element.managed_ports)
 
 
-_SAY_MEMBERS = (ConnectorPort, ItemBinding, PortRoleSpec, ComponentTechnicalPolicy, ComponentPortTechnicalPolicy)
+_SAY_MEMBERS = (
+    mi.ConnectorPort,
+    mi.ItemBinding,
+    mc.PortRoleSpec,
+    mc.ComponentTechnicalPolicy,
+    mc.ComponentPortTechnicalPolicy,
+)
 
 
 def naming_by_owner(program: Program) -> Program:
@@ -82,15 +76,15 @@ def inherited_members_have_their_owner_s_name(program: Program) -> Program:
 def naming_by_heir(program: Program) -> Program:
     """``program``, but roles and items of a connector are known by the name of its own pattern only."""
 
-    def look(connector: ConnectorDefinition, scope: Scope) -> Iterator[Complaint]:
-        pattern = scope.find(connector.pattern, InteractionPattern)
+    def look(connector: mi.ConnectorDefinition, scope: Scope) -> Iterator[Complaint]:
+        pattern = scope.find(connector.pattern, mi.InteractionPattern)
         for part in (*connector.ports, *connector.item_bindings):
             for reference, kind, _ in _references(part):
                 named = scope.find(reference.rpartition(MEMBER)[0], kind)
                 if pattern is not None and named is not None and named.element is not pattern.element:
                     yield part, f"{reference} is no member of {connector.pattern}; name it by that"
 
-    known = Rule("members_are_named_by_the_pattern", "", (ConnectorDefinition,), look)
+    known = Rule("members_are_named_by_the_pattern", "", (mi.ConnectorDefinition,), look)
     return replace(program, rules={**program.rules, known.name: known})
 
 
@@ -121,21 +115,21 @@ def _shape(port_type: Element) -> list[tuple[str, str, str]]:
 
 def _connectors_fit(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     for connection in composite.connections:
-        connector = scope.find(connection.definition, ConnectorDefinition)
+        connector = scope.find(connection.definition, mi.ConnectorDefinition)
         if connector is None:
             continue
-        assert isinstance(connector.element, ConnectorDefinition)
-        found = (connector.scope.find(port.api, PortType) for port in connector.element.ports if port.api)
+        assert isinstance(connector.element, mi.ConnectorDefinition)
+        found = (connector.scope.find(port.api, mi.PortType) for port in connector.element.ports if port.api)
         apis = [_shape(api.element) for api in found if api is not None]
         for end in connection.ends:
             port = port_of_end(composite, end, scope)
             meaning = specified(port) if port is not None else None
-            if meaning is not None and meaning.kind is PortTypeSpec and _shape(meaning.target) not in apis:
+            if meaning is not None and meaning.kind is mc.PortTypeSpec and _shape(meaning.target) not in apis:
                 yield end, f"{connection.definition} has no port that holds the same as {end.part}.{end.port}"
 
 
 def _delegations_fit(composite: Composite, scope: Scope) -> Iterator[Complaint]:
-    own = scope.find(composite.type, ComponentType)
+    own = scope.find(composite.type, mc.ComponentType)
     for delegation in composite.delegations:
         outer = port_of(own, delegation.port) if own is not None else None
         for end in delegation.ends:
@@ -146,6 +140,6 @@ def _delegations_fit(composite: Composite, scope: Scope) -> Iterator[Complaint]:
 
 
 def _alike(outer: Specified, inner: Specified) -> bool:
-    if outer.kind is PortTypeSpec and inner.kind is PortTypeSpec:
+    if outer.kind is mc.PortTypeSpec and inner.kind is mc.PortTypeSpec:
         return _shape(outer.target) == _shape(inner.target)
     return outer.same_target(inner)
