@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -34,123 +33,56 @@ inline const char* name_of(Kind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-/// One line of JSON as a flat list of nodes in the order of the text; kept between messages to reuse its memory.
-class Document {
-  public:
-    struct Node {
-        Kind kind;
-        std::uint32_t size;  // characters of a string, members of an array or object
-        std::size_t next;    // node after this one and all it contains
-        std::size_t text;    // where a string begins
-        std::size_t key;     // where its key begins, if it is a member of an object
-        std::uint32_t key_size;
-        std::int64_t integer;  // of one that is too large or floating, the bits
-    };
+/// One line of JSON; the members of objects are in the order of the text, and of those of one name the last one counts.
+typedef nlohmann::ordered_json Document;
 
-    /// Replaces the content. Throws ProtocolError if `text` is not one JSON value in UTF-8.
-    void parse(const char* text, std::size_t size) {
-        nodes_.clear();
-        open_.clear();
-        texts_.clear();
-        key_ = key_size_ = 0;
-        Events events(*this);
-        nlohmann::json::sax_parse(text, text + size, &events);
-    }
-
-    const Node& node(std::size_t index) const { return nodes_[index]; }
-    const char* text(std::size_t begin) const { return texts_.data() + begin; }
-
-  private:
-    // what the parser calls; each member function returns whether to go on
-    class Events {
-      public:
-        explicit Events(Document& document) : document_(document) {}
-        bool null() { return document_.add(Kind::null); }
-        bool boolean(bool value) { return document_.add(Kind::boolean, value ? 1 : 0); }
-        bool number_integer(std::int64_t value) { return document_.add(Kind::integer, value); }
-        bool number_unsigned(std::uint64_t value) {
-            const std::uint64_t largest = static_cast<std::uint64_t>(INT64_MAX);
-            return document_.add(value > largest ? Kind::too_large : Kind::integer, static_cast<std::int64_t>(value));
-        }
-        bool number_float(double value, const std::string&) {
-            std::int64_t bits = 0;
-            static_assert(sizeof bits == sizeof value, "a double has 64 bits");
-            std::memcpy(&bits, &value, sizeof bits);
-            return document_.add(Kind::floating, bits);
-        }
-        bool string(const std::string& value) { return document_.add_string(value); }
-        bool binary(const std::vector<std::uint8_t>&) { return false; }
-        bool start_object(std::size_t) { return document_.open(Kind::object); }
-        bool start_array(std::size_t) { return document_.open(Kind::array); }
-        bool end_object() { return document_.close(); }
-        bool end_array() { return document_.close(); }
-        bool key(const std::string& name) {
-            document_.key_ = document_.texts_.size();
-            document_.key_size_ = name.size();
-            document_.texts_ += name;
+/// Throws ProtocolError if `text` is not one JSON value in UTF-8. Integers are unsigned only if they do not fit 64 bits signed.
+inline Document parsed(const char* text, std::size_t size) {
+    const int deepest = 500;  // what is nested is read by functions that call themselves
+    try {
+        return Document::parse(text, text + size, [](int depth, Document::parse_event_t, Document& json) {
+            if (depth > deepest) {
+                throw ProtocolError("JSON is nested too deeply");
+            }
+            if (json.is_number_unsigned() && json.get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX)) {
+                json = json.get<std::int64_t>();
+            }
             return true;
-        }
-        template <class Error>
-        bool parse_error(std::size_t, const std::string&, const Error& error) {
-            throw ProtocolError(std::string("JSON is malformed: ") + error.what());
-        }
-
-      private:
-        Document& document_;
-    };
-
-    bool add(Kind kind, std::int64_t integer = 0) {
-        if (!open_.empty()) {
-            ++nodes_[open_.back()].size;
-        }
-        nodes_.push_back(
-            Node{kind, 0, nodes_.size() + 1, 0, key_, static_cast<std::uint32_t>(key_size_), integer});
-        return true;
+        });
+    } catch (const Document::exception& error) {
+        throw ProtocolError(std::string("JSON is malformed: ") + error.what());
     }
-
-    bool add_string(const std::string& value) {
-        add(Kind::string);
-        nodes_.back().text = texts_.size();
-        nodes_.back().size = static_cast<std::uint32_t>(value.size());
-        texts_ += value;
-        return true;
-    }
-
-    bool open(Kind kind) {
-        if (open_.size() >= DEEPEST) {
-            throw ProtocolError("JSON is nested too deeply");
-        }
-        add(kind);
-        open_.push_back(nodes_.size() - 1);
-        return true;
-    }
-
-    bool close() {
-        nodes_[open_.back()].next = nodes_.size();
-        open_.pop_back();
-        return true;
-    }
-
-    static const std::size_t DEEPEST = 500;  // what is nested is read by functions that call themselves
-
-    std::vector<Node> nodes_;
-    std::vector<std::size_t> open_;
-    std::string texts_;
-    std::size_t key_ = 0;
-    std::size_t key_size_ = 0;
-};
+}
 
 /// A value inside a document, and the way that leads to it.
 class Value {
   public:
-    explicit Value(const Document& document) : Value(document, 0, nullptr, 0) {}
+    explicit Value(const Document& document) : Value(document, nullptr, nullptr, 0) {}
 
-    Kind kind() const { return node().kind; }
-    std::size_t index() const { return index_; }
+    Kind kind() const {
+        switch (json_.type()) {
+            case Document::value_t::boolean:
+                return Kind::boolean;
+            case Document::value_t::number_integer:
+                return Kind::integer;
+            case Document::value_t::number_unsigned:
+                return Kind::too_large;
+            case Document::value_t::number_float:
+                return Kind::floating;
+            case Document::value_t::string:
+                return Kind::string;
+            case Document::value_t::array:
+                return Kind::array;
+            case Document::value_t::object:
+                return Kind::object;
+            default:
+                return Kind::null;
+        }
+    }
 
     std::string text() const {
         expect(Kind::string, "str");
-        return std::string(document_->text(node().text), node().size);
+        return json_.get<std::string>();
     }
 
     /// Which of `known` the string is.
@@ -166,7 +98,7 @@ class Value {
 
     bool boolean() const {
         expect(Kind::boolean, "bool");
-        return node().integer != 0;
+        return json_.get<bool>();
     }
 
     std::int64_t integer() const {
@@ -174,40 +106,11 @@ class Value {
             fail("Expected a 64-bit `int`");
         }
         expect(Kind::integer, "int");
-        return node().integer;
+        return json_.get<std::int64_t>();
     }
 
-    /// Whatever stands there, as a tree.
-    nlohmann::json tree() const {
-        switch (kind()) {
-            case Kind::null:
-                return nullptr;
-            case Kind::boolean:
-                return boolean();
-            case Kind::integer:
-                return integer();
-            case Kind::too_large:
-                return static_cast<std::uint64_t>(node().integer);
-            case Kind::floating: {
-                double value = 0;
-                std::memcpy(&value, &node().integer, sizeof value);
-                return value;
-            }
-            case Kind::string:
-                return text();
-            case Kind::array: {
-                nlohmann::json all = nlohmann::json::array();
-                for_each_element([&all](const Value& value) { all.push_back(value.tree()); });
-                return all;
-            }
-            case Kind::object: {
-                nlohmann::json all = nlohmann::json::object();
-                for_each_member([&all](const Value& value) { all[value.key()] = value.tree(); });
-                return all;
-            }
-        }
-        return nullptr;
-    }
+    /// Whatever stands there.
+    nlohmann::json tree() const { return json_; }
 
     std::int32_t integer32() const {
         const std::int64_t value = integer();
@@ -221,10 +124,8 @@ class Value {
     template <class Visit>
     void for_each_element(Visit visit) const {
         expect(Kind::array, "array");
-        std::size_t at = index_ + 1;
-        for (std::size_t n = 0; n < node().size; ++n) {
-            visit(Value(*document_, at, this, n));
-            at = document_->node(at).next;
+        for (std::size_t n = 0; n < json_.size(); ++n) {
+            visit(Value(json_[n], this, nullptr, n));
         }
     }
 
@@ -232,15 +133,12 @@ class Value {
     template <class Visit>
     void for_each_member(Visit visit) const {
         expect(Kind::object, "object");
-        std::size_t at = index_ + 1;
-        for (std::size_t n = 0; n < node().size; ++n) {
-            visit(Value(*document_, at, this, IS_MEMBER));
-            at = document_->node(at).next;
+        for (const auto& member : json_.items()) {
+            visit(Value(member.value(), this, &member.key(), 0));
         }
     }
 
-    std::string key() const { return std::string(document_->text(node().key), node().key_size); }
-    bool has_key(const char* name) const { return equal(document_->text(node().key), node().key_size, name); }
+    const std::string& key() const { return *key_; }
 
     [[noreturn]] void fail(const std::string& what) const {
         const std::string where = path();
@@ -255,27 +153,20 @@ class Value {
 
   private:
     friend class Fields;
-    static const std::size_t IS_MEMBER = static_cast<std::size_t>(-1);
 
-    Value(const Document& document, std::size_t index, const Value* parent, std::size_t position)
-        : document_(&document), index_(index), parent_(parent), position_(position) {}
-
-    static bool equal(const char* text, std::size_t size, const char* other) {
-        return std::strlen(other) == size && std::memcmp(text, other, size) == 0;
-    }
-
-    const Document::Node& node() const { return document_->node(index_); }
+    Value(const Document& json, const Value* parent, const std::string* key, std::size_t position)
+        : json_(json), parent_(parent), key_(key), position_(position) {}
 
     std::string path() const {
         if (parent_ == nullptr) {
             return "$";
         }
-        return parent_->path() + (position_ == IS_MEMBER ? "." + key() : "[" + std::to_string(position_) + "]");
+        return parent_->path() + (key_ != nullptr ? "." + key() : "[" + std::to_string(position_) + "]");
     }
 
-    const Document* document_;
-    std::size_t index_;
+    const Document& json_;
     const Value* parent_;  // on the stack of the caller: a value must not outlive the visit it was made for
+    const std::string* key_;
     std::size_t position_;
 };
 
@@ -355,7 +246,7 @@ template <class Enumeration>
 void read_key(const Value& member, Enumeration& into) {
     const Words known = words_of(into);
     for (std::size_t n = 0; n < known.size; ++n) {
-        if (member.has_key(known.begin[n])) {
+        if (member.key() == known.begin[n]) {
             into = static_cast<Enumeration>(n);
             return;
         }
@@ -363,7 +254,6 @@ void read_key(const Value& member, Enumeration& into) {
     member.fail("Invalid enum value '" + member.key() + "'");
 }
 
-/// Of members of the same name the last one counts.
 template <class Key, class T>
 void read(const Value& value, std::map<Key, T>& into) {
     into.clear();
@@ -384,11 +274,12 @@ class Fields {
     /// Reads the member if it is there, `how` as the functions `read` take it. Was it?
     template <class T, class... How>
     bool optional(const char* name, T& into, How... how) {
-        const std::size_t found = find(name);
-        if (found != 0) {
-            read(member(found), into, how...);
+        const auto found = find(name);
+        const bool given = found != object_.json_.end();
+        if (given) {
+            read(Value(*found, &object_, &found.key(), 0), into, how...);
         }
-        return found != 0;
+        return given;
     }
 
     template <class T, class... How>
@@ -401,22 +292,22 @@ class Fields {
     /// Reads the member if it is there and not null. Was it?
     template <class T>
     bool nullable(const char* name, T& into) {
-        const std::size_t found = find(name);
-        const bool given = found != 0 && member(found).kind() != Kind::null;
+        const auto found = find(name);
+        const bool given = found != object_.json_.end() && !found->is_null();
         if (given) {
-            read(member(found), into);
+            read(Value(*found, &object_, &found.key(), 0), into);
         }
         return given;
     }
 
     /// To be called when all members that the protocol knows have been asked for.
     void end() const {
-        if (taken_ == object_.node().size) {
+        if (taken_ == object_.json_.size()) {
             return;
         }
         object_.for_each_member([this](const Value& member) {
             for (std::size_t n = 0; n < asked_; ++n) {
-                if (member.has_key(known_[n])) {
+                if (member.key() == known_[n]) {
                     return;
                 }
             }
@@ -425,22 +316,12 @@ class Fields {
     }
 
   private:
-    // where the member stands, or 0; of members of the same name the last one counts
-    std::size_t find(const char* name) {
-        std::size_t at = object_.index_ + 1;
-        std::size_t found = 0;
-        for (std::size_t n = 0; n < object_.node().size; ++n) {
-            if (member(at).has_key(name)) {
-                found = at;
-                ++taken_;
-            }
-            at = object_.document_->node(at).next;
-        }
+    Document::const_iterator find(const char* name) {
+        const auto found = object_.json_.find(name);
+        taken_ += found != object_.json_.end() ? 1 : 0;
         known_[asked_++] = name;
         return found;
     }
-
-    Value member(std::size_t at) const { return Value(*object_.document_, at, &object_, Value::IS_MEMBER); }
 
     const Value& object_;
     std::size_t taken_ = 0;

@@ -41,8 +41,8 @@ class Answerer {
         stuck_ = false;
         has_id_ = false;
         try {
-            document_.parse(message, size);
-            const json::Value value(document_);
+            const json::Document document = json::parsed(message, size);
+            const json::Value value(document);
             std::string type;
             json::Fields fields(value);
             fields.required("type", type);
@@ -137,7 +137,6 @@ class Answerer {
     const Product product_;
     const AdapterFactory make_adapter_;
     const Emit emit_;
-    json::Document document_;
     std::string out_;
     std::string trace_;
     std::int64_t id_ = 0;
