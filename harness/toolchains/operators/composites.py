@@ -8,44 +8,9 @@ from collections.abc import Iterator
 from lxml import etree
 
 from ucm_cts.harness.toolchains.corpus import declarations as decl
-from ucm_cts.harness.toolchains.operators.aspects import ELSEWHERE
 from ucm_cts.harness.toolchains.operators.operator import breaks, keeps
 
 IMPLEMENTATIONS = ("AtomicComponentImplementation", "CompositeComponentImplementation")
-
-
-@breaks("R-9.5.5.1-02", at="CompositeComponentImplementation")
-def no_part(composite: etree._Element) -> None:
-    """A composite without parts, and so without connections and delegations."""
-    for tag in ("Part", "Connection", "PortDelegation"):
-        for child in composite.findall(tag):
-            composite.remove(child)
-
-
-@breaks("R-9.5.5.2-02", at="CompositeComponentImplementation", under=ELSEWHERE)
-def composite_with_a_policy(composite: etree._Element) -> bool:
-    """A composite has a policy."""
-    policy = composite.getroottree().getroot().find(".//ComponentTechnicalPolicy")
-    if policy is None:
-        return False
-    etree.SubElement(composite, "TechnicalPolicy", name=decl.path(policy))
-    return True
-
-
-@keeps("R-9.5.5.2-01", at="PortDelegation")
-def port_without_delegation(delegation: etree._Element) -> bool:
-    """A port need not be delegated."""
-    composite = delegation.getparent()
-    if composite is None:
-        return False
-    composite.remove(delegation)
-    return True
-
-
-@breaks("R-9.5.5.3-01", at="CompositeComponentImplementation")
-def part_of_nothing_known(composite: etree._Element) -> None:
-    """The component of a part is declared nowhere."""
-    _part(composite, decl.NOWHERE)
 
 
 @keeps("R-9.5.5.3-02", at="Part")
@@ -56,18 +21,6 @@ def part_once_more(part: etree._Element) -> bool:
         return False
     _part(composite, str(part.get("instanceOf")))
     return True
-
-
-@keeps("R-9.5.5.3-04", at="CompositeComponentImplementation")
-def part_of_the_own_type(composite: etree._Element) -> None:
-    """A part of the composite's component type stands for another implementation."""
-    _part(composite, str(composite.get("type")))
-
-
-@breaks("R-9.5.5.3-04", at="CompositeComponentImplementation")
-def part_of_itself(composite: etree._Element) -> None:
-    """The composite is a part of itself."""
-    _part(composite, decl.path(composite))
 
 
 @breaks("R-9.5.5.3-04", at="CompositeComponentImplementation")
@@ -200,42 +153,6 @@ def _shared(specs: list[etree._Element]) -> Iterator[tuple[etree._Element, etree
                     keys = ("abstractType", "item", "actualType")
                     if [binding.get(k) for k in keys] == [same.get(k) for k in keys] and same.get("actualType"):
                         yield binding, same
-
-
-@breaks("R-9.5.5.5-01", at="ConnectionEnd")
-def end_at_no_part_known(end: etree._Element) -> bool:
-    """The composite has no such part."""
-    end.set("part", decl.NOWHERE)
-    return _in_connection(end)
-
-
-@breaks("R-9.5.5.5-02", at="ConnectionEnd")
-def end_at_no_port_known(end: etree._Element) -> bool:
-    """The part has no such port."""
-    end.set("port", decl.NOWHERE)
-    return _in_connection(end)
-
-
-def _in_connection(end: etree._Element) -> bool:
-    around = end.getparent()
-    return around is not None and around.tag == "Connection"
-
-
-@breaks("R-9.5.5.6-02", at="PortDelegation")
-def delegation_to_nowhere(delegation: etree._Element) -> None:
-    """The delegation has no inner end."""
-    for end in delegation.findall("ConnectionEnd"):
-        delegation.remove(end)
-
-
-@breaks("R-9.5.5.6-03", at="PortDelegation")
-def delegation_to_no_port_known(delegation: etree._Element) -> bool:
-    """The part has no such port."""
-    end = delegation.find("ConnectionEnd")
-    if end is None:
-        return False
-    end.set("port", decl.NOWHERE)
-    return True
 
 
 @breaks("R-9.5.5.6-04", at="PortDelegation")

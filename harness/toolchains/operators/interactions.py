@@ -6,36 +6,8 @@ import copy
 
 from lxml import etree
 
-from ucm_cts.harness.toolchains.corpus.declarations import NOWHERE
 from ucm_cts.harness.toolchains.operators.interfaces import beside, named
-from ucm_cts.harness.toolchains.operators.operator import breaks, keeps
-
-
-@keeps("R-9.3.2.1-01", at="InteractionModule")
-def first_declaration_last(module: etree._Element) -> bool:
-    """What is used may be declared after it."""
-    declarations = list(module.iterchildren(etree.Element))
-    if len(declarations) < 2:
-        return False
-    module.append(declarations[0])
-    return True
-
-
-@keeps("R-9.3.3.2-04", at="InteractionPattern")
-def pattern_with_a_child(pattern: etree._Element) -> None:
-    """A pattern may be extended, with and without further roles."""
-    name = str(pattern.get("name"))
-    child = beside(pattern, "InteractionPattern", name=f"{name}_child", extends=name)
-    etree.SubElement(child, "InteractionRole", name=f"{name}_observer", lowerMultiplicity="0", upperMultiplicity="-1")
-
-
-@breaks("R-9.3.3.2-03", at="InteractionPattern")
-def extends_nothing_known(pattern: etree._Element) -> bool:
-    """What is extended is declared nowhere."""
-    if pattern.get("extends"):
-        return False
-    pattern.set("extends", NOWHERE)
-    return True
+from ucm_cts.harness.toolchains.operators.operator import breaks
 
 
 @breaks("R-9.3.3.2-05", at="InteractionPattern")
@@ -59,12 +31,6 @@ def _taken_from_parent(pattern: etree._Element, tag: str) -> bool:
     for involved in pattern[-1].findall("InvolvedItem"):
         pattern[-1].remove(involved)
     return True
-
-
-@breaks("R-9.3.3.2-06", at="InteractionPattern")
-def extends_itself(pattern: etree._Element) -> None:
-    """The pattern is its own ancestor."""
-    pattern.set("extends", str(pattern.get("name")))
 
 
 @breaks("R-9.3.3.3-05", at="ItemBinding")
@@ -117,35 +83,6 @@ def bound_to_another_type_too(binding: etree._Element) -> bool:
     return True
 
 
-@keeps("R-9.3.1-10", at="ConnectorDefinition")
-def connector_with_a_sister(connector: etree._Element) -> None:
-    """A pattern may have several connectors."""
-    sister = copy.deepcopy(connector)
-    sister.set("name", f"{connector.get('name')}_sister")
-    connector.addnext(sister)
-
-
-@breaks("R-9.3.4-03", at="ConnectorPort")
-def plays_nothing_known(port: etree._Element) -> None:
-    """The pattern has no such role."""
-    pattern = str(port.get("portRole")).rpartition(".")[0]
-    port.set("portRole", f"{pattern}.{NOWHERE}")
-
-
-@breaks("R-9.3.4.4-02", at="ConnectorPort", under=("connector-port-api=required",))
-def no_api(port: etree._Element) -> bool:
-    """A connector port without a port type."""
-    return port.attrib.pop("api", "") != ""
-
-
-@breaks("R-9.3.4.6-02", at="ItemBinding")
-def binds_nothing_known(binding: etree._Element) -> None:
-    """The pattern has no such item."""
-    pattern = str(binding.get("interactionItem")).rpartition(".")[0]
-    connector_item = str(binding.get("connectorItem"))
-    beside(binding, "ItemBinding", interactionItem=f"{pattern}.{NOWHERE}", connectorItem=connector_item)
-
-
 @breaks("R-9.3.4.6-04", at="ItemBinding", under=("unbound-items=required",))
 def unbound(binding: etree._Element) -> bool:
     """A connector that does not bind an item of its roles."""
@@ -154,20 +91,4 @@ def unbound(binding: etree._Element) -> bool:
     if pattern is None or connector is None or pattern.find(f"InteractionRole/InvolvedItem[@item='{name}']") is None:
         return False
     connector.remove(binding)
-    return True
-
-
-@keeps("R-9.3.5.1-01", at="PortType")
-def port_type_with_a_bare_sister(port_type: etree._Element) -> None:
-    """A port type may do without elements."""
-    beside(port_type, "PortType", name=f"{port_type.get('name')}_bare")
-
-
-@breaks("R-9.3.5.2-02", at="PortElement")
-def interface_of_nothing_known(element: etree._Element) -> bool:
-    """The interface is declared nowhere."""
-    around = element.getparent()
-    if around is None or around.tag != "PortType":
-        return False
-    element.set("interface", NOWHERE)
     return True

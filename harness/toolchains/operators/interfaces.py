@@ -6,7 +6,6 @@ import copy
 
 from lxml import etree
 
-from ucm_cts.harness.toolchains.corpus.declarations import NOWHERE
 from ucm_cts.harness.toolchains.operators.operator import breaks, keeps
 
 
@@ -28,16 +27,6 @@ def beside(element: etree._Element, tag: str, **attributes: str) -> etree._Eleme
     return new
 
 
-@breaks("R-9.2.7-11", at="Method")
-def second_return(method: etree._Element) -> bool:
-    """The method returns two things."""
-    known = method.find("Parameter[@direction='RETURN']")
-    if known is None:
-        return False
-    beside(known, "Parameter", name="returned_too", direction="RETURN", type=str(known.get("type")))
-    return True
-
-
 @keeps("R-9.2.7-11", at="Method")
 def return_first(method: etree._Element) -> bool:
     """The return value may come before all parameters."""
@@ -46,30 +35,6 @@ def return_first(method: etree._Element) -> bool:
         return False
     first.addprevious(known)
     return True
-
-
-@breaks("R-9.2.7.1-05", at="Interface")
-def inherits_from_itself(interface: etree._Element) -> None:
-    """The interface is its own ancestor."""
-    interface.insert(0, etree.Element("InheritedInterface", interface=str(interface.get("name"))))
-
-
-@keeps("R-9.2.7-14", at="Interface")
-def diamond(interface: etree._Element) -> None:
-    """One ancestor may be reached by two ways."""
-    name = str(interface.get("name"))
-    bottom = beside(interface, "Interface", name=f"{name}_bottom")
-    for side in ("left", "right"):
-        heir = beside(interface, "Interface", name=f"{name}_{side}")
-        etree.SubElement(heir, "InheritedInterface", interface=name)
-        etree.SubElement(bottom, "InheritedInterface", interface=f"{name}_{side}")
-
-
-@keeps("R-9.2.7.1-01", at="Interface")
-def takes_itself(interface: etree._Element) -> None:
-    """A method may take the interface that it belongs to."""
-    method = etree.SubElement(interface, "Method", name="takes_the_like")
-    etree.SubElement(method, "Parameter", name="other", direction="IN", type=str(interface.get("name")))
 
 
 @breaks("R-9.2.7.1-04", at="InheritedInterface", under=("inherited-names=refused",))
@@ -84,12 +49,6 @@ def declares_an_inherited_name(inherited: etree._Element) -> bool:
     return True
 
 
-@breaks("R-9.2.7.2-02", at="Method")
-def method_again(method: etree._Element) -> None:
-    """The same method stands there twice."""
-    method.addnext(copy.deepcopy(method))
-
-
 @keeps("R-9.2.7-12", at="Method")
 def raises_a_further_exception(method: etree._Element) -> bool:
     """A method may raise any number of exceptions."""
@@ -101,19 +60,6 @@ def raises_a_further_exception(method: etree._Element) -> bool:
     return True
 
 
-@breaks("R-9.2.7.4-03", at="Attribute")
-def unknown_mode(attribute: etree._Element) -> bool:
-    """There is no such mode."""
-    attribute.set("mode", "WRITE")
-    return True
-
-
-@breaks("R-9.2.7.4-02", at="Attribute", under=("attribute-mode-absent=required",))
-def no_mode(attribute: etree._Element) -> bool:
-    """An attribute without mode."""
-    return attribute.attrib.pop("mode", "") != ""
-
-
 @breaks("R-9.2.8-03", at="StructureField", under=("abstract-types-elsewhere=refused",))
 def field_of_an_abstract_type(field: etree._Element) -> bool:
     """A field of a type that nothing binds."""
@@ -122,16 +68,6 @@ def field_of_an_abstract_type(field: etree._Element) -> bool:
         return False
     beside(structure, "AbstractDataType", name="never_bound_t")
     field.set("type", "never_bound_t")
-    return True
-
-
-@breaks("R-9.2.9.2-01", at="ConfigurationParameterValue")
-def value_of_no_parameter(value: etree._Element) -> bool:
-    """The definition has no such parameter."""
-    if not _in_annotation(value):
-        return False
-    definition = str(value.get("configurationParameter")).rpartition(".")[0]
-    value.set("configurationParameter", f"{definition}.{NOWHERE}")
     return True
 
 
@@ -150,29 +86,3 @@ def value_of_a_strange_parameter(annotation: etree._Element) -> bool:
         return False
     values[0].set("configurationParameter", name)
     return True
-
-
-@breaks("R-9.2.9.4-03", at="ConfigurationParameterValue", under=("repeated-parameter-values=refused",))
-def second_value(value: etree._Element) -> bool:
-    """One parameter gets two values."""
-    text = str(value.get("value"))
-    if not _in_annotation(value) or not text.isdecimal():
-        return False
-    again = copy.deepcopy(value)
-    again.set("value", str(abs(int(text) - 1)))
-    value.addnext(again)
-    return True
-
-
-@breaks("R-9.2.9.2-03", at="ConfigurationParameterValue")
-def truth_for_a_number(value: etree._Element) -> bool:
-    """A truth value is no number."""
-    if not _in_annotation(value) or not str(value.get("value")).isdecimal():
-        return False
-    value.set("value", "TRUE")
-    return True
-
-
-def _in_annotation(value: etree._Element) -> bool:
-    around = value.getparent()
-    return around is not None and around.tag == "Annotation"

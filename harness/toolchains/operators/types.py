@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import copy
-
 from lxml import etree
 
 from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
 from ucm_cts.harness.toolchains.operators.interfaces import beside
-from ucm_cts.harness.toolchains.operators.modules import in_the_same_module, module_of
+from ucm_cts.harness.toolchains.operators.modules import in_the_same_module, module_of, without
 from ucm_cts.harness.toolchains.operators.operator import breaks, keeps
 
 
@@ -18,120 +16,12 @@ def _integer(element: etree._Element, attribute: str = "type") -> str | None:
     return found.get("kind") if found is not None else None
 
 
-def _without(element: etree._Element, tag: str) -> None:
-    """Remove all children of ``tag``; what is left ends in the line of the last child, which shows where something is missing."""
-    for child in element.findall(tag):
-        element.remove(child)
-    if len(element):
-        element[-1].tail = None
-    else:
-        element.text = None
-
-
-@keeps("R-9.2.5.1-03", at="StringType")
-def unbounded_string(string: etree._Element) -> bool:
-    """A string may be unbounded."""
-    if any(constant.get("type") == string.get("name") for constant in module_of(string).findall("Constant")):
-        return False
-    string.set("maxSize", "-1")
-    return True
-
-
-@breaks("R-9.2.4.2-03", at="Alias")
-def alias_of_itself(alias: etree._Element) -> None:
-    """The alias names itself."""
-    alias.set("type", str(alias.get("name")))
-
-
-@keeps("R-9.2.4.2-02", at="StructureField")
-def field_by_way_of_an_alias(field: etree._Element) -> None:
-    """An alias may stand for a field's type."""
-    etree.SubElement(module_of(field), "Alias", name="by_another_name", type=str(field.get("type")))
-    field.set("type", "by_another_name")
-
-
-@breaks("R-9.2.4.3-02", at="Structure")
-def structure_without_fields(structure: etree._Element) -> None:
-    """The structure has no field."""
-    _without(structure, "StructureField")
-
-
-@breaks("R-9.2.4.3-05", at="StructureField")
-def field_again(field: etree._Element) -> None:
-    """The structure has two fields of one name."""
-    field.addnext(copy.deepcopy(field))
-
-
-@breaks("R-9.2.4.3-06", at="Structure")
-def structure_of_itself(structure: etree._Element) -> None:
-    """The structure contains itself."""
-    etree.SubElement(structure, "StructureField", name="itself", type=str(structure.get("name")))
-
-
-@keeps("R-9.2.4.3-01", at="Structure")
-def structure_of_a_further_type(structure: etree._Element) -> None:
-    """A structure may have one more field, of a type that is declared last."""
-    etree.SubElement(module_of(structure), "PrimitiveBoolean", name="further_truth")
-    etree.SubElement(structure, "StructureField", name="further_field", type="further_truth")
-
-
-@breaks("R-9.2.4.5-02", at="Union")
-def union_without_cases(union: etree._Element) -> None:
-    """The union has no case."""
-    _without(union, "UnionCase")
-
-
-@breaks("R-9.2.4.5-05", at="Union")
-def selector_of_a_boolean(union: etree._Element) -> None:
-    """The selector is no enumeration."""
-    etree.SubElement(module_of(union), "PrimitiveBoolean", name="selecting_truth")
-    union.set("selectorType", "selecting_truth")
-
-
-@breaks("R-9.2.4.6-02", at="Union")
-def case_again(union: etree._Element) -> bool:
-    """Two cases have one name."""
-    cases = union.findall("UnionCase")
-    if len(cases) < 2:
-        return False
-    cases[-1].set("name", str(cases[0].get("name")))
-    return True
-
-
-@breaks("R-9.2.4.6-03", at="UnionCase")
-def case_without_selector_value(case: etree._Element) -> bool:
-    """A case that is not the default has no selector value."""
-    if case.get("defaultCase") == "true":
-        return False
-    _without(case, "SelectorValue")
-    return True
-
-
-@breaks("R-9.2.4.6-05", at="Union", under=("repeated-selector-values=refused",))
-def selector_value_again(union: etree._Element) -> bool:
-    """Two cases have one selector value."""
-    values = [value for case in union.findall("UnionCase")[:2] for value in case.findall("SelectorValue")[:1]]
-    if len(values) < 2:
-        return False
-    values[1].set("enumerator", str(values[0].get("enumerator")))
-    return True
-
-
-@breaks("R-9.2.4.6-08", at="Union")
-def two_default_cases(union: etree._Element) -> bool:
-    """Two cases are the default."""
-    cases = union.findall("UnionCase")[:2]
-    for case in cases:
-        case.set("defaultCase", "true")
-    return len(cases) == 2
-
-
 @breaks("R-9.2.4.7-02", at="Enumeration")
 def enumeration_without_enumerators(enumeration: etree._Element) -> bool:
     """The enumeration has no enumerator."""
     if _is_referred_to(enumeration):
         return False
-    _without(enumeration, "Enumerator")
+    without(enumeration, "Enumerator")
     return True
 
 
@@ -183,24 +73,6 @@ def enumerator_again(enumeration: etree._Element) -> bool:
     return True
 
 
-@breaks("R-9.2.4.9-02", at="Array")
-def array_without_dimensions(array: etree._Element) -> None:
-    """The array has no dimension."""
-    _without(array, "ArrayDimension")
-
-
-@keeps("R-9.2.4.9-04", at="Array")
-def array_of_a_further_dimension(array: etree._Element) -> None:
-    """An array may have one more dimension, of another index type."""
-    etree.SubElement(array, "ArrayDimension", indexType="UBYTE", size="2")
-
-
-@breaks("R-9.2.4.9-01", at="Array")
-def array_of_itself(array: etree._Element) -> None:
-    """The array is its own element."""
-    array.set("type", str(array.get("name")))
-
-
 @breaks("R-9.2.4.11-03", at="ArrayDimension")
 def dimension_beyond_its_index(dimension: etree._Element) -> bool:
     """The size is one more than the index type holds."""
@@ -208,21 +80,6 @@ def dimension_beyond_its_index(dimension: etree._Element) -> bool:
     if kind is None:
         return False
     dimension.set("size", str(INTEGER_RANGES[kind][1] + 1))
-    return True
-
-
-@keeps("R-9.2.5.4-03", at="Sequence")
-def unbounded_sequence(sequence: etree._Element) -> None:
-    """A sequence may be unbounded."""
-    sequence.set("maxSize", "-1")
-
-
-@breaks("R-9.2.6.1-03", at="Constant")
-def constant_of_no_syntax(constant: etree._Element) -> bool:
-    """The value is nothing that IDL could write."""
-    if _integer(constant) is None:
-        return False
-    constant.set("value", "0x")
     return True
 
 
