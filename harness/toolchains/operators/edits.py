@@ -9,6 +9,7 @@ from typing import Any
 import msgspec
 from lxml import etree
 
+from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import read
 from ucm_cts.harness.catalogue.requirements import SUITE
@@ -86,17 +87,25 @@ def _member(member: etree._Element) -> str:
     return f"{decl.path(next(member.iterancestors()))}.{member.get('name')}"
 
 
+def _above(element: etree._Element, expression: str, by: int) -> str:
+    kind = str(_found(element, f"string({expression})"))
+    return str(INTEGER_RANGES[kind][1] + by) if kind in INTEGER_RANGES else ""
+
+
 VALUES: Mapping[str, Callable[[etree._Element, str], str]] = {
     "xpath": lambda element, expression: str(_found(element, f"string({expression})")),
     "path": lambda element, expression: decl.path(_found(element, expression)[0]),
     "member": lambda element, expression: _member(_found(element, expression)[0]),
+    "most": lambda element, expression: _above(element, expression, 0),
+    "beyond": lambda element, expression: _above(element, expression, 1),
     "spare": decl.spare,
     "like": lambda element, attribute: decl.spare_like(element, str(element.get(attribute))),
     "unlike": lambda element, attribute: decl.spare_unlike(element, str(element.get(attribute))),
     "stranger": lambda element, attribute: f"{str(element.get(attribute)).rpartition('.')[0]}.{decl.NOWHERE}",
 }
 """Values that depend on the element. ``xpath``: the text of an XPath; ``path`` and ``member``: the name, from the root, of the
-declaration or the member that an XPath finds; ``spare``: the name of a new contract of a tag; ``like`` and ``unlike``: a new type of
+declaration or the member that an XPath finds; ``most`` and ``beyond``: the greatest number of the integer kind that an XPath yields,
+and one more; ``spare``: the name of a new contract of a tag; ``like`` and ``unlike``: a new type of
 the kind that an attribute names, or of the other kind; ``stranger``: a member that the owner named by an attribute does not have.
 """
 

@@ -6,7 +6,6 @@ import copy
 
 from lxml import etree
 
-from ucm_cts.adapters.contract.metamodel.contracts import INTEGER_RANGES
 from ucm_cts.harness.toolchains.operators.modules import DECLARED, MEMBERS, is_returned
 from ucm_cts.harness.toolchains.operators.operator import breaks
 
@@ -26,15 +25,4 @@ def member_again(element: etree._Element) -> bool:
     if is_returned(element):
         return False
     element.addnext(copy.deepcopy(element))
-    return True
-
-
-@breaks("R-9.2.4.8-03", at="Enumeration")
-def further_enumerator_beyond_its_index(enumeration: etree._Element) -> bool:
-    """The enumeration has one more enumerator, whose value is more than the index type holds."""
-    kind = str(enumeration.get("indexType"))
-    if kind not in INTEGER_RANGES or len(enumeration.findall("Enumerator")) < 2:
-        return False
-    value = str(INTEGER_RANGES[kind][1] + 1)
-    etree.SubElement(enumeration, "Enumerator", name="enumerator_too_far", value=value)
     return True

@@ -4,13 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    Attribute,
-    Exception_,
-    Interface,
-    Method,
-    Parameter,
-)
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.reference_models.mapping.idl import expectations as exp
 from ucm_cts.reference_models.mapping.idl.declarations import Basic, Type
@@ -27,7 +21,7 @@ DIRECTIONS = {"IN": "in", "OUT": "out", "INOUT": "inout"}
 def exception_facts(subject: Subject) -> Iterator[exp.Expected]:
     """All that is expected of an exception."""
     exception = subject.element
-    assert isinstance(exception, Exception_)
+    assert isinstance(exception, c.Exception_)
     yield exp.Declares(**subject.about("R-12.6-01"), kind="exception")
     yield exp.Lists(**subject.about("R-12.6-02"), names=tuple(field.name for field in exception.fields))
     for field in exception.fields:
@@ -39,10 +33,10 @@ def exception_facts(subject: Subject) -> Iterator[exp.Expected]:
 def interface_facts(subject: Subject) -> Iterator[exp.Expected]:
     """All that is expected of an interface, except what being one of a port element adds."""
     interface = subject.element
-    assert isinstance(interface, Interface)
+    assert isinstance(interface, c.Interface)
     yield exp.Declares(**subject.about("R-12.6-03"), kind="interface")
     for inherited in interface.inherited_interfaces:
-        base = subject.scope.find(inherited.interface, Interface)
+        base = subject.scope.find(inherited.interface, c.Interface)
         if base is not None:
             yield exp.Inherits(**subject.about("R-12.6-09"), base=path_of(base))
     for method in interface.methods:
@@ -60,17 +54,17 @@ def interface_facts(subject: Subject) -> Iterator[exp.Expected]:
         yield from attribute_facts(subject, attribute, "R-12.6-10", needed=False)
 
 
-def result_of(method: Method) -> Parameter | None:
+def result_of(method: c.Method) -> c.Parameter | None:
     """The parameter that is returned, if there is one; its place among the others does not matter."""
     return next((p for p in method.parameters if p.direction == "RETURN"), None)
 
 
-def arguments_of(method: Method) -> tuple[Parameter, ...]:
+def arguments_of(method: c.Method) -> tuple[c.Parameter, ...]:
     """The parameters that are not returned."""
     return tuple(p for p in method.parameters if p.direction in DIRECTIONS)
 
 
-def _method(subject: Subject, method: Method) -> Iterator[exp.Expected]:
+def _method(subject: Subject, method: c.Method) -> Iterator[exp.Expected]:
     scope = subject.scope
     yield exp.Declares(**subject.about("R-12.6-04", method), kind="operation")
     arguments = arguments_of(method)
@@ -85,14 +79,14 @@ def _method(subject: Subject, method: Method) -> Iterator[exp.Expected]:
     type_ = type_named(result.type, scope) if result is not None else VOID
     if type_ is not None:
         yield exp.Means(**subject.about("R-12.6-07", method), type=type_)
-    raised = [scope.find(one.exception, Exception_) for one in method.raised_exceptions]
+    raised = [scope.find(one.exception, c.Exception_) for one in method.raised_exceptions]
     exceptions = tuple(path_of(one) for one in raised if one is not None)
     if len(exceptions) == len(raised):
         yield exp.Raises(**subject.about("R-12.6-08", method), exceptions=exceptions)
 
 
 def attribute_facts(
-    subject: Subject, attribute: Attribute, requirement: str, needed: bool = True
+    subject: Subject, attribute: c.Attribute, requirement: str, needed: bool = True
 ) -> Iterator[exp.Expected]:
     """What is expected of an attribute; those of interfaces are not ``needed`` (interpretation idl-interface-attributes)."""
     component = requirement.startswith("R-12.8.1")
@@ -108,10 +102,10 @@ def attribute_facts(
         yield exp.Defaulted(**subject.about("R-12.4.1.3-03", attribute), type=type_, value=attribute.default_value)
 
 
-def all_methods(interface: Declared) -> Iterator[tuple[Method, Scope]]:
+def all_methods(interface: Declared) -> Iterator[tuple[c.Method, Scope]]:
     """The methods of an interface and of all that it inherits, each with the scope of its references."""
     for element, scope in with_ancestors(interface):
-        assert isinstance(element, Interface)
+        assert isinstance(element, c.Interface)
         yield from ((method, scope) for method in element.methods)
 
 
@@ -121,11 +115,11 @@ def with_ancestors(interface: Declared) -> Iterator[Declared]:
     while waiting:
         current = waiting.pop(0)
         element, scope = current
-        if path_of(current) in met or not isinstance(element, Interface):
+        if path_of(current) in met or not isinstance(element, c.Interface):
             continue
         met.add(path_of(current))
         yield current
-        found = (scope.find(one.interface, Interface) for one in element.inherited_interfaces)
+        found = (scope.find(one.interface, c.Interface) for one in element.inherited_interfaces)
         waiting.extend(one for one in found if one is not None)
 
 
@@ -135,13 +129,13 @@ def signatures(interface: Declared, bound: Bound, is_open: Callable[[Declared], 
     A type that ``is_open`` has abstract types inside, which leaves open what it is once they are bound.
     """
 
-    def type_of(parameter: Parameter, scope: Scope) -> Type:
+    def type_of(parameter: c.Parameter, scope: Scope) -> Type:
         found = scope.find(parameter.type, *TYPES)
         if found is None or (is_open(found) and path_of(found) not in bound):
             return UNKNOWN
         return bound.get(path_of(found), named(path_of(found)))
 
-    def signature(method: Method, scope: Scope) -> exp.Signature:
+    def signature(method: c.Method, scope: Scope) -> exp.Signature:
         result = result_of(method)
         arguments = ((DIRECTIONS[p.direction], p.name, type_of(p, scope)) for p in arguments_of(method))
         return exp.Signature(method.name, type_of(result, scope) if result is not None else VOID, tuple(arguments))

@@ -4,20 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ucm_cts.adapters.contract.metamodel import components as mc
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.aspects import NonfunctionalAspectModule
 from ucm_cts.adapters.contract.metamodel.common import Element, Named
-from ucm_cts.adapters.contract.metamodel.components import (
-    AtomicComponentImplementation,
-    ComponentModule,
-    ComponentType,
-)
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    Constant,
-    ContractModule,
-    DataType,
-    Exception_,
-    Interface,
-)
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionModule, PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, each_element
@@ -34,14 +24,14 @@ from ucm_cts.reference_models.mapping.idl.subjects import Subject, path_in, path
 from ucm_cts.reference_models.mapping.idl.templates import ABSTRACT, Templates, abstract
 
 MODULE_REQUIREMENTS: dict[type[Element], str] = {
-    ComponentModule: "R-12.7-02",
-    ContractModule: "R-12.7-03",
+    mc.ComponentModule: "R-12.7-02",
+    c.ContractModule: "R-12.7-03",
     InteractionModule: "R-12.7-04",
     NonfunctionalAspectModule: "R-12.7-05",
 }
 """Which requirement asks for a module; R-12.7-06 for those that gather others."""
 
-MAPPED = (DataType, Constant, Exception_, Interface, ComponentType, AtomicComponentImplementation)
+MAPPED = (c.DataType, c.Constant, c.Exception_, c.Interface, mc.ComponentType, mc.AtomicComponentImplementation)
 """What becomes a declaration other than a module."""
 
 
@@ -51,7 +41,7 @@ def expected_idl(model: Model) -> exp.ExpectedIdl:
     types, unmapped = {}, set()
     abstract_types: dict[exp.Path, exp.Abstract] = {}
     for element, scope in each_element(model, names):
-        if isinstance(element, DataType):
+        if isinstance(element, c.DataType):
             meaning = meaning_of(Declared(element, scope))
             if meaning is not None:
                 types[path_in(scope, element.name)] = meaning
@@ -71,17 +61,17 @@ def _facts(model: Model, names: Names) -> Iterator[exp.Expected]:
             continue
         subject = Subject(element, scope)
         match element:
-            case DataType():
+            case c.DataType():
                 yield from data_type_facts(subject)
-            case Constant():
+            case c.Constant():
                 yield from constant_facts(subject)
-            case Exception_():
+            case c.Exception_():
                 yield from exception_facts(subject)
-            case Interface():
+            case c.Interface():
                 yield from interface_facts(subject)
-            case ComponentType():
+            case mc.ComponentType():
                 yield from component_facts(subject, bodies.get(subject.path, ()), templates)
-            case AtomicComponentImplementation():
+            case mc.AtomicComponentImplementation():
                 yield from implementation_facts(subject, names, templates)
             case ConnectorDefinition() | PortType():
                 yield from _unmapped(subject)
@@ -98,8 +88,8 @@ def _bodies(model: Model, names: Names) -> dict[exp.Path, list[Subject]]:
     """The atomic implementations of each component type."""
     found: dict[exp.Path, list[Subject]] = {}
     for element, scope in each_element(model, names):
-        if isinstance(element, AtomicComponentImplementation):
-            type_ = scope.find(element.type, ComponentType)
+        if isinstance(element, mc.AtomicComponentImplementation):
+            type_ = scope.find(element.type, mc.ComponentType)
             if type_ is not None:
                 found.setdefault(path_of(type_), []).append(Subject(element, scope))
     return found

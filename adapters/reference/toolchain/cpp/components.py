@@ -8,13 +8,7 @@ from dataclasses import dataclass
 from ucm_cts.adapters.contract.metamodel import components, contracts, interactions
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
-from ucm_cts.adapters.reference.toolchain.cpp.interfaces import (
-    PREFIX,
-    Bindings,
-    accessors,
-    qualified_class,
-    reference_to,
-)
+from ucm_cts.adapters.reference.toolchain.cpp import interfaces
 from ucm_cts.adapters.reference.toolchain.cpp.names import identifier, instance
 from ucm_cts.adapters.reference.toolchain.cpp.types import DATA, INTERFACES, Standard, find
 
@@ -32,16 +26,18 @@ class Used:
     kind: str
     of_policy: bool
     interface: Declared | None
-    bindings: Bindings
+    bindings: interfaces.Bindings
 
 
-def bindings_of(bound: tuple[components.AbstractTypeBinding, ...], scope: Scope) -> Bindings:
+def bindings_of(bound: tuple[components.AbstractTypeBinding, ...], scope: Scope) -> interfaces.Bindings:
     """What ``bound`` says where ``scope`` is."""
     kinds = (*DATA, *INTERFACES)
     return tuple((find(b.abstract_type, scope, *kinds).path, find(b.actual_type, scope, *kinds)) for b in bound)
 
 
-def element_interface(element: interactions.PortElement, scope: Scope, bindings: Bindings) -> Declared | None:
+def element_interface(
+    element: interactions.PortElement, scope: Scope, bindings: interfaces.Bindings
+) -> Declared | None:
     """The interface of ``element`` under ``bindings``; None if it stays abstract."""
     found = find(element.interface, scope, *INTERFACES)
     if isinstance(found.element, contracts.AbstractInterface):
@@ -50,7 +46,11 @@ def element_interface(element: interactions.PortElement, scope: Scope, bindings:
 
 
 def _uses(
-    owner: str, elements: tuple[interactions.PortElement, ...], scope: Scope, bound: Bindings, of_policy: bool
+    owner: str,
+    elements: tuple[interactions.PortElement, ...],
+    scope: Scope,
+    bound: interfaces.Bindings,
+    of_policy: bool,
 ) -> Iterator[Used]:
     for element in elements:
         called = f"{owner}_{element.name}"
@@ -108,27 +108,27 @@ def body_of(implementation: Declared) -> Body:
 def connection(used: Used, standard: Standard) -> str:
     """The type that the connection of a required port element has a name of its own for."""
     assert used.interface is not None
-    return instance("::ucm::PortConnection", qualified_class(used.interface, used.bindings))
+    return instance("::ucm::PortConnection", interfaces.qualified_class(used.interface, used.bindings))
 
 
 def _getters(body: Body, standard: Standard) -> Iterator[str]:
     for used in body.used:
         if used.kind == "PROVIDED" and used.interface is not None:
             tp = "tp_" if used.of_policy else ""
-            yield f"    virtual {reference_to(used.interface, used.bindings, standard)} get_{tp}{used.name}() = 0;"
+            yield f"    virtual {interfaces.reference_to(used.interface, used.bindings, standard)} get_{tp}{used.name}() = 0;"
 
 
 def _attributes(body: Body, standard: Standard) -> Iterator[str]:
     for ancestor in reversed(lineage(body.component_type)):
         assert isinstance(ancestor.element, components.ComponentType)
-        yield from accessors(ancestor.element.attributes, ancestor.scope, (), standard)
+        yield from interfaces.accessors(ancestor.element.attributes, ancestor.scope, (), standard)
 
 
 def body_definition(body: Body, own_names: frozenset[str], standard: Standard) -> str:
     """The abstract class inside its namespace; ``own_names`` are the connection types that mean something else elsewhere in
     the namespace and stand in the class.
     """
-    name = f"{PREFIX}{identifier(body.declared.element.name)}"
+    name = f"{interfaces.PREFIX}{identifier(body.declared.element.name)}"
     typedefs = {
         f"{u.name}_Connection": f"typedef {connection(u, standard)} {u.name}_Connection;" for u in body.required
     }

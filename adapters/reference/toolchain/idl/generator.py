@@ -10,14 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
 from ucm_cts.adapters.contract.metamodel.common import Named, children, walk
-from ucm_cts.adapters.contract.metamodel.components import (
-    AtomicComponentImplementation,
-    ComponentTechnicalPolicy,
-    ComponentType,
-    PortTypeSpec,
-)
 from ucm_cts.adapters.contract.metamodel.contracts import Constant, DataType, Exception_, Interface
 from ucm_cts.adapters.contract.metamodel.interactions import PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
@@ -27,7 +22,7 @@ from ucm_cts.adapters.reference.toolchain.idl.names import Templates, identifier
 from ucm_cts.adapters.reference.toolchain.idl.standard import STANDARD
 from ucm_cts.adapters.reference.toolchain.idl.types import Lines, constant, data_type, exception, interface
 
-DECLARED = (DataType, Constant, Exception_, Interface, ComponentType, AtomicComponentImplementation)
+DECLARED = (DataType, Constant, Exception_, Interface, mc.ComponentType, mc.AtomicComponentImplementation)
 """What becomes a declaration."""
 
 HEAD = ["#ifndef MODEL_IDL", "#define MODEL_IDL", '#include "ucm.idl"', ""]
@@ -132,7 +127,7 @@ class Writer:
             yield from self._references(part)
         if not unit.inside:
             yield from references(unit.element, unit.scope)
-        if isinstance(unit.element, AtomicComponentImplementation):
+        if isinstance(unit.element, mc.AtomicComponentImplementation):
             for policy, scope in self._components.policies(unit.element, unit.scope):
                 yield from references(policy, scope)
 
@@ -148,9 +143,9 @@ class Writer:
             case Interface():
                 bases = [PORT_ELEMENT_OBJECT] if self._is_first_with_base(Declared(element, scope)) else []
                 return interface(element, scope, bases)
-            case ComponentType():
+            case mc.ComponentType():
                 return self._components.component_type(element, scope)
-            case AtomicComponentImplementation():
+            case mc.AtomicComponentImplementation():
                 return self._components.body(element, scope)
         return self._template(unit)
 
@@ -206,23 +201,23 @@ _REFERENCES = ("type", "selector_type", "exception", "actual_type", "index_type"
 
 def references(element: Named, scope: Scope) -> Iterator[tuple[Declared, bool]]:
     """What ``element`` refers to, and whether that must be declared in full before it."""
-    kinds = (DataType, Interface, Exception_, ComponentType)
+    kinds = (DataType, Interface, Exception_, mc.ComponentType)
     for part in walk(element):
         for name in _REFERENCES:
             found = scope.find(getattr(part, name, "") or "", *kinds)
             if found is not None:
                 yield found, not isinstance(found.element, Interface)
         base = scope.find(
-            getattr(part, "interface", "") or getattr(part, "refines", "") or "", Interface, ComponentType
+            getattr(part, "interface", "") or getattr(part, "refines", "") or "", Interface, mc.ComponentType
         )
         if base is not None:
             yield base, True
     if isinstance(element, Constant):
         yield from _constants(element.value, scope)
-    if isinstance(element, ComponentType):
-        specs = [spec for port in element.ports for spec in port.specs if isinstance(spec, PortTypeSpec)]
+    if isinstance(element, mc.ComponentType):
+        specs = [spec for port in element.ports for spec in port.specs if isinstance(spec, mc.PortTypeSpec)]
         yield from _elements([scope.find(spec.type, PortType) for spec in specs])
-    if isinstance(element, ComponentTechnicalPolicy):
+    if isinstance(element, mc.ComponentTechnicalPolicy):
         definition = scope.find(element.technical_policy_definition, TechnicalPolicyDefinition)
         yield from _elements(lineage(definition) if definition is not None else [])
 

@@ -5,12 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ucm_cts.adapters.contract.metamodel.components import (
-    AssemblyPart,
-    ComponentType,
-    CompositeComponentImplementation,
-    PortDelegation,
-)
+from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
@@ -18,15 +13,15 @@ from ucm_cts.adapters.reference.toolchain.rules.circles import circle
 from ucm_cts.adapters.reference.toolchain.rules.components import part_ports
 
 
-@rule("R-9.5.5.1-02", CompositeComponentImplementation)
-def has_some_part(composite: CompositeComponentImplementation, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.5.5.1-02", mc.CompositeComponentImplementation)
+def has_some_part(composite: mc.CompositeComponentImplementation, _scope: Scope) -> Iterator[Complaint]:
     """A composite has a part."""
     if not composite.parts:
         yield composite, f"composite {composite.name} has no part; add one"
 
 
-@rule("R-9.5.5.3-01", AssemblyPart)
-def parts_are_components(part: AssemblyPart, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.5.5.3-01", mc.AssemblyPart)
+def parts_are_components(part: mc.AssemblyPart, scope: Scope) -> Iterator[Complaint]:
     """A part is an instance of a component that is there."""
     if scope.find(part.instance_of, *part_ports.COMPONENTS) is None:
         yield (
@@ -38,24 +33,24 @@ def parts_are_components(part: AssemblyPart, scope: Scope) -> Iterator[Complaint
 @rule("R-9.5.5.3-04", Model)
 def composites_do_not_contain_themselves(_model: Model, root: Scope) -> Iterator[Complaint]:
     """Containing comes to an end."""
-    found = circle(root, CompositeComponentImplementation, _composite_parts)
+    found = circle(root, mc.CompositeComponentImplementation, _composite_parts)
     if found:
         way = " contains ".join(one.name for one in (*found, found[0]))
         yield found[0], f"composite {way}; let one of the parts be something else"
 
 
 def _composite_parts(composite: Declared) -> Iterator[Declared]:
-    assert isinstance(composite.element, CompositeComponentImplementation)
+    assert isinstance(composite.element, mc.CompositeComponentImplementation)
     for part in composite.element.parts:
         component = composite.scope.find(part.instance_of, *part_ports.COMPONENTS)
-        if component is not None and isinstance(component.element, CompositeComponentImplementation):
+        if component is not None and isinstance(component.element, mc.CompositeComponentImplementation):
             yield component
 
 
 class Ends(NamedTuple):
     """Both ports of a delegation; None for what is not there."""
 
-    delegation: PortDelegation
+    delegation: mc.PortDelegation
     part: str
     port: str
     outer: Declared | None
@@ -69,13 +64,13 @@ class Ends(NamedTuple):
         return (outer, inner) if outer is not None and inner is not None else None
 
 
-def _ends(composite: CompositeComponentImplementation, scope: Scope) -> list[Ends]:
+def _ends(composite: mc.CompositeComponentImplementation, scope: Scope) -> list[Ends]:
     """The ports of each delegation that leads to one end."""
     return scope.remembered(("delegated", id(composite)), lambda: list(_find_ends(composite, scope)))
 
 
-def _find_ends(composite: CompositeComponentImplementation, scope: Scope) -> Iterator[Ends]:
-    own = scope.find(composite.type, ComponentType)
+def _find_ends(composite: mc.CompositeComponentImplementation, scope: Scope) -> Iterator[Ends]:
+    own = scope.find(composite.type, mc.ComponentType)
     for delegation in composite.delegations:
         if len(_targets(delegation)) != 1:
             continue
@@ -91,7 +86,7 @@ def _find_ends(composite: CompositeComponentImplementation, scope: Scope) -> Ite
         )
 
 
-def _targets(delegation: PortDelegation) -> set[tuple[str, str]]:
+def _targets(delegation: mc.PortDelegation) -> set[tuple[str, str]]:
     """Part and port of each end, in whichever way it is written."""
     written = {(end.part, end.port) for end in delegation.ends}
     if delegation.internal_part or delegation.internal_port:
@@ -99,19 +94,19 @@ def _targets(delegation: PortDelegation) -> set[tuple[str, str]]:
     return written
 
 
-@rule("R-9.5.5.6-01", CompositeComponentImplementation)
+@rule("R-9.5.5.6-01", mc.CompositeComponentImplementation)
 def delegated_ports_are_the_composites(
-    composite: CompositeComponentImplementation, scope: Scope
+    composite: mc.CompositeComponentImplementation, scope: Scope
 ) -> Iterator[Complaint]:
     """The external port belongs to the composite's type."""
-    own = scope.find(composite.type, ComponentType)
+    own = scope.find(composite.type, mc.ComponentType)
     for delegation in composite.delegations:
         if own is not None and part_ports.port_of(own, delegation.port) is None:
             yield delegation, f"'{delegation.port}' is no port of {composite.type}; delegate one of those"
 
 
-@rule("R-9.5.5.6-02", PortDelegation)
-def delegations_have_one_inner_end(delegation: PortDelegation, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.5.5.6-02", mc.PortDelegation)
+def delegations_have_one_inner_end(delegation: mc.PortDelegation, _scope: Scope) -> Iterator[Complaint]:
     """A delegation leads to one port."""
     if not _targets(delegation):
         yield delegation, f"the delegation of {delegation.port} leads nowhere; add a ConnectionEnd"
@@ -119,9 +114,9 @@ def delegations_have_one_inner_end(delegation: PortDelegation, _scope: Scope) ->
         yield delegation, f"the delegation of {delegation.port} leads to several ports; keep one of them"
 
 
-@rule("R-9.5.5.6-03", CompositeComponentImplementation)
+@rule("R-9.5.5.6-03", mc.CompositeComponentImplementation)
 def delegations_lead_to_ports_of_parts(
-    composite: CompositeComponentImplementation, scope: Scope
+    composite: mc.CompositeComponentImplementation, scope: Scope
 ) -> Iterator[Complaint]:
     """The inner end is at a port of a part."""
     for ends in _ends(composite, scope):
@@ -132,9 +127,9 @@ def delegations_lead_to_ports_of_parts(
             yield ends.delegation, f"'{ends.port}' is no port of part {part.name}; name one of those"
 
 
-@rule("R-9.5.5.6-04", CompositeComponentImplementation)
+@rule("R-9.5.5.6-04", mc.CompositeComponentImplementation)
 def delegated_ports_have_one_specification(
-    composite: CompositeComponentImplementation, scope: Scope
+    composite: mc.CompositeComponentImplementation, scope: Scope
 ) -> Iterator[Complaint]:
     """Both ports have the same port type, or the same role."""
     for ends in _ends(composite, scope):
@@ -146,8 +141,8 @@ def delegated_ports_have_one_specification(
             )
 
 
-@rule("R-9.5.5.6-05", CompositeComponentImplementation, under="delegation-bindings=same")
-def delegated_ports_bind_alike(composite: CompositeComponentImplementation, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.5.5.6-05", mc.CompositeComponentImplementation, under="delegation-bindings=same")
+def delegated_ports_bind_alike(composite: mc.CompositeComponentImplementation, scope: Scope) -> Iterator[Complaint]:
     """The same stands for the same at both ports."""
     for ends in _ends(composite, scope):
         both = ends.both
@@ -156,8 +151,8 @@ def delegated_ports_bind_alike(composite: CompositeComponentImplementation, scop
             yield ends.delegation, f"{ends.delegation.port} and {port} bind different types; delegate to another port"
 
 
-@rule("R-9.5.5.6-07", CompositeComponentImplementation, under="double-delegation=refused")
-def ports_are_delegated_once(composite: CompositeComponentImplementation, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.5.5.6-07", mc.CompositeComponentImplementation, under="double-delegation=refused")
+def ports_are_delegated_once(composite: mc.CompositeComponentImplementation, _scope: Scope) -> Iterator[Complaint]:
     """A port is delegated to one part only."""
     seen: set[str] = set()
     for delegation in composite.delegations:
@@ -166,9 +161,9 @@ def ports_are_delegated_once(composite: CompositeComponentImplementation, _scope
         seen.add(delegation.port)
 
 
-@rule("R-9.5.5.6-07", CompositeComponentImplementation, under="delegated-and-connected=refused")
+@rule("R-9.5.5.6-07", mc.CompositeComponentImplementation, under="delegated-and-connected=refused")
 def delegated_ports_are_not_connected(
-    composite: CompositeComponentImplementation, _scope: Scope
+    composite: mc.CompositeComponentImplementation, _scope: Scope
 ) -> Iterator[Complaint]:
     """A port that stands for the composite's is in no connection inside."""
     connected = {(end.part, end.port) for connection in composite.connections for end in connection.ends}

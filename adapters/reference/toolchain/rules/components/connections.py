@@ -6,37 +6,20 @@ import functools
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ucm_cts.adapters.contract.metamodel.components import (
-    CompositeComponentImplementation,
-    Connection,
-    ConnectionEnd,
-    PortRoleSpec,
-    PortTypeSpec,
-)
-from ucm_cts.adapters.contract.metamodel.interactions import (
-    ConnectorDefinition,
-    InteractionPattern,
-    InteractionRole,
-    PortType,
-)
+from ucm_cts.adapters.contract.metamodel import components as mc
+from ucm_cts.adapters.contract.metamodel import interactions as mi
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import (
-    Specified,
-    component_type,
-    meanings_of_component,
-    part_called,
-    port_of_end,
-)
+from ucm_cts.adapters.reference.toolchain.rules.components import part_ports
 
-DEFINITIONS = (ConnectorDefinition, InteractionPattern)
+DEFINITIONS = (mi.ConnectorDefinition, mi.InteractionPattern)
 """What a connection may be an instance of (9.3.3.1)."""
 
-Composite = CompositeComponentImplementation
+Composite = mc.CompositeComponentImplementation
 
 
-@rule("R-9.5.5.4-01", Connection)
-def connections_have_a_definition(connection: Connection, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.5.5.4-01", mc.Connection)
+def connections_have_a_definition(connection: mc.Connection, scope: Scope) -> Iterator[Complaint]:
     """A connection is an instance of a connector or a pattern that is there."""
     if scope.find(connection.definition, *DEFINITIONS) is None:
         yield (
@@ -45,24 +28,24 @@ def connections_have_a_definition(connection: Connection, scope: Scope) -> Itera
         )
 
 
-@rule("R-9.5.5.5-01", CompositeComponentImplementation)
+@rule("R-9.5.5.5-01", mc.CompositeComponentImplementation)
 def ends_are_at_parts(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """The part of an end is one of the same composite."""
     for connection in _not_wholly_joined(composite, scope):
         for end in connection.ends:
-            if part_called(composite, end.part, scope) is None:
+            if part_ports.part_called(composite, end.part, scope) is None:
                 yield end, f"'{end.part}' is no part of composite {composite.name}; name one of those"
 
 
-@rule("R-9.5.5.5-02", CompositeComponentImplementation)
+@rule("R-9.5.5.5-02", mc.CompositeComponentImplementation)
 def ends_are_at_ports_of_their_part(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """The port of an end is one of its part's component type."""
     for connection in _not_wholly_joined(composite, scope):
         for end in connection.ends:
-            if port_of_end(composite, end, scope) is not None:
+            if part_ports.port_of_end(composite, end, scope) is not None:
                 continue
-            part = part_called(composite, end.part, scope)
-            if part is not None and component_type(part.instance_of, scope) is not None:
+            part = part_ports.part_called(composite, end.part, scope)
+            if part is not None and part_ports.component_type(part.instance_of, scope) is not None:
                 yield end, f"'{end.port}' is no port of part {end.part}; name one of those"
 
 
@@ -71,21 +54,21 @@ class Definition(NamedTuple):
 
     connector: Declared | None
     pattern: Declared | None
-    apis: dict[int, list[InteractionRole]]
-    roles: list[InteractionRole]
+    apis: dict[int, list[mi.InteractionRole]]
+    roles: list[mi.InteractionRole]
 
 
 class Joined(NamedTuple):
     """An end of a connection, and what the specification of its port means."""
 
-    end: ConnectionEnd
-    meaning: Specified
+    end: mc.ConnectionEnd
+    meaning: part_ports.Specified
 
 
 class Joint(NamedTuple):
     """A connection, what it is an instance of, and those of its ends whose port is there and specified."""
 
-    connection: Connection
+    connection: mc.Connection
     definition: Definition
     joined: list[Joined]
 
@@ -96,7 +79,9 @@ def _joints(composite: Composite, scope: Scope) -> list[Joint]:
 
 def _find_joints(composite: Composite, scope: Scope) -> list[Joint]:
     found = []
-    meanings = {part.name: meanings_of_component(part.instance_of, scope) for part in reversed(composite.parts)}
+    meanings = {
+        part.name: part_ports.meanings_of_component(part.instance_of, scope) for part in reversed(composite.parts)
+    }
     for connection in composite.connections:
         joined = []
         for end in connection.ends:
@@ -107,7 +92,7 @@ def _find_joints(composite: Composite, scope: Scope) -> list[Joint]:
     return found
 
 
-def _not_wholly_joined(composite: Composite, scope: Scope) -> list[Connection]:
+def _not_wholly_joined(composite: Composite, scope: Scope) -> list[mc.Connection]:
     """The connections with an end whose port is not there, or not specified."""
     return [one.connection for one in _joints(composite, scope) if len(one.joined) < len(one.connection.ends)]
 
@@ -117,30 +102,30 @@ def _definition(reference: str, scope: Scope) -> Definition:
 
 
 def _find_definition(reference: str, scope: Scope) -> Definition:
-    connector = scope.find(reference, ConnectorDefinition)
+    connector = scope.find(reference, mi.ConnectorDefinition)
     if connector is None:
-        pattern = scope.find(reference, InteractionPattern)
+        pattern = scope.find(reference, mi.InteractionPattern)
         return Definition(None, pattern, {}, _roles(pattern) if pattern is not None else [])
-    assert isinstance(connector.element, ConnectorDefinition)
-    refined = connector.scope.find(connector.element.pattern, InteractionPattern)
+    assert isinstance(connector.element, mi.ConnectorDefinition)
+    refined = connector.scope.find(connector.element.pattern, mi.InteractionPattern)
     return Definition(connector, None, _apis(connector), _roles(refined) if refined is not None else [])
 
 
-@rule("R-9.5.5.4-04", CompositeComponentImplementation)
+@rule("R-9.5.5.4-04", mc.CompositeComponentImplementation)
 def connectors_have_the_apis_of_their_ends(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """A connector has a port for the port type of each end; ends with a role are not looked at."""
     for connection, definition, joined in _joints(composite, scope):
         if definition.connector is None:
             continue
         for end, meaning in joined:
-            if meaning.kind is PortTypeSpec and id(meaning.target) not in definition.apis:
+            if meaning.kind is mc.PortTypeSpec and id(meaning.target) not in definition.apis:
                 yield (
                     end,
                     f"{connection.definition} has no port with the port type of {end.part}.{end.port}; use another one",
                 )
 
 
-@rule("R-9.5.5.4-05", CompositeComponentImplementation)
+@rule("R-9.5.5.4-05", mc.CompositeComponentImplementation)
 def patterns_have_the_roles_of_their_ends(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """A pattern has the role of each end; ends with a port type are not looked at."""
     for connection, definition, joined in _joints(composite, scope):
@@ -148,14 +133,14 @@ def patterns_have_the_roles_of_their_ends(composite: Composite, scope: Scope) ->
             continue
         roles = {id(role) for role in definition.roles}
         for end, meaning in joined:
-            if meaning.kind is PortRoleSpec and id(meaning.target) not in roles:
+            if meaning.kind is mc.PortRoleSpec and id(meaning.target) not in roles:
                 yield (
                     end,
                     f"{connection.definition} has no role like that of {end.part}.{end.port}; use another pattern",
                 )
 
 
-@rule("R-9.5.5.4-06", CompositeComponentImplementation)
+@rule("R-9.5.5.4-06", mc.CompositeComponentImplementation)
 def roles_are_not_played_too_often(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """No more ends play a role than it allows."""
     for connection, role, number in _played(composite, scope):
@@ -165,7 +150,7 @@ def roles_are_not_played_too_often(composite: Composite, scope: Scope) -> Iterat
             yield connection, f"{number} ends of {connection.name} play {name}, which {most} may; take some out"
 
 
-@rule("R-9.5.5.4-07", CompositeComponentImplementation, under="role-minimum=check")
+@rule("R-9.5.5.4-07", mc.CompositeComponentImplementation, under="role-minimum=check")
 def roles_are_played_often_enough(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """No fewer ends play a role than it asks for."""
     for connection, role, number in _played(composite, scope):
@@ -177,7 +162,7 @@ def roles_are_played_often_enough(composite: Composite, scope: Scope) -> Iterato
             )
 
 
-@rule("R-9.5.5.4-08", CompositeComponentImplementation, under="connected-types=check")
+@rule("R-9.5.5.4-08", mc.CompositeComponentImplementation, under="connected-types=check")
 def connected_ports_bind_alike(composite: Composite, scope: Scope) -> Iterator[Complaint]:
     """The same stands for an abstract type or an item at all ends."""
     for _, _, joined in _joints(composite, scope):
@@ -192,25 +177,25 @@ def connected_ports_bind_alike(composite: Composite, scope: Scope) -> Iterator[C
                     )
 
 
-def _roles(pattern: Declared) -> list[InteractionRole]:
+def _roles(pattern: Declared) -> list[mi.InteractionRole]:
     return [role for ancestor in lineage(pattern) for role in getattr(ancestor.element, "roles", ())]
 
 
-def _apis(connector: Declared) -> dict[int, list[InteractionRole]]:
+def _apis(connector: Declared) -> dict[int, list[mi.InteractionRole]]:
     """The roles that each port type of a connector plays, by the identity of the port type."""
-    assert isinstance(connector.element, ConnectorDefinition)
-    found: dict[int, list[InteractionRole]] = {}
+    assert isinstance(connector.element, mi.ConnectorDefinition)
+    found: dict[int, list[mi.InteractionRole]] = {}
     for port in connector.element.ports:
-        api = connector.scope.find(port.api, PortType) if port.api else None
-        role = connector.scope.member(port.port_role, InteractionPattern, "roles")
+        api = connector.scope.find(port.api, mi.PortType) if port.api else None
+        role = connector.scope.member(port.port_role, mi.InteractionPattern, "roles")
         if api is not None:
             roles = found.setdefault(id(api.element), [])
-            if role is not None and isinstance(role.element, InteractionRole):
+            if role is not None and isinstance(role.element, mi.InteractionRole):
                 roles.append(role.element)
     return found
 
 
-Playing = tuple[Connection, InteractionRole, int]
+Playing = tuple[mc.Connection, mi.InteractionRole, int]
 
 
 def _played(composite: Composite, scope: Scope) -> list[Playing]:
@@ -227,7 +212,7 @@ def _count(joint: Joint) -> Iterator[Playing]:
     numbers: dict[int, int] = {}
     for _, meaning in joined:
         player = meaning.target
-        if meaning.kind is PortTypeSpec:
+        if meaning.kind is mc.PortTypeSpec:
             candidates = definition.apis.get(id(meaning.target), ())
             if len(candidates) != 1:
                 return

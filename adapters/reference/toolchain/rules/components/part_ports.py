@@ -7,13 +7,8 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel import components as mc
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Element
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    AbstractDataType,
-    AbstractInterface,
-    DataType,
-    Interface,
-)
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern, PortType
 from ucm_cts.adapters.contract.metamodel.names import MEMBER, Declared, Scope, lineage, member_of
 
@@ -116,7 +111,7 @@ def _specified(port: Declared) -> Specified | None:
     return _by_role(specs[0], scope)
 
 
-_TYPES = (DataType, Interface, AbstractDataType, AbstractInterface)
+_TYPES = (c.DataType, c.Interface, c.AbstractDataType, c.AbstractInterface)
 
 
 def _by_type(spec: mc.PortTypeSpec, scope: Scope) -> Specified | None:
@@ -125,7 +120,7 @@ def _by_type(spec: mc.PortTypeSpec, scope: Scope) -> Specified | None:
         return None
     bound: dict[int, Declared] = {}
     for binding in spec.bindings:
-        abstract = scope.find(binding.abstract_type, AbstractDataType, AbstractInterface)
+        abstract = scope.find(binding.abstract_type, c.AbstractDataType, c.AbstractInterface)
         actual = scope.find(binding.actual_type, *_TYPES)
         if abstract is not None and actual is not None:
             bound[id(abstract.element)] = actual

@@ -6,12 +6,8 @@ import functools
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalAspect, TechnicalPolicyDefinition
-from ucm_cts.adapters.contract.metamodel.components import (
-    AtomicComponentImplementation,
-    ComponentPortTechnicalPolicy,
-    ComponentTechnicalPolicy,
-)
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.rules.circles import declared_in
 
@@ -20,7 +16,7 @@ from ucm_cts.adapters.reference.toolchain.rules.circles import declared_in
 class Use:
     """An implementation, the policies that it names, and those that name it; both by the identity of the policy."""
 
-    implementation: AtomicComponentImplementation
+    implementation: mc.AtomicComponentImplementation
     named: dict[int, Declared] = field(default_factory=dict)
     naming: dict[int, Declared] = field(default_factory=dict)
 
@@ -36,7 +32,7 @@ class Use:
 
 def aspect_of(policy: Declared) -> Declared | None:
     """The technical aspect of a policy's definition, if both are there."""
-    assert isinstance(policy.element, ComponentTechnicalPolicy)
+    assert isinstance(policy.element, mc.ComponentTechnicalPolicy)
     definition = policy.scope.find(policy.element.technical_policy_definition, TechnicalPolicyDefinition)
     if definition is None:
         return None
@@ -51,18 +47,18 @@ def uses(root: Scope) -> tuple[Use, ...]:
 
 def _uses(root: Scope) -> tuple[Use, ...]:
     found: dict[int, Use] = {}
-    for declared in declared_in(root, AtomicComponentImplementation):
+    for declared in declared_in(root, mc.AtomicComponentImplementation):
         implementation = declared.element
-        assert isinstance(implementation, AtomicComponentImplementation)
+        assert isinstance(implementation, mc.AtomicComponentImplementation)
         use = found[id(implementation)] = Use(implementation)
         for reference in implementation.policies:
-            policy = declared.scope.find(reference.name, ComponentTechnicalPolicy)
+            policy = declared.scope.find(reference.name, mc.ComponentTechnicalPolicy)
             if policy is not None:
                 use.named[id(policy.element)] = policy
     for policy in policies(root):
-        assert isinstance(policy.element, ComponentTechnicalPolicy)
+        assert isinstance(policy.element, mc.ComponentTechnicalPolicy)
         for managed in policy.element.managed_components:
-            target = policy.scope.find(managed.name, AtomicComponentImplementation)
+            target = policy.scope.find(managed.name, mc.AtomicComponentImplementation)
             if target is not None:
                 found[id(target.element)].naming[id(policy.element)] = policy
     return tuple(found.values())
@@ -70,5 +66,5 @@ def _uses(root: Scope) -> tuple[Use, ...]:
 
 def policies(root: Scope) -> Iterator[Declared]:
     """All policies below ``root``, on components and on ports."""
-    yield from declared_in(root, ComponentTechnicalPolicy)
-    yield from declared_in(root, ComponentPortTechnicalPolicy)
+    yield from declared_in(root, mc.ComponentTechnicalPolicy)
+    yield from declared_in(root, mc.ComponentPortTechnicalPolicy)

@@ -4,14 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ucm_cts.adapters.contract.metamodel import interactions as mi
 from ucm_cts.adapters.contract.metamodel.components import InteractionItemBinding, PortRoleSpec, PortTypeSpec
 from ucm_cts.adapters.contract.metamodel.contracts import AbstractInterface, Interface
-from ucm_cts.adapters.contract.metamodel.interactions import (
-    InteractionItem,
-    InteractionPattern,
-    InteractionRole,
-    PortType,
-)
 from ucm_cts.adapters.contract.metamodel.names import MEMBER, Declared, Scope, lineage, member_of
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.reference.toolchain.rules.components import bindings
@@ -21,18 +16,18 @@ from ucm_cts.adapters.reference.toolchain.rules.components.bindings import ABSTR
 @rule("R-9.5.3.4-01", PortRoleSpec)
 def names_a_role(spec: PortRoleSpec, scope: Scope) -> Iterator[Complaint]:
     """The role of a port is one that a pattern has."""
-    if scope.member(spec.role, InteractionPattern, "roles") is None:
+    if scope.member(spec.role, mi.InteractionPattern, "roles") is None:
         yield spec, f"'{spec.role}' is no role; say pattern.role"
 
 
 @rule("R-9.5.3.4-02", PortRoleSpec, under="partial-role-bindings=refused")
 def items_of_the_role_are_bound(spec: PortRoleSpec, scope: Scope) -> Iterator[Complaint]:
     """Each item that the role involves has an actual type."""
-    role = scope.member(spec.role, InteractionPattern, "roles")
+    role = scope.member(spec.role, mi.InteractionPattern, "roles")
     pattern = _pattern(spec, scope)
     if role is None or pattern is None:
         return
-    assert isinstance(role.element, InteractionRole)
+    assert isinstance(role.element, mi.InteractionRole)
     bound = {id(_item(binding, spec, scope)) for binding in spec.bindings}
     for involved in role.element.involved_items:
         item = member_of(pattern, "items", involved.item)
@@ -100,7 +95,7 @@ def items_have_one_actual_type(spec: PortRoleSpec, scope: Scope) -> Iterator[Com
 @rule("R-9.5.3.6-01", PortTypeSpec)
 def names_a_port_type(spec: PortTypeSpec, scope: Scope) -> Iterator[Complaint]:
     """The type of a port is a port type that is there."""
-    if scope.find(spec.type, PortType) is None:
+    if scope.find(spec.type, mi.PortType) is None:
         yield spec, f"'{spec.type}' is no port type; declare it"
 
 
@@ -147,20 +142,20 @@ def ports_bind_to_one_type(spec: PortTypeSpec, scope: Scope) -> Iterator[Complai
 
 
 def _api(spec: PortTypeSpec, scope: Scope) -> tuple[Declared, ...]:
-    found = scope.find(spec.type, PortType)
+    found = scope.find(spec.type, mi.PortType)
     return (found,) if found is not None else ()
 
 
 def _pattern(spec: PortRoleSpec, scope: Scope) -> Declared | None:
     """The pattern by which the role is named."""
-    return scope.find(spec.role.rpartition(MEMBER)[0], InteractionPattern)
+    return scope.find(spec.role.rpartition(MEMBER)[0], mi.InteractionPattern)
 
 
-def _item(binding: InteractionItemBinding, spec: PortRoleSpec, scope: Scope) -> InteractionItem | None:
+def _item(binding: InteractionItemBinding, spec: PortRoleSpec, scope: Scope) -> mi.InteractionItem | None:
     """The item that is bound, by its full name or, within the role's pattern, by its bare one."""
     if MEMBER in binding.item:
-        found = scope.member(binding.item, InteractionPattern, "items")
+        found = scope.member(binding.item, mi.InteractionPattern, "items")
     else:
         pattern = _pattern(spec, scope)
         found = member_of(pattern, "items", binding.item) if pattern is not None else None
-    return found.element if found is not None and isinstance(found.element, InteractionItem) else None
+    return found.element if found is not None and isinstance(found.element, mi.InteractionItem) else None

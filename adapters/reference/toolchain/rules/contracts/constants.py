@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ucm_cts.adapters.contract.metamodel.contracts import (
-    Attribute,
-    ConfigurationParameter,
-    ConfigurationParameterValue,
-    Constant,
-)
+from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.reference.toolchain.rules.contracts.constant_syntax import NotAConstant
@@ -25,15 +20,15 @@ _FITTING = (
 """Requirements that say of some types, or of names in values, what 9.2.6.1 says of all."""
 
 
-@rule("R-9.2.2.6-01", Constant, ConfigurationParameterValue, also=("R-9.2.6.1-01",))
-def values_are_given(valued: Constant | ConfigurationParameterValue, _scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.2.6-01", c.Constant, c.ConfigurationParameterValue, also=("R-9.2.6.1-01",))
+def values_are_given(valued: c.Constant | c.ConfigurationParameterValue, _scope: Scope) -> Iterator[Complaint]:
     """A value is more than nothing."""
     if not valued.value:
         yield valued, "a value is empty; give one"
 
 
-@rule("R-9.2.6.1-03", Constant, also=("R-9.2.2.6-02", "R-9.2.3.3-04"))
-def constants_follow_the_grammar(constant: Constant, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.6.1-03", c.Constant, also=("R-9.2.2.6-02", "R-9.2.3.3-04"))
+def constants_follow_the_grammar(constant: c.Constant, scope: Scope) -> Iterator[Complaint]:
     """The value is what IDL writes for a constant."""
     try:
         if constant.value:
@@ -44,8 +39,8 @@ def constants_follow_the_grammar(constant: Constant, scope: Scope) -> Iterator[C
         pass
 
 
-@rule("R-9.2.6.1-04", Constant, also=_FITTING)
-def constants_are_values_of_their_types(constant: Constant, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.6.1-04", c.Constant, also=_FITTING)
+def constants_are_values_of_their_types(constant: c.Constant, scope: Scope) -> Iterator[Complaint]:
     """The value is one that the type has."""
     try:
         fit(constant.value, constant.type, scope)
@@ -55,8 +50,10 @@ def constants_are_values_of_their_types(constant: Constant, scope: Scope) -> Ite
         pass
 
 
-@rule("R-9.2.2.7-01", ConfigurationParameter, Attribute)
-def defaults_are_values_of_their_types(owner: ConfigurationParameter | Attribute, scope: Scope) -> Iterator[Complaint]:
+@rule("R-9.2.2.7-01", c.ConfigurationParameter, c.Attribute)
+def defaults_are_values_of_their_types(
+    owner: c.ConfigurationParameter | c.Attribute, scope: Scope
+) -> Iterator[Complaint]:
     """A default value is written like any value, and is one that the type has."""
     if not owner.default_value:
         return
