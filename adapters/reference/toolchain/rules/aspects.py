@@ -10,11 +10,11 @@ from ucm_cts.adapters.contract.metamodel.aspects import (
     TechnicalAspect,
     TechnicalPolicyDefinition,
 )
-from ucm_cts.adapters.contract.metamodel.common import Named
 from ucm_cts.adapters.contract.metamodel.modules import Model
-from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage, parent_of
+from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.reference.toolchain.rules.circles import circle
+from ucm_cts.adapters.reference.toolchain.rules.inheritance import parents, redefined
 
 
 @rule("R-9.4.2.1-04", NonfunctionalAspectModule)
@@ -54,39 +54,19 @@ def extends_a_definition(definition: TechnicalPolicyDefinition, scope: Scope) ->
 @rule("R-9.4.3.2-14", Model)
 def definitions_do_not_extend_themselves(_model: Model, root: Scope) -> Iterator[Complaint]:
     """Extending comes to an end."""
-    found = circle(root, TechnicalPolicyDefinition, _parents)
+    found = circle(root, TechnicalPolicyDefinition, parents)
     if found:
         way = " extends ".join(one.name for one in (*found, found[0]))
         yield found[0], f"policy {way}; let it extend another one"
 
 
-def _parents(declared: Declared) -> Iterator[Declared]:
-    parent = parent_of(declared)
-    if parent is not None:
-        yield parent
-
-
 @rule("R-9.4.3.2-12", TechnicalPolicyDefinition)
-def port_elements_are_not_redefined(definition: TechnicalPolicyDefinition, scope: Scope) -> Iterator[Complaint]:
+def port_elements_are_notredefined(definition: TechnicalPolicyDefinition, scope: Scope) -> Iterator[Complaint]:
     """A definition has the port elements of its ancestors already."""
-    yield from _redefined(definition, scope, "port_elements", "port element")
+    yield from redefined(definition, scope, "port_elements", "port element")
 
 
 @rule("R-9.4.3.2-13", TechnicalPolicyDefinition)
-def parameters_are_not_redefined(definition: TechnicalPolicyDefinition, scope: Scope) -> Iterator[Complaint]:
+def parameters_are_notredefined(definition: TechnicalPolicyDefinition, scope: Scope) -> Iterator[Complaint]:
     """A definition has the parameters of its ancestors already."""
-    yield from _redefined(definition, scope, "configuration_parameters", "parameter")
-
-
-def _redefined(definition: TechnicalPolicyDefinition, scope: Scope, field: str, what: str) -> Iterator[Complaint]:
-    own: tuple[Named, ...] = getattr(definition, field)
-    if not own or not definition.extends:
-        return
-    for ancestor in lineage(Declared(definition, scope))[1:]:
-        theirs = {one.name for one in getattr(ancestor.element, field)}
-        for one in own:
-            if one.name in theirs:
-                yield (
-                    one,
-                    f"{what} {one.name} is one of {ancestor.element.name}, which {definition.name} extends; rename it",
-                )
+    yield from redefined(definition, scope, "configuration_parameters", "parameter")

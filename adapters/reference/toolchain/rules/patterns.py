@@ -8,9 +8,10 @@ from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinitio
 from ucm_cts.adapters.contract.metamodel.contracts import AbstractInterface, Interface
 from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern, InteractionRole, PortType
 from ucm_cts.adapters.contract.metamodel.modules import Model
-from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage, member_of, parent_of
+from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, member_of
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
 from ucm_cts.adapters.reference.toolchain.rules.circles import circle
+from ucm_cts.adapters.reference.toolchain.rules.inheritance import parents, redefined
 
 ANY_NUMBER = -1
 """An upper multiplicity that is no limit."""
@@ -26,48 +27,22 @@ def extends_a_pattern(pattern: InteractionPattern, scope: Scope) -> Iterator[Com
 @rule("R-9.3.3.2-06", Model)
 def patterns_do_not_extend_themselves(model: Model, root: Scope) -> Iterator[Complaint]:
     """Extending comes to an end."""
-    found = circle(root, InteractionPattern, _parents)
+    found = circle(root, InteractionPattern, parents)
     if found:
         way = " extends ".join(one.name for one in (*found, found[0]))
         yield found[0], f"pattern {way}; let it extend another one"
 
 
-def _parents(declared: Declared) -> Iterator[Declared]:
-    parent = parent_of(declared)
-    if parent is not None:
-        yield parent
-
-
 @rule("R-9.3.3.2-05", InteractionPattern)
 def roles_are_not_redefined(pattern: InteractionPattern, scope: Scope) -> Iterator[Complaint]:
     """A pattern has the roles of its ancestors already."""
-    if not pattern.roles or not pattern.extends:
-        return
-    for ancestor in lineage(Declared(pattern, scope))[1:]:
-        assert isinstance(ancestor.element, InteractionPattern)
-        theirs = {role.name for role in ancestor.element.roles}
-        for role in pattern.roles:
-            if role.name in theirs:
-                yield (
-                    role,
-                    f"role {role.name} is one of {ancestor.element.name}, which {pattern.name} extends; rename it",
-                )
+    yield from redefined(pattern, scope, "roles", "role")
 
 
 @rule("R-9.3.3.2-07", InteractionPattern, under="item-redefinition=refused")
 def items_are_not_redefined(pattern: InteractionPattern, scope: Scope) -> Iterator[Complaint]:
     """A pattern has the items of its ancestors already."""
-    if not pattern.items or not pattern.extends:
-        return
-    for ancestor in lineage(Declared(pattern, scope))[1:]:
-        assert isinstance(ancestor.element, InteractionPattern)
-        theirs = {item.name for item in ancestor.element.items}
-        for item in pattern.items:
-            if item.name in theirs:
-                yield (
-                    item,
-                    f"item {item.name} is one of {ancestor.element.name}, which {pattern.name} extends; rename it",
-                )
+    yield from redefined(pattern, scope, "items", "item")
 
 
 @rule("R-9.3.3.4-04", InteractionRole)
