@@ -43,6 +43,8 @@ class Suspended(NamedTuple):
 
 Conclusion = Finding | Kept | Taken | Measured | Fit | Broken | Suspended
 Conclusions = Iterable[Conclusion]
+Concluded = Conclusion | Conclusions
+"""What a property returns: one conclusion, or any number of them."""
 
 
 def takes(runtime: ObservedRuntime, option: str, value: str) -> Generator[Taken, None, bool]:

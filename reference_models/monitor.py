@@ -6,27 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import (
-    Call,
-    Counted,
-    Create,
-    Enter,
-    Event,
-    Exit,
-    Held,
-    Opened,
-    Paused,
-    Pushed,
-    Raise,
-    Reply,
-    Request,
-    Return,
-    Settled,
-    Siblings,
-    Skip,
-    Stressed,
-    Timeout,
-)
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks
@@ -45,7 +25,7 @@ from ucm_cts.reference_models.verdicts import Verdicts
 _BUSINESS = frozenset(("exchange", "run", "method"))
 """Where bodies are entered that is no callback."""
 
-_NOTHING_HAPPENS = frozenset((Timeout, Settled))
+_NOTHING_HAPPENS = frozenset((t.Timeout, t.Settled))
 _CONTAINER_CALLS = frozenset(get_args(s.ContainerCall))
 _CONNECTOR_CALLS = frozenset(get_args(s.ConnectorCall))
 
@@ -59,7 +39,7 @@ class Monitor:
         self.expected = ExpectedCallbacks(table)
         self._tables: dict[frozenset[Feature], PropertyTable] = {}
 
-    def judge(self, scenario: s.Scenario, trace: Iterable[Event]) -> Verdicts:
+    def judge(self, scenario: s.Scenario, trace: Iterable[t.Event]) -> Verdicts:
         """What the properties say about ``trace``, which may break off anywhere, and is read once, event by event.
 
         Where two operations overlap, because one of them took too long, reading ends: who did what cannot be told.
@@ -127,7 +107,7 @@ class _TraceReader:
         self.threads: dict[int, _Thread] = {}
         self.executions = self.runtime.executions
         self.interactions = self.runtime.interactions
-        self.connecting: dict[int, Call] = {}
+        self.connecting: dict[int, t.Call] = {}
 
     def close(self) -> None:
         """The trace is over."""
@@ -139,7 +119,8 @@ class _TraceReader:
         """Add what the properties conclude from ``details``."""
         runtime, add = self.runtime, self.verdicts.add
         for evaluate, one in properties:
-            add(evaluate(one, runtime, *details))
+            if concluded := evaluate(one, runtime, *details):
+                add(concluded)
 
     def suspend(self) -> None:
         """Apply to the model what properties concluded."""
@@ -155,7 +136,7 @@ class _TraceReader:
             known = self.threads[number] = _Thread(inside)
         return known
 
-    def call(self, event: Call) -> bool | None:
+    def call(self, event: t.Call) -> bool | None:
         step = self.steps[event.step]
         kind = type(step)
         is_operation = kind in _CONTAINER_CALLS
@@ -171,15 +152,19 @@ class _TraceReader:
             self.connecting[event.step] = event
         return None
 
-    def end(self, event: Return | Raise) -> None:
-        ongoing, runtime, add = self.ongoing, self.runtime, self.verdicts.add
+    def end(self, event: t.Return | t.Raise) -> None:
+        ongoing, runtime, verdicts = self.ongoing, self.runtime, self.verdicts
         self.interactions.operated(event)
         if ongoing is not None and ongoing.step_number == event.step:
             conclude(runtime, ongoing, event, self.monitor.expected)
+            exercises = verdicts.exercises
             for evaluate, one in self.table.ended[ongoing.operation]:
-                if conclusions := evaluate(one, runtime, ongoing, event):
-                    add(conclusions)
-            if self.verdicts.suspended:
+                concluded = evaluate(one, runtime, ongoing, event)
+                if type(concluded) is str:  # most are
+                    exercises[concluded] = exercises.get(concluded, 0) + 1
+                elif concluded:
+                    verdicts.add(concluded)
+            if verdicts.suspended:
                 self.suspend()
             apply(runtime, ongoing, event)
             runtime.starting.clear()
@@ -199,32 +184,32 @@ class _TraceReader:
             self.check(self.table.answered, call, event)
             self.come_back(call, event.n)
 
-    def end_connecting(self, step: s.Step, begin: Call, event: Return | Raise) -> None:
+    def end_connecting(self, step: s.Step, begin: t.Call, event: t.Return | t.Raise) -> None:
         if type(step) in _CONNECTOR_CALLS:
             link = self.interactions.linked(step, begin, event)  # type: ignore[arg-type]
             self.runtime.changed()
             self.check(self.table.linked, link, step, event)
-        elif isinstance(event, Return):
+        elif isinstance(event, t.Return):
             self.tell(event)
 
-    def skip(self, event: Skip) -> None:
+    def skip(self, event: t.Skip) -> None:
         if self.connecting.pop(event.step, None) is not None:
             self.runtime.not_offered.append(event)
 
-    def tell(self, event: Return | Pushed | Counted | Paused | Stressed) -> None:
-        if isinstance(event, Pushed):
+    def tell(self, event: t.Return | t.Pushed | t.Counted | t.Paused | t.Stressed) -> None:
+        if isinstance(event, t.Pushed):
             self.interactions.push(event)
         self.check(self.table.told, event)
 
-    def paused(self, event: Paused) -> None:
+    def paused(self, event: t.Paused) -> None:
         self.interactions.pauses.append(event)
         self.tell(event)
 
-    def create(self, event: Create) -> None:
+    def create(self, event: t.Create) -> None:
         if self.ongoing is not None:
             self.ongoing.created.append((event.component, event.instance))
 
-    def enter(self, event: Enter) -> None:
+    def enter(self, event: t.Enter) -> None:
         thread = self.threads.get(event.thread) or self.thread(event.thread)
         hook = event.hook
         thread.hooks.append(hook)
@@ -265,7 +250,7 @@ class _TraceReader:
         elif hook == "on_shutdown":
             member.closing = True
 
-    def enter_business(self, thread: _Thread, event: Enter) -> None:
+    def enter_business(self, thread: _Thread, event: t.Enter) -> None:
         delivery = None
         hook = event.hook
         call: BusinessCall | None
@@ -302,7 +287,7 @@ class _TraceReader:
         if member is not None and member.operational:
             member.served = True
 
-    def exit(self, event: Exit) -> None:
+    def exit(self, event: t.Exit) -> None:
         thread = self.threads.get(event.thread) or self.thread(event.thread)
         hook = event.hook
         if thread.hooks:
@@ -322,12 +307,12 @@ class _TraceReader:
         if execution is not None:
             self.check(self.table.over, execution, event.n)
 
-    def call_behind(self, event: Enter, own: BusinessCall | None) -> BusinessCall | None:
+    def call_behind(self, event: t.Enter, own: BusinessCall | None) -> BusinessCall | None:
         """The call of another thread that seems to have led to this entry, else this thread's ``own``."""
         waiting = [calls[-1] for calls in self.calls if calls and calls[-1].value == event.value]
         return waiting[-1] if waiting else own
 
-    def request(self, event: Request) -> None:
+    def request(self, event: t.Request) -> None:
         thread = self.threads.get(event.thread) or self.thread(event.thread)
         call = BusinessCall(event.value, event.n, event, None, thread.hooks[-1] if thread.hooks else "")
         call.caller = self.executions.innermost(event.thread)
@@ -343,7 +328,7 @@ class _TraceReader:
         thread.calls.append(call)
         self.executions.made(call)
 
-    def reply(self, event: Reply) -> None:
+    def reply(self, event: t.Reply) -> None:
         thread = self.threads.get(event.thread)
         calls = thread.calls if thread is not None else None
         if not calls:
@@ -365,21 +350,21 @@ class _TraceReader:
         if waited is not None:
             self.check(self.table.served, call, waited, end)
 
-    def held(self, event: Held) -> None:
+    def held(self, event: t.Held) -> None:
         self.executions.hold(event)
         self.interactions.hold(event)
 
-    def opened(self, event: Opened) -> None:
+    def opened(self, event: t.Opened) -> None:
         if event.gate not in self.runtime.in_vain:
             self.runtime.opened.add(event.gate)
         self.executions.open(event)
         self.interactions.open(event)
 
-    def settled(self, event: Settled) -> None:
+    def settled(self, event: t.Settled) -> None:
         self.executions.settle(event)
         self.interactions.settled.append(event)
 
-    def timeout(self, event: Timeout) -> None:
+    def timeout(self, event: t.Timeout) -> None:
         step = self.steps[event.step]
         if isinstance(step, s.ReachGate):
             self.runtime.in_vain.add(step.gate)
@@ -389,28 +374,28 @@ class _TraceReader:
             for call, waited in self.executions.lost():
                 self.check(self.table.served, call, waited, 0)
 
-    def siblings(self, event: Siblings) -> None:
+    def siblings(self, event: t.Siblings) -> None:
         self.check(self.table.noted, self.ongoing, event)
 
 
 _TAKE: dict[type[Any], Callable[[_TraceReader, Any], bool | None]] = {
-    Call: _TraceReader.call,
-    Return: _TraceReader.end,
-    Raise: _TraceReader.end,
-    Skip: _TraceReader.skip,
-    Create: _TraceReader.create,
-    Enter: _TraceReader.enter,
-    Exit: _TraceReader.exit,
-    Request: _TraceReader.request,
-    Reply: _TraceReader.reply,
-    Siblings: _TraceReader.siblings,
-    Held: _TraceReader.held,
-    Opened: _TraceReader.opened,
-    Settled: _TraceReader.settled,
-    Timeout: _TraceReader.timeout,
-    Pushed: _TraceReader.tell,
-    Counted: _TraceReader.tell,
-    Paused: _TraceReader.paused,
-    Stressed: _TraceReader.tell,
+    t.Call: _TraceReader.call,
+    t.Return: _TraceReader.end,
+    t.Raise: _TraceReader.end,
+    t.Skip: _TraceReader.skip,
+    t.Create: _TraceReader.create,
+    t.Enter: _TraceReader.enter,
+    t.Exit: _TraceReader.exit,
+    t.Request: _TraceReader.request,
+    t.Reply: _TraceReader.reply,
+    t.Siblings: _TraceReader.siblings,
+    t.Held: _TraceReader.held,
+    t.Opened: _TraceReader.opened,
+    t.Settled: _TraceReader.settled,
+    t.Timeout: _TraceReader.timeout,
+    t.Pushed: _TraceReader.tell,
+    t.Counted: _TraceReader.tell,
+    t.Paused: _TraceReader.paused,
+    t.Stressed: _TraceReader.tell,
 }
 """What to do with each kind of event."""

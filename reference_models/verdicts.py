@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from ucm_cts.reference_models.conclusions import Broken, Conclusions, Measured, Suspended, Taken
+from ucm_cts.reference_models.conclusions import Broken, Concluded, Kept, Measured, Suspended, Taken
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.expected_callbacks import Fit
 from ucm_cts.reference_models.model.life_cycle import Row
@@ -41,18 +41,21 @@ class Verdicts:
     measures: dict[str, int] = field(default_factory=dict)
     suspended: list[Member] = field(default_factory=list)
 
-    def add(self, conclusions: Conclusions) -> None:
+    def add(self, concluded: Concluded) -> None:
         """Add what a property concludes."""
-        exercises = self.exercises
-        for one in conclusions:
-            if type(one) is str:  # most are
-                exercises[one] = exercises.get(one, 0) + 1
-            else:
-                _ADD[type(one)](self, one)
+        add_one = _ADD.get(type(concluded))
+        if add_one is not None:
+            add_one(self, concluded)
+            return
+        for one in concluded:  # type: ignore[union-attr]
+            _ADD[type(one)](self, one)
+
+    def _keep(self, requirement: Kept) -> None:
+        self.exercises[requirement] = self.exercises.get(requirement, 0) + 1
 
     def _fail(self, finding: Finding) -> None:
         """A requirement was violated: it was exercised, too."""
-        self.exercises[finding.requirement] = self.exercises.get(finding.requirement, 0) + 1
+        self._keep(finding.requirement)
         self.findings.append(finding)
 
     def _take(self, taken: Taken) -> None:
@@ -96,6 +99,7 @@ class Verdicts:
 
 
 _ADD: dict[type[Any], Callable[[Verdicts, Any], None]] = {
+    str: Verdicts._keep,
     Finding: Verdicts._fail,
     Taken: Verdicts._take,
     Measured: Verdicts._measure,

@@ -26,14 +26,7 @@ _PROTECTIONS: dict[str, Protection] = {
 }
 
 
-EXCLUSIONS = (
-    "R-10.1.3.2-05",
-    "R-10.1.3.2-06",
-    "R-10.1.3.2-09",
-    "R-10.1.3.2-10",
-    "R-10.1.3.2-13",
-    "R-10.1.3.2-16",
-)
+EXCLUSIONS = ("R-10.1.3.2-05", "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
 """The requirements that keep executions of a component apart."""
 
 CALL_EXCLUSIONS = tuple(requirement for requirement in EXCLUSIONS if requirement != "R-10.1.3.2-05")

@@ -8,22 +8,8 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Boolean, Enumeration
-from ucm_cts.adapters.contract.trace import (
-    Call,
-    Enter,
-    Exit,
-    Held,
-    Opened,
-    Paused,
-    Pushed,
-    Raise,
-    Reply,
-    Request,
-    Return,
-    Settled,
-    Timeout,
-)
 from ucm_cts.reference_models.model.executions import BusinessCall, connections_behind
 from ucm_cts.reference_models.model.links import SENDERS, TAKERS, End, LinkState
 from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime
@@ -44,12 +30,12 @@ class Delivery:
     it had to wait there at a gate.
     """
 
-    enter: Enter
+    enter: t.Enter
     receiver: Member | None
     link: LinkState | None
     call: MethodCall | None
     fit: Fit
-    exit: Exit | None = None
+    exit: t.Exit | None = None
     was_held: bool = False
 
 
@@ -58,8 +44,8 @@ class Operation:
     """A step that was handed to the framework; ``end`` is None while it has not ended."""
 
     step: s.Step
-    begin: Call
-    end: Return | Raise | None = None
+    begin: t.Call
+    end: t.Return | t.Raise | None = None
 
     def overlaps(self, begin: int, end: int) -> bool:
         """Was it in progress somewhere between the events ``begin`` and ``end``?"""
@@ -71,7 +57,7 @@ class Wait:
     """A wait ran out of patience: nothing had happened since ``quiet_since`` (``t``), and somebody was ``held`` or not."""
 
     step: s.Step
-    timeout: Timeout
+    timeout: t.Timeout
     quiet_since: int
     held: bool
 
@@ -84,7 +70,7 @@ class MethodCall:
     ``is_message`` says that it was pushed through a message connector. A message is ``crowded`` if another one was on its way when it was pushed, or pushed before it was answered.
     """
 
-    request: Request
+    request: t.Request
     business: BusinessCall
     caller: Member | None
     link: LinkState | None
@@ -95,7 +81,7 @@ class MethodCall:
     idle: list[End] = field(default_factory=list)
     crowded: bool = False
     deliveries: list[Delivery] = field(default_factory=list)
-    reply: Reply | None = None
+    reply: t.Reply | None = None
     is_message: bool = False
 
     def __post_init__(self) -> None:
@@ -125,7 +111,7 @@ class MethodCall:
 class PushedBurst:
     """A burst that has been pushed. ``receivers`` are those that were operational then."""
 
-    pushed: Pushed
+    pushed: t.Pushed
     link: LinkState | None
     receivers: list[Member]
 
@@ -144,28 +130,28 @@ class Interactions:
         self.calls: list[MethodCall] = []
         self.deliveries: list[Delivery] = []
         self.bursts: list[PushedBurst] = []
-        self.held: list[Held] = []
+        self.held: list[t.Held] = []
         self.released_at = 0
         self.operations: list[Operation] = []
         self.changes: list[Operation] = []
         self.in_progress: dict[int, Operation] = {}
-        self.settled: list[Settled] = []
+        self.settled: list[t.Settled] = []
         self.waits: list[Wait] = []
         self.latest = 0
-        self.pauses: list[Paused] = []
+        self.pauses: list[t.Paused] = []
         self._opened: set[str] = set()
         self._under_way: list[MethodCall] = []
         self._open: dict[int, list[MethodCall]] = {}
         self._inside: dict[int, list[Delivery]] = {}
 
-    def linked(self, step: s.ConnectorCall, begin: Call, end: Return | Raise) -> LinkState | None:
+    def linked(self, step: s.ConnectorCall, begin: t.Call, end: t.Return | t.Raise) -> LinkState | None:
         """A step for connectors has ended: the link it was about, as it is now."""
         if isinstance(step, s.Link):
-            if isinstance(end, Return):
+            if isinstance(end, t.Return):
                 self.links[step.bind] = LinkState(step.bind, step.connector, step.interface)
             return self.links.get(step.bind)
         link = self.links.get(step.link)
-        if link is None or isinstance(end, Raise):
+        if link is None or isinstance(end, t.Raise):
             return link
         if isinstance(step, s.Break):
             link.broken, link.broken_at, link.was_broken = step.where, end.t, step.where
@@ -177,14 +163,14 @@ class Interactions:
             self._detach(link, step, begin)
         return link
 
-    def operate(self, step: s.Step, begin: Call) -> None:
+    def operate(self, step: s.Step, begin: t.Call) -> None:
         """A step is handed to the framework."""
         operation = self.in_progress[begin.step] = Operation(step, begin)
         self.operations.append(operation)
         if type(step) not in _WITHOUT_EFFECT:
             self.changes.append(operation)
 
-    def operated(self, end: Return | Raise) -> None:
+    def operated(self, end: t.Return | t.Raise) -> None:
         """A step has ended."""
         operation = self.in_progress.pop(end.step, None)
         if operation is not None:
@@ -208,7 +194,7 @@ class Interactions:
             return False
         attached = max(end.since for end in ends)
         return any(
-            isinstance(o.end, Return) and o.begin.n > attached and o.end.n < moment
+            isinstance(o.end, t.Return) and o.begin.n > attached and o.end.n < moment
             for o in self.operations
             if isinstance(o.step, s.RemoveComponent)
             or (isinstance(o.step, s.Detach) and (o.step.link, o.step.port) == (link.name, delivery.enter.port))
@@ -220,12 +206,12 @@ class Interactions:
         ending = s.Stop | s.RemoveComponent | s.RemoveContainer | s.Destroy | s.Disconnect | s.Detach
         return any(isinstance(o.step, ending) and o.overlaps(begin, end) for o in self.operations)
 
-    def wait(self, event: Timeout) -> None:
+    def wait(self, event: t.Timeout) -> None:
         """A wait ran out of patience."""
         step = self._runtime.scenario.steps[event.step]
         self.waits.append(Wait(step, event, self.latest, bool(self.held)))
 
-    def _attach(self, link: LinkState, step: s.Attach, begin: Call) -> None:
+    def _attach(self, link: LinkState, step: s.Attach, begin: t.Call) -> None:
         member = self._runtime.members.get(step.id)
         if member is None:
             return
@@ -247,7 +233,7 @@ class Interactions:
                 sender.connection.provider = only.member if only is not None else None
                 sender.connection.provided = only.port if only is not None else ""
 
-    def _detach(self, link: LinkState, step: s.Detach, begin: Call) -> None:
+    def _detach(self, link: LinkState, step: s.Detach, begin: t.Call) -> None:
         member = self._runtime.members.get(step.id)
         for end in link.live("client", "emitter", "server", "receiver"):
             if end.member is member and end.port == step.port:
@@ -256,7 +242,7 @@ class Interactions:
                     end.connection.live = False
         self._connect_ends(link)
 
-    def request(self, event: Request, business: BusinessCall) -> None:
+    def request(self, event: t.Request, business: BusinessCall) -> None:
         """A body calls a method."""
         caller = self._runtime.member_of(event.component, event.instance)
         ready = caller is not None and caller.serving
@@ -271,7 +257,7 @@ class Interactions:
         self.calls.append(call)
         self._open.setdefault(event.thread, []).append(call)
 
-    def reply(self, event: Reply) -> MethodCall | None:
+    def reply(self, event: t.Reply) -> MethodCall | None:
         """A call of a method came back."""
         calls = self._open.get(event.thread)
         if not calls:
@@ -280,7 +266,7 @@ class Interactions:
         call.reply = event
         return call
 
-    def enter(self, event: Enter) -> Delivery | None:
+    def enter(self, event: t.Enter) -> Delivery | None:
         """A body is entered at a method."""
         receiver = self._runtime.member_of(event.component, event.instance)
         link = self._link_of(receiver, event.port or "", TAKERS)
@@ -292,13 +278,13 @@ class Interactions:
         self._inside.setdefault(event.thread, []).append(delivery)
         return delivery
 
-    def exit(self, event: Exit) -> None:
+    def exit(self, event: t.Exit) -> None:
         """A body is left that was entered at a method."""
         inside = self._inside.get(event.thread)
         if inside:
             inside.pop().exit = event
 
-    def push(self, event: Pushed) -> None:
+    def push(self, event: t.Pushed) -> None:
         """A body has pushed a burst."""
         caller = self._runtime.member_of(event.component, event.instance)
         link = self._link_of(caller, event.port, SENDERS)
@@ -310,7 +296,7 @@ class Interactions:
         links = self.links.values()
         return next((link for link in links if any(e.member is receiver for e in link.live("receiver"))), None)
 
-    def hold(self, event: Held) -> None:
+    def hold(self, event: t.Held) -> None:
         """A body is held at a gate, if the gate is closed."""
         if event.gate in self._opened:
             return
@@ -318,7 +304,7 @@ class Interactions:
         for delivery in self._inside.get(event.thread, ()):
             delivery.was_held = True
 
-    def open(self, event: Opened) -> None:
+    def open(self, event: t.Opened) -> None:
         """A gate is opened for good."""
         self._opened.add(event.gate)
         if any(held.gate == event.gate for held in self.held):
@@ -362,7 +348,7 @@ class Interactions:
         return max(ends, key=lambda e: e[:2])[2] if ends else None
 
     def _call_behind(
-        self, event: Enter, receiver: Member | None, link: LinkState | None
+        self, event: t.Enter, receiver: Member | None, link: LinkState | None
     ) -> tuple[MethodCall | None, Fit]:
         """The call that led to this entry. Services answer before the next call of the client; messages may come late."""
         is_message = link is not None and link.connector == s.MESSAGE_CONNECTOR
@@ -386,7 +372,7 @@ class Interactions:
             return None, "stray"
         return _nearest(altered, event), "altered" if altered else "stray"
 
-    def _has_few_values(self, event: Enter, link: LinkState | None) -> bool:
+    def _has_few_values(self, event: t.Enter, link: LinkState | None) -> bool:
         """Is what was given of types with so few values that one says nothing of where it came from?"""
         interface = self._runtime.scenario.interfaces.get(link.interface) if link is not None else None
         method = interface.methods.get(event.method or "") if interface is not None else None
@@ -425,27 +411,27 @@ class Interactions:
 class NoInteractions(Interactions):
     """Stands for the interactions of scenarios without interfaces and policies: nothing is recorded."""
 
-    def operate(self, step: s.Step, begin: Call) -> None:
+    def operate(self, step: s.Step, begin: t.Call) -> None:
         """Nothing is recorded."""
 
-    def operated(self, end: Return | Raise) -> None:
+    def operated(self, end: t.Return | t.Raise) -> None:
         """Nothing is recorded."""
 
-    def request(self, event: Request, business: BusinessCall) -> None:
+    def request(self, event: t.Request, business: BusinessCall) -> None:
         """Nothing is recorded."""
 
-    def enter(self, event: Enter) -> Delivery | None:
+    def enter(self, event: t.Enter) -> Delivery | None:
         """Nothing is recorded."""
         return None
 
-    def push(self, event: Pushed) -> None:
+    def push(self, event: t.Pushed) -> None:
         """Nothing is recorded."""
 
-    def wait(self, event: Timeout) -> None:
+    def wait(self, event: t.Timeout) -> None:
         """Nothing is recorded."""
 
 
-def _waiting(calls: list[MethodCall], enter: Enter) -> list[MethodCall]:
+def _waiting(calls: list[MethodCall], enter: t.Enter) -> list[MethodCall]:
     """Those that wait for a server, and, unless one of them fits, those that gave up before they had one."""
     waiting = [call for call in calls if call.reply is None]
     if any(call.request.arguments == enter.arguments for call in waiting):
@@ -454,12 +440,12 @@ def _waiting(calls: list[MethodCall], enter: Enter) -> list[MethodCall]:
     return late or waiting or calls
 
 
-def _nearest(calls: list[MethodCall], enter: Enter) -> MethodCall | None:
+def _nearest(calls: list[MethodCall], enter: t.Enter) -> MethodCall | None:
     """The call whose values differ least from those that a body was entered with."""
     return min(calls, key=lambda call: distance(call.request.arguments, enter.arguments), default=None)
 
 
-def _may_be_mixed_up(call: MethodCall, event: Enter, is_message: bool) -> bool:
+def _may_be_mixed_up(call: MethodCall, event: t.Enter, is_message: bool) -> bool:
     """May this entry be that call's, through another link?"""
     if is_message or call.link is None:
         return call.is_message

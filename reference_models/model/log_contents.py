@@ -19,10 +19,7 @@ from ucm_cts.reference_models.model.interactions import Interactions, MethodCall
 from ucm_cts.reference_models.model.service_policies import policy_elements, port_traces
 
 COMMON_SEVERITIES = ("debug", "info", "warning", "error")
-_SEVERITIES = {
-    "model-6": ("trace", *COMMON_SEVERITIES, "critical"),
-    "idl-5": (*COMMON_SEVERITIES, "fatal"),
-}
+_SEVERITIES = {"model-6": ("trace", *COMMON_SEVERITIES, "critical"), "idl-5": (*COMMON_SEVERITIES, "fatal")}
 _RANKS = {"trace": 0, "debug": 1, "info": 2, "warning": 3, "error": 4, "critical": 5, "fatal": 5}
 _NARROW = 255
 _SHORTEST_NAME = 4

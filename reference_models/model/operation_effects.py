@@ -8,14 +8,7 @@ from typing import Any
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Raise, Reference, Return
 from ucm_cts.reference_models.model.operation import OperationInProgress
-from ucm_cts.reference_models.model.runtime import (
-    NO_ID,
-    Connection,
-    Container,
-    Member,
-    Runtime,
-    raises,
-)
+from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime, raises
 
 
 def apply(runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:

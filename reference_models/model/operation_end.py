@@ -4,16 +4,8 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Return
+from ucm_cts.reference_models.model import operation as op
 from ucm_cts.reference_models.model.expected_callbacks import LIFE_CYCLE_HOOKS, ExpectedCallbacks, Listener
-from ucm_cts.reference_models.model.operation import (
-    DECLARED_ERRORS,
-    Deviating,
-    Fitted,
-    Intrusion,
-    OperationEnd,
-    OperationInProgress,
-    Result,
-)
 from ucm_cts.reference_models.model.row_selection import undone_by
 from ucm_cts.reference_models.model.runtime import Member, Runtime, lane
 
@@ -29,11 +21,11 @@ _LISTENERS = {
 }
 
 
-def conclude(runtime: Runtime, ongoing: OperationInProgress, end: Result, expected: ExpectedCallbacks) -> None:
+def conclude(runtime: Runtime, ongoing: op.OperationInProgress, end: op.Result, expected: ExpectedCallbacks) -> None:
     """Compare the operation with its rows: sets its ``outcome``, and whether it can be ``judged`` and is ``lost``."""
     answer = "return" if isinstance(end, Return) else end.error
-    outcome = ongoing.outcome = OperationEnd(answer)
-    if answer != "return" and answer not in DECLARED_ERRORS[ongoing.operation]:
+    outcome = ongoing.outcome = op.OperationEnd(answer)
+    if answer != "return" and answer not in op.DECLARED_ERRORS[ongoing.operation]:
         ongoing.judged, ongoing.lost = False, True
     elif ongoing.judged:
         _compare_answer(ongoing, outcome, expected)
@@ -48,7 +40,7 @@ def conclude(runtime: Runtime, ongoing: OperationInProgress, end: Result, expect
             _compare_callbacks(runtime, ongoing, outcome, expected)
 
 
-def _compare_answer(ongoing: OperationInProgress, outcome: OperationEnd, expected: ExpectedCallbacks) -> None:
+def _compare_answer(ongoing: op.OperationInProgress, outcome: op.OperationEnd, expected: ExpectedCallbacks) -> None:
     answer = outcome.answer
     if ongoing.forgiving and answer == "UCM_ERROR":
         ongoing.judged, ongoing.lost = False, True
@@ -64,7 +56,7 @@ def _compare_answer(ongoing: OperationInProgress, outcome: OperationEnd, expecte
     outcome.permitted = True
 
 
-def _compare_body(runtime: Runtime, ongoing: OperationInProgress, outcome: OperationEnd, component: str) -> None:
+def _compare_body(runtime: Runtime, ongoing: op.OperationInProgress, outcome: op.OperationEnd, component: str) -> None:
     new = [c for c in ongoing.callbacks if c.hook == "on_init" and (c.component, c.instance) not in runtime.bodies]
     if new:
         outcome.initialised = new
@@ -73,12 +65,12 @@ def _compare_body(runtime: Runtime, ongoing: OperationInProgress, outcome: Opera
         ongoing.judged = outcome.right_body
 
 
-def _life_cycle_callbacks(ongoing: OperationInProgress, component: str, instance: int | None) -> list[Enter]:
+def _life_cycle_callbacks(ongoing: op.OperationInProgress, component: str, instance: int | None) -> list[Enter]:
     return [c for c in ongoing.by_body.get((component, instance), ()) if c.hook in LIFE_CYCLE_HOOKS]
 
 
 def _find_intrusions(
-    runtime: Runtime, ongoing: OperationInProgress, outcome: OperationEnd, expected: ExpectedCallbacks
+    runtime: Runtime, ongoing: op.OperationInProgress, outcome: op.OperationEnd, expected: ExpectedCallbacks
 ) -> None:
     """Instances that the operation does not concern are to receive nothing."""
     concerned = {id(m) for m, _ in ongoing.roles}
@@ -101,10 +93,10 @@ def _find_intrusions(
         events = _life_cycle_callbacks(ongoing, member.component, member.instance)
         role = "elsewhere" if elsewhere else "bystander"
         requirement = expected.of(events[0].hook, role).unexpected
-        outcome.intrusions = [*outcome.intrusions, Intrusion(member, events, requirement, elsewhere)]
+        outcome.intrusions = [*outcome.intrusions, op.Intrusion(member, events, requirement, elsewhere)]
 
 
-def _reach_own(ongoing: OperationInProgress, outcome: OperationEnd, expected: ExpectedCallbacks) -> None:
+def _reach_own(ongoing: op.OperationInProgress, outcome: op.OperationEnd, expected: ExpectedCallbacks) -> None:
     """Does a successful start or stop of the manager reach its own members (11.2.2.2)?"""
     hook = OF_ALL_MEMBERS[ongoing.operation]
     own = [(m, row) for m, row in ongoing.roles if m is not None and m.container is ongoing.container]
@@ -115,9 +107,9 @@ def _reach_own(ongoing: OperationInProgress, outcome: OperationEnd, expected: Ex
 
 
 def _compare_callbacks(
-    runtime: Runtime, ongoing: OperationInProgress, outcome: OperationEnd, expected: ExpectedCallbacks
+    runtime: Runtime, ongoing: op.OperationInProgress, outcome: op.OperationEnd, expected: ExpectedCallbacks
 ) -> None:
-    fitted: list[Fitted] = []
+    fitted: list[op.Fitted] = []
     outcome.fitted = fitted
     for member, row in ongoing.roles:
         component, instance, listener = _listener(runtime, ongoing, member)
@@ -132,13 +124,13 @@ def _compare_callbacks(
             continue
         deviation = expected.deviation(row, outcome.answer, listener, hooks)
         who = lane(component, instance or 1)
-        outcome.deviating = [*outcome.deviating, Deviating(member, row, who, events, deviation)]
+        outcome.deviating = [*outcome.deviating, op.Deviating(member, row, who, events, deviation)]
         if member is None:
             ongoing.judged = False
 
 
 def _listener(
-    runtime: Runtime, ongoing: OperationInProgress, member: Member | None
+    runtime: Runtime, ongoing: op.OperationInProgress, member: Member | None
 ) -> tuple[str, int | None, Listener]:
     """The body that a role is about, and what decides which callbacks it gets; a new instance has no member yet."""
     if member is not None:

@@ -13,50 +13,36 @@ from typing import Any
 
 import msgspec
 
-from ucm_cts.adapters.contract.data_types import (
-    Alias,
-    AnyType,
-    Array,
-    Boolean,
-    Char,
-    Datum,
-    Enumeration,
-    Float,
-    Integer,
-    Sequence,
-    String,
-    Structure,
-    Union,
-)
+from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract.data_values import components_of, flat, is_nan, misfit
 
 _REQUIREMENTS: dict[type, str] = {
-    Integer: "R-10.1.1-07",
-    Float: "R-10.1.1-08",
-    Char: "R-10.1.1-09",
-    Boolean: "R-10.1.1-10",
-    String: "R-10.1.1-11",
-    Enumeration: "R-10.1.1-12",
-    Structure: "R-10.1.1-13",
-    Union: "R-10.1.1-14",
-    Array: "R-10.1.1-15",
-    Sequence: "R-10.1.1-16",
-    Alias: "R-10.1.1-17",
+    d.Integer: "R-10.1.1-07",
+    d.Float: "R-10.1.1-08",
+    d.Char: "R-10.1.1-09",
+    d.Boolean: "R-10.1.1-10",
+    d.String: "R-10.1.1-11",
+    d.Enumeration: "R-10.1.1-12",
+    d.Structure: "R-10.1.1-13",
+    d.Union: "R-10.1.1-14",
+    d.Array: "R-10.1.1-15",
+    d.Sequence: "R-10.1.1-16",
+    d.Alias: "R-10.1.1-17",
 }
 AT_ANY_DEPTH = "R-10.1.1-18"
 
 REQUIREMENTS = (*_REQUIREMENTS.values(), AT_ANY_DEPTH)
 """The requirements on types, each that a type is carried."""
 
-_COMPOSITE = (Structure, Union, Array, Sequence)
+_COMPOSITE = (d.Structure, d.Union, d.Array, d.Sequence)
 
 
 @dataclass(frozen=True)
 class Part:
     """A value inside another one: its type, and what of other types it is in."""
 
-    of: AnyType
-    value: Datum
+    of: d.AnyType
+    value: d.Datum
     around: tuple[Part, ...] = ()
     place: str = ""
 
@@ -77,7 +63,7 @@ class Difference:
     def is_nan(self) -> bool:
         """Are both NaN, with other bits?"""
         of, sent = self.part.of, self.part.value
-        if not isinstance(of, Float) or not isinstance(sent, str) or not isinstance(self.got, str):
+        if not isinstance(of, d.Float) or not isinstance(sent, str) or not isinstance(self.got, str):
             return False
         return len(sent) == len(self.got) and is_nan(of, sent) and not _misfits(of, self.got) and is_nan(of, self.got)
 
@@ -88,7 +74,7 @@ class Evidence:
 
     least: dict[bytes, int] = field(default_factory=dict)
 
-    def add(self, of: AnyType, value: Datum) -> None:
+    def add(self, of: d.AnyType, value: d.Datum) -> None:
         """``value`` has arrived as it was sent."""
         for part in inside(Part(of, value)):
             key, depth = part.key, len(part.around)
@@ -102,19 +88,19 @@ class Evidence:
         return requirement_of(chain[to_blame].of, is_innermost=to_blame == len(chain) - 1)
 
 
-def requirement_of(of: AnyType, is_innermost: bool = False) -> str:
+def requirement_of(of: d.AnyType, is_innermost: bool = False) -> str:
     """The requirement that asks for values of ``of``: as such, if it is the innermost that matters, else at any depth."""
     if not is_innermost and isinstance(of, _COMPOSITE) and any(isinstance(o, _COMPOSITE) for o in _made_of(of)):
         return AT_ANY_DEPTH
     return _REQUIREMENTS[type(of)]
 
 
-def requirements_of(of: AnyType, value: Datum) -> set[str]:
+def requirements_of(of: d.AnyType, value: d.Datum) -> set[str]:
     """All requirements that a value exercises when it is carried well."""
     return set(_exercised(of, value, False))
 
 
-def _exercised(of: AnyType, value: Datum, is_inside: bool) -> Iterator[str]:
+def _exercised(of: d.AnyType, value: d.Datum, is_inside: bool) -> Iterator[str]:
     yield _REQUIREMENTS[type(of)]
     is_composite = isinstance(of, _COMPOSITE)
     if is_inside and is_composite:
@@ -123,23 +109,23 @@ def _exercised(of: AnyType, value: Datum, is_inside: bool) -> Iterator[str]:
         yield from _exercised(part, one, is_inside or is_composite)
 
 
-def _made_of(of: AnyType) -> Iterator[AnyType]:
+def _made_of(of: d.AnyType) -> Iterator[d.AnyType]:
     """The types that ``of`` directly contains; of an alias, the one that it names."""
     match of:
-        case Structure():
+        case d.Structure():
             contained = list(of.fields.values())
-        case Union():
+        case d.Union():
             contained = [case.of for case in of.cases]
-        case Array() | Sequence():
+        case d.Array() | d.Sequence():
             contained = [of.of]
         case _:
             contained = []
     return map(plain, contained)
 
 
-def plain(of: AnyType) -> AnyType:
+def plain(of: d.AnyType) -> d.AnyType:
     """``of`` without the aliases around it."""
-    while isinstance(of, Alias):
+    while isinstance(of, d.Alias):
         of = of.of
     return of
 
@@ -160,7 +146,7 @@ def differences(part: Part, got: object) -> Iterator[Difference]:
         if arrived is None:
             yield Difference(part, got)
             return
-    elif isinstance(of, Alias):
+    elif isinstance(of, d.Alias):
         arrived = [got]
     else:
         if type(got) is not type(sent) or got != sent:
@@ -181,22 +167,22 @@ def distance(one: object, other: object) -> float:
     return 1
 
 
-def _arrived(of: AnyType, sent: Datum, got: object) -> list[Datum] | None:
+def _arrived(of: d.AnyType, sent: d.Datum, got: object) -> list[d.Datum] | None:
     """What arrived for each direct part of ``sent``; None if the whole is of another shape, or in another order."""
     assert isinstance(sent, list)
     if not isinstance(got, list) or len(got) != len(sent):
         return None
-    if isinstance(of, Union):
+    if isinstance(of, d.Union):
         of_another_case = _misfits(of, got) and not all(_misfits(case.of, got[1]) for case in of.cases)
         return None if got[0] != sent[0] or of_another_case else [got[1]]
-    dimensions = len(of.sizes) if isinstance(of, Array) else 1
+    dimensions = len(of.sizes) if isinstance(of, d.Array) else 1
     if dimensions > 1 and _shape(got, dimensions) != _shape(sent, dimensions):
         return None
     arrived, wanted = flat(got, dimensions), flat(sent, dimensions)
     return None if _is_another_order(wanted, arrived) else arrived
 
 
-def _misfits(of: AnyType, value: object) -> bool:
+def _misfits(of: d.AnyType, value: object) -> bool:
     return bool(misfit(of, value))
 
 
@@ -206,7 +192,7 @@ def _shape(value: object, dimensions: int) -> object:
     return [_shape(one, dimensions - 1) for one in value] if isinstance(value, list) else ()
 
 
-def _is_another_order(sent: list[Datum], got: list[Datum]) -> bool:
+def _is_another_order(sent: list[d.Datum], got: list[d.Datum]) -> bool:
     """Are the same values at other places, whatever their own order is?"""
     if got == sent:
         return False

@@ -13,38 +13,23 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Datum, Float
 from ucm_cts.adapters.contract.data_values import kind_name, misfit
 from ucm_cts.adapters.contract.trace import Raise, Return
-from ucm_cts.reference_models.conclusions import Conclusions, Taken
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model import services
+from ucm_cts.reference_models.model import value_transport as transport
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.service_call import ServiceCall
-from ucm_cts.reference_models.model.services import (
-    is_disturbed,
-    is_nested,
-    new_types,
-    service_calls,
-    trouble_with,
-    what_sets_apart,
-)
-from ucm_cts.reference_models.model.value_transport import (
-    REQUIREMENTS,
-    Difference,
-    Evidence,
-    Part,
-    inside,
-    requirement_of,
-    requirements_of,
-)
 from ucm_cts.reference_models.model.values_carried import Carried, method_of, values_carried
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _LONGEST = 70
 
 
-@property_at("closed", *REQUIREMENTS)
+@property_at("closed", *transport.REQUIREMENTS)
 def exact_values(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """What a connector carries arrives as it was sent, bit by bit, and back again."""
-    wrong: list[tuple[Carried, Difference]] = []
+    wrong: list[tuple[Carried, transport.Difference]] = []
     well: list[Carried] = []
     for carried in values_carried(runtime):
         if any(d.is_nan for d in carried.differences):
@@ -54,16 +39,16 @@ def exact_values(check: Property, runtime: ObservedRuntime) -> Conclusions:
             wrong.append((carried, different[0]))
             continue
         well.append(carried)
-        for requirement in requirements_of(carried.of, carried.sent):
+        for requirement in transport.requirements_of(carried.of, carried.sent):
             yield check.kept(requirement)
-    evidence = Evidence()
+    evidence = transport.Evidence()
     for carried in well if wrong else ():
         evidence.add(carried.of, carried.sent)
     for carried, difference in wrong:
         yield _accuse(check, carried, difference, evidence.to_blame(difference.part))
 
 
-def _accuse(check: Property, carried: Carried, difference: Difference, requirement: str) -> Finding:
+def _accuse(check: Property, carried: Carried, difference: transport.Difference, requirement: str) -> Finding:
     part = difference.part
     kind = kind_name(part.of)
     return check.fail(
@@ -75,7 +60,7 @@ def _accuse(check: Property, carried: Carried, difference: Difference, requireme
     )
 
 
-def _place(part: Part) -> str:
+def _place(part: transport.Part) -> str:
     named = [one.place for one in (*part.around, part) if one.place]
     where = "".join(place if place.startswith("[") else f".{place}" for place in named)
     return f" at {where} of a {kind_name(part.around[0].of)}" if where else ""
@@ -111,20 +96,24 @@ def told(of: AnyType, value: object) -> str:
     )
 
 
-@property_at("closed", *REQUIREMENTS)
+@property_at("closed", *transport.REQUIREMENTS)
 def values_accepted(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A service call is not refused for its values, while others are served."""
     interactions = runtime.interactions
     if not any(call.reply is not None and call.reply.raised for call in interactions.calls):
         return
-    judged = [one for one in service_calls(runtime) if one.call.reply is not None and not is_disturbed(runtime, one)]
-    troubles = [(one, trouble_with(runtime, one)) for one in judged]
+    judged = [
+        one
+        for one in services.service_calls(runtime)
+        if one.call.reply is not None and not services.is_disturbed(runtime, one)
+    ]
+    troubles = [(one, services.trouble_with(runtime, one)) for one in judged]
     served = [one for one, trouble in troubles if not trouble]
     known = [value for one in served for value in _values_of(runtime, one)]
     refused = [
         (one, values)
         for one, trouble in troubles
-        if not what_sets_apart(runtime, one, served) and (values := _refused(runtime, one, trouble))
+        if not services.what_sets_apart(runtime, one, served) and (values := _refused(runtime, one, trouble))
         if not _may_be_carried(one, values, known)
     ]
     if not refused or all(trouble in ("failed", "not served") for _, trouble in troubles):
@@ -140,7 +129,7 @@ def _may_be_carried(
     """Are its values like those of calls that are carried out? Of a call that is made while its client is called itself, or
     gets a message, that may be the reason, so that values of the same types are enough.
     """
-    if is_nested(one):
+    if services.is_nested(one):
         types = [of for of, _ in known]
         return all(of in types for of, _ in values)
     return all(value in known for value in values)
@@ -176,7 +165,7 @@ def _accuse_of_refusal(
     check: Property, one: ServiceCall, of: AnyType, value: Datum, alone: Sequence[AnyType]
 ) -> Finding:
     """To blame is the innermost part whose type was refused by itself as well."""
-    suspects = [part for part in inside(Part(of, value)) if not part.around or part.of in alone]
+    suspects = [part for part in transport.inside(transport.Part(of, value)) if not part.around or part.of in alone]
     suspect = max(suspects, key=lambda part: len(part.around))
     reply = one.call.reply
     return check.fail(
@@ -184,14 +173,14 @@ def _accuse_of_refusal(
         expected=f"a call with {kind_name(of)} {told(of, value)} is carried out, as others are",
         observed="it ended with an exception that the server did not raise",
         at=(one.call.request.n, reply.n if reply is not None else one.call.request.n),
-        requirement=requirement_of(suspect.of),
+        requirement=transport.requirement_of(suspect.of),
     )
 
 
-@property_at("linked", *REQUIREMENTS)
+@property_at("linked", *transport.REQUIREMENTS)
 def types_accepted(
     check: Property, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Return | Raise
-) -> Conclusions:
+) -> Concluded:
     """A connector that can be bound to one interface can be bound to another one with other data types."""
     interactions = runtime.interactions
     if not isinstance(step, s.Link) or isinstance(end, Return):
@@ -200,16 +189,14 @@ def types_accepted(
         return ()
     if any(container.started is not False for container in runtime.containers.values()):
         return ()
-    types = new_types(runtime, step)
+    types = services.new_types(runtime, step)
     if not types:
         return ()
-    return (
-        check.fail(
-            f"{kind_name(types[0])} refused by {step.connector}",
-            expected=f"{step.connector} can be bound to an interface with {kind_name(types[0])}, as it is to another one",
-            observed=f"it ended with {end.error} {end.detail}".rstrip(),
-            at=(end.n,),
-            step=end.step,
-            requirement=requirement_of(types[0]),
-        ),
+    return check.fail(
+        f"{kind_name(types[0])} refused by {step.connector}",
+        expected=f"{step.connector} can be bound to an interface with {kind_name(types[0])}, as it is to another one",
+        observed=f"it ended with {end.error} {end.detail}".rstrip(),
+        at=(end.n,),
+        step=end.step,
+        requirement=transport.requirement_of(types[0]),
     )

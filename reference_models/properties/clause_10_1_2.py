@@ -4,53 +4,33 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Timeout
-from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model import messages as msg
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.links import LinkState
-from ucm_cts.reference_models.model.messages import (
-    CODES,
-    COMM_ERROR,
-    INTERNAL_ERROR,
-    OK,
-    answer_to_push,
-    counts,
-    events_of,
-    is_calm,
-    is_disturbed,
-    is_healthy,
-    is_quiet,
-    is_well,
-    is_whole,
-    lasting,
-    messages,
-    name_of,
-    overdue,
-    settling_time,
-    waited_for,
-)
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
-_DUE = {"transport": ("R-10.1.2-12", COMM_ERROR), "inside": ("R-10.1.2-11", INTERNAL_ERROR)}
+_DUE = {"transport": ("R-10.1.2-12", msg.COMM_ERROR), "inside": ("R-10.1.2-11", msg.INTERNAL_ERROR)}
 
 
 @property_at("completed", "R-10.1.2-02")
-def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
+def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """Whatever push gives back is one of the three codes."""
     if not call.is_message or call.reply is None or call.caller is None or not call.caller.serving:
         return ()
     results = list(call.reply.results or ())
-    if not call.reply.raised and call.reply.exception is None and len(results) == 1 and results[0] in CODES:
-        return (check.kept(),)
-    return (_violate(check, "R-10.1.2-02", call, f"is answered {' or '.join(CODES)}", "unknown"),)
+    if not call.reply.raised and call.reply.exception is None and len(results) == 1 and results[0] in msg.CODES:
+        return check.kept()
+    return _violate(check, "R-10.1.2-02", call, f"is answered {' or '.join(msg.CODES)}", "unknown")
 
 
 @property_at("completed", "R-10.1.2-02")
 def without_receivers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """A push that nobody receives is answered what the vendor has declared."""
-    if not call.is_message or call.targets or not call.ready or not is_whole(runtime, call) or call.code not in CODES:
+    if not call.is_message or call.targets or not call.ready or not msg.is_whole(runtime, call) or call.code not in msg.CODES:
         return
     declared = runtime.ics.reading("push-without-receiver")
     if declared == "refused" and call.link is not None and any(end.role == "receiver" for end in call.link.ends):
@@ -94,31 +74,31 @@ def refused_attachment(
 
 
 @property_at("completed", "R-10.1.2-09")
-def ok_when_healthy(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
+def ok_when_healthy(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """Nothing disturbs the push, so it gives ok."""
     if not _is_undisturbed(runtime, call) or call.link is None or call.link.broken_at:
         return ()
-    if all(is_well(end.member) for end, _ in call.targets):
-        if call.code == OK:
-            return (check.kept(),)
+    if all(msg.is_well(end.member) for end, _ in call.targets):
+        if call.code == msg.OK:
+            return check.kept()
         blocking = runtime.ics.reading("message-overflow") == "block"
-        if is_quiet(runtime, call) or (blocking and call.code in CODES):
+        if msg.is_quiet(runtime, call) or (blocking and call.code in msg.CODES):
             expected = "is answered ok: all its receivers are operational and well, and nothing is broken"
-            return (_violate(check, "R-10.1.2-09", call, expected, "not ok"),)
+            return _violate(check, "R-10.1.2-09", call, expected, "not ok")
     return ()
 
 
 @property_at("completed", "R-10.1.2-09")
 def receivers_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """What a receiver answers is dropped, and the code is ok, or passed on, and the code is that of one that was not ok."""
-    if not _is_undisturbed(runtime, call) or not is_quiet(runtime, call):
+    if not _is_undisturbed(runtime, call) or not msg.is_quiet(runtime, call):
         return
-    answers = {answer_to_push(end.member) for end, _ in call.targets}
-    if answers == {OK} or not answers <= {*CODES}:
+    answers = {msg.answer_to_push(end.member) for end, _ in call.targets}
+    if answers == {msg.OK} or not answers <= {*msg.CODES}:
         return  # ok_when_healthy's matter; after an exception any code will do
-    reading = "dropped" if call.code == OK else "passed"
-    if call.code != OK and call.code not in answers:
-        expected = f"is answered ok, or what a receiver answered: {', '.join(sorted(answers - {OK}))}"
+    reading = "dropped" if call.code == msg.OK else "passed"
+    if call.code != msg.OK and call.code not in answers:
+        expected = f"is answered ok, or what a receiver answered: {', '.join(sorted(answers - {msg.OK}))}"
         yield _violate(check, "R-10.1.2-09", call, expected, "another code")
     elif not (yield from takes(runtime, "receiver-code", reading)):
         expected = f"is answered so that the receiver's code is {runtime.ics.reading('receiver-code')}, as declared"
@@ -130,26 +110,26 @@ def receivers_codes(check: Property, runtime: ObservedRuntime, call: MethodCall)
 @property_at("waited", "R-10.1.2-09", timed=True)
 def answered_at_all(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """A push that nothing disturbs is answered."""
-    for call in messages(runtime):
-        if call.reply is not None or not is_whole(runtime, call) or not is_healthy(runtime, call):
+    for call in msg.messages(runtime):
+        if call.reply is not None or not msg.is_whole(runtime, call) or not msg.is_healthy(runtime, call):
             continue
-        if waited_for(runtime, timeout, call.request.t):
+        if msg.waited_for(runtime, timeout, call.request.t):
             yield _violate(check, "R-10.1.2-09", call, "is answered ok", "no answer")
 
 
 @property_at("closed", "R-10.1.2-10")
 def ok_true(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Counts messages that got ok and arrived."""
-    for call in messages(runtime):
-        if call.code == OK and not call.broken and any(d.fit == "same" for d in call.deliveries):
+    for call in msg.messages(runtime):
+        if call.code == msg.OK and not call.broken and any(d.fit == "same" for d in call.deliveries):
             yield check.kept()
 
 
 @property_at("waited", "R-10.1.2-10", timed=True)
 def ok_kept(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """What got ok arrives, if nothing is broken and the receivers are well."""
-    for call, missing in overdue(runtime, timeout):
-        if call.code == OK and not call.deliveries and not is_disturbed(runtime, call):
+    for call, missing in msg.overdue(runtime, timeout):
+        if call.code == msg.OK and not call.deliveries and not msg.is_disturbed(runtime, call):
             names = ", ".join(sorted(end.member.lane for end in missing))
             expected = f"was answered ok and comes to {names}"
             yield _violate(check, "R-10.1.2-10", call, expected, "lost", "it came to nobody", timeout.n)
@@ -158,9 +138,9 @@ def ok_kept(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conc
 @property_at("completed", "R-10.1.2-10")
 def delivered_before_ok(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """Where the vendor has declared it, push gives ok when every receiver has the message."""
-    if not call.is_message or call.code != OK or not is_whole(runtime, call) or not is_calm(runtime, call):
+    if not call.is_message or call.code != msg.OK or not msg.is_whole(runtime, call) or not msg.is_calm(runtime, call):
         return
-    receivers = [end for end in lasting(runtime, call) if is_well(end.member) and not counts(end.member)]
+    receivers = [end for end in msg.lasting(runtime, call) if msg.is_well(end.member) and not msg.counts(end.member)]
     late = [end for end in receivers if not call.delivered_to(end.member, end.port)]
     if (
         receivers
@@ -172,21 +152,21 @@ def delivered_before_ok(check: Property, runtime: ObservedRuntime, call: MethodC
 
 
 @property_at("completed", "R-10.1.2-01", timed=True)
-def failure_noticed(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
+def failure_noticed(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """While its connector is known to be broken an interaction does not look as if it had gone well."""
     if call.link is None or not call.broken or call.reply is None:
         return ()
     if call.link.connector == s.SERVICE_CONNECTOR:
         return _failed_request(check, runtime, call)
     if call.is_message and _is_still_broken(call) and _is_known(runtime, call):
-        if call.code == OK:
+        if call.code == msg.OK:
             where = (
                 f"the {call.broken} of its connection is broken"
                 if call.broken == "transport"
                 else "it is broken inside"
             )
-            return (_violate(check, "R-10.1.2-01", call, f"is not answered ok while {where}", "ok"),)
-        return (check.kept(),)
+            return _violate(check, "R-10.1.2-01", call, f"is not answered ok while {where}", "ok")
+        return check.kept()
     return ()
 
 
@@ -210,14 +190,14 @@ def _failed_request(check: Property, runtime: ObservedRuntime, call: MethodCall)
 
 
 @property_at("completed", "R-10.1.2-11")
-def internal_error_when_due(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
+def internal_error_when_due(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """A push through a connector that is broken inside gives internal_error."""
     if not call.is_message or call.broken != "inside" or not _is_still_broken(call) or not _has_receivers(call):
         return ()
-    if call.code == INTERNAL_ERROR:
-        return (check.kept(),)
+    if call.code == msg.INTERNAL_ERROR:
+        return check.kept()
     expected = "is answered internal_error: its connector is broken inside"
-    return (_violate(check, "R-10.1.2-11", call, expected, "another code"),)
+    return _violate(check, "R-10.1.2-11", call, expected, "another code")
 
 
 @property_at("completed", "R-10.1.2-12", timed=True)
@@ -225,7 +205,7 @@ def comm_error_when_due(check: Property, runtime: ObservedRuntime, call: MethodC
     """A push through a transport that is broken gives comm_error, at the latest when the connector must know."""
     if not call.is_message or call.broken != "transport" or not _is_still_broken(call) or not _has_receivers(call):
         return
-    if call.code == COMM_ERROR:
+    if call.code == msg.COMM_ERROR:
         yield check.kept()
         if call is _first_to_meet(runtime, call):
             yield Taken("comm-error", "at-once")
@@ -235,24 +215,24 @@ def comm_error_when_due(check: Property, runtime: ObservedRuntime, call: MethodC
 
 
 @property_at("completed", "R-10.1.2-11", "R-10.1.2-12", timed=True)
-def ok_after_mending(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
+def ok_after_mending(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """When what was broken has been mended push gives ok again."""
     link = call.link
     if link is None or not link.mended_at or not link.was_broken:  # who could not break it may still mend it
         return ()
-    if not _is_undisturbed(runtime, call) or not is_quiet(runtime, call):
+    if not _is_undisturbed(runtime, call) or not msg.is_quiet(runtime, call):
         return ()
-    if not all(is_well(end.member) for end, _ in call.targets):
+    if not all(msg.is_well(end.member) for end, _ in call.targets):
         return ()
     requirement, _ = _DUE[link.was_broken]
-    if call.code == OK:
-        return (check.kept(requirement),)
-    return (_violate(check, requirement, call, "is answered ok: its connection was mended", "mended"),)
+    if call.code == msg.OK:
+        return check.kept(requirement)
+    return _violate(check, requirement, call, "is answered ok: its connection was mended", "mended")
 
 
 def _is_undisturbed(runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Is it a message that has been answered, by a connector that was whole and had only receivers that are operational?"""
-    return call.is_message and call.reply is not None and is_whole(runtime, call) and is_healthy(runtime, call)
+    return call.is_message and call.reply is not None and msg.is_whole(runtime, call) and msg.is_healthy(runtime, call)
 
 
 def _is_still_broken(call: MethodCall) -> bool:
@@ -269,7 +249,7 @@ def _has_receivers(call: MethodCall) -> bool:
 def _first_to_meet(runtime: ObservedRuntime, call: MethodCall) -> MethodCall:
     """The first message pushed through the link since it was broken."""
     since = call.link.broken_at if call.link is not None else 0
-    return next(c for c in messages(runtime) if c.link is call.link and c.broken and c.request.t >= since)
+    return next(c for c in msg.messages(runtime) if c.link is call.link and c.broken and c.request.t >= since)
 
 
 def _is_known(runtime: ObservedRuntime, call: MethodCall) -> bool:
@@ -277,23 +257,17 @@ def _is_known(runtime: ObservedRuntime, call: MethodCall) -> bool:
     if not _has_receivers(call):
         return False
     first = _first_to_meet(runtime, call)
-    return call.broken == "inside" or call.request.t - first.request.t >= settling_time(runtime)
+    return call.broken == "inside" or call.request.t - first.request.t >= msg.settling_time(runtime)
 
 
 def _violate(
-    check: Property,
-    requirement: str,
-    call: MethodCall,
-    expected: str,
-    cause: str,
-    observed: str = "",
-    *further: int,
+    check: Property, requirement: str, call: MethodCall, expected: str, cause: str, observed: str = "", *further: int
 ) -> Finding:
     return check.fail(
         cause,
-        expected=f"{name_of(call)} {expected}",
+        expected=f"{msg.name_of(call)} {expected}",
         observed=observed or _answer(call),
-        at=events_of(call, *further),
+        at=msg.events_of(call, *further),
         requirement=requirement,
     )
 

@@ -6,7 +6,7 @@ import itertools
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Event, Pushed
-from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.interactions import PushedBurst
 from ucm_cts.reference_models.model.links import LinkState
@@ -75,20 +75,18 @@ def _origin(check: Property, receiver: Member, bursts: list[PushedBurst], event:
     if event.received and (event.distinct > pushed or event.least < least or event.greatest > greatest):
         expected = f"{receiver.lane} gets {pushed} messages from {least} to {greatest} and nothing else"
         observed = f"it got {event.distinct} from {event.least} to {event.greatest}"
-        return (_violate(check, "R-10.1.6.1-06", expected, observed, event, "invented"),)
-    if event.received:
-        return (check.kept("R-10.1.6.1-06"),)
-    return ()
+        yield _violate(check, "R-10.1.6.1-06", expected, observed, event, "invented")
+    elif event.received:
+        yield check.kept("R-10.1.6.1-06")
 
 
 def _once(check: Property, receiver: Member, event: Counted) -> Conclusions:
     if event.received > event.distinct:
         again = event.received - event.distinct
         expected = f"{receiver.lane} gets each message once"
-        return (_violate(check, "R-10.1.6.1-05", expected, f"{again} came again", event, "repeated"),)
-    if event.received:
-        return (check.kept("R-10.1.6.1-05"),)
-    return ()
+        yield _violate(check, "R-10.1.6.1-05", expected, f"{again} came again", event, "repeated")
+    elif event.received:
+        yield check.kept("R-10.1.6.1-05")
 
 
 def _order(check: Property, runtime: ObservedRuntime, receiver: Member, event: Counted) -> Conclusions:
@@ -117,12 +115,7 @@ def _is_known(bursts: list[PushedBurst]) -> bool:
 
 
 def _violate(
-    check: Property,
-    requirement: str,
-    expected: str,
-    observed: str,
-    event: Pushed | Counted,
-    cause: str = "answer",
+    check: Property, requirement: str, expected: str, observed: str, event: Pushed | Counted, cause: str = "answer"
 ) -> Finding:
     step = event.step if isinstance(event, Counted) else None
     return check.fail(cause, expected=expected, observed=observed, at=(event.n,), step=step, requirement=requirement)

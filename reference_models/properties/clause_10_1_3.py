@@ -5,16 +5,8 @@ from __future__ import annotations
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Counted, Paused, Pushed, Raise, Return, Stressed, Timeout
-from ucm_cts.reference_models.conclusions import Conclusions, Measured, takes
-from ucm_cts.reference_models.model.executions import (
-    CALL_EXCLUSIONS,
-    BusinessCall,
-    Execution,
-    exclusion,
-    goals_of,
-    managed_ports,
-    protection_of,
-)
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measured, takes
+from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
@@ -27,18 +19,18 @@ _MILLISECOND = 1_000_000
 @property_at("ended", "R-10.1.3-02", at=("add_component", "start"), feature="policies")
 def execution_policy_given(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+) -> Concluded:
     """A component that says nothing of its execution is refused, or is given a policy by the framework."""
     declarations = runtime.scenario.components
-    if not any(protection_of(declaration) for declaration in declarations.values()):
+    if not any(ex.protection_of(declaration) for declaration in declarations.values()):
         return ()  # a scenario of profile container, which knows no policies
     if ongoing.operation == "add_component":
         component = getattr(ongoing.step, "component", "")
         declaration = declarations.get(component)
-        if declaration is None or protection_of(declaration) or not isinstance(end, Raise) or declaration.plan:
+        if declaration is None or ex.protection_of(declaration) or not isinstance(end, Raise) or declaration.plan:
             return ()
         return _note(check, runtime, ongoing, component, "refuse", end)
-    without = [m for m in ongoing.container.live_members() if not protection_of(m.declaration)]
+    without = [m for m in ongoing.container.live_members() if not ex.protection_of(m.declaration)]
     if not without or not ongoing.judged or isinstance(end, Raise):
         return ()
     return _note(check, runtime, ongoing, without[0].lane, "default", end)
@@ -64,7 +56,7 @@ def _note(
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
 def active_policies(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+) -> Concluded:
     """A component with the active policy on several ports is refused, or started, as declared."""
     declarations = runtime.scenario.components
     if ongoing.operation == "add_component":
@@ -84,7 +76,7 @@ def _is_active_twice(declaration: Declaration) -> bool:
     """Has it nothing beside the active policy on several ports, and no callback that fails?"""
     is_active = all(p.definition == s.ACTIVE and p.port is not None for p in declaration.policies)
     fails = raises(declaration, "on_init", "set_container_interface")
-    return is_active and not fails and len(managed_ports(declaration)) > 1
+    return is_active and not fails and len(ex.managed_ports(declaration)) > 1
 
 
 def _note_active(
@@ -104,7 +96,9 @@ def _note_active(
 
 
 @property_at("began", "R-10.1.3.2-01")
-def runs_again(check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> Conclusions:
+def runs_again(
+    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
+) -> Conclusions:
     """run is called more than once a start, unless the vendor declares that it is called once."""
     enter = execution.enter
     if execution.way != "run" or met:
@@ -142,16 +136,16 @@ def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> C
             )
 
 
-def _runs_since_start(runtime: ObservedRuntime, component: str, instance: int) -> list[Execution]:
+def _runs_since_start(runtime: ObservedRuntime, component: str, instance: int) -> list[ex.Execution]:
     started = runtime.startups.get((component, instance))
     runs = runtime.executions.runs(component, instance)
     return [run for run in runs if started is not None and run.enter.n > started[0]]
 
 
-@property_at("began", *CALL_EXCLUSIONS)
+@property_at("began", *ex.CALL_EXCLUSIONS)
 def circle_entered(
-    check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
+) -> Concluded:
     """A call came back to the component whose execution waits for it, and was let in, which is the framework's choice."""
     body = execution.enter.component, execution.enter.instance
     callers = execution.call.callers() if execution.call is not None else ()
@@ -164,8 +158,8 @@ def circle_entered(
     return ()
 
 
-@property_at("completed", *CALL_EXCLUSIONS)
-def circle_refused(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
+@property_at("completed", *ex.CALL_EXCLUSIONS)
+def circle_refused(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """A call came back to the component whose execution waits for it, and was refused."""
     reply = call.reply
     if reply is not None and reply.raised and not call.deliveries:
@@ -173,7 +167,7 @@ def circle_refused(check: Property, runtime: ObservedRuntime, call: MethodCall) 
     return ()
 
 
-@property_at("closed", *CALL_EXCLUSIONS)
+@property_at("closed", *ex.CALL_EXCLUSIONS)
 def circle_waits(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call came back to the component whose execution waits for it, and both were still waiting in the end."""
     for call in runtime.executions.on_their_way:
@@ -181,10 +175,10 @@ def circle_waits(check: Property, runtime: ObservedRuntime) -> Conclusions:
 
 
 def _look_round(
-    check: Property, runtime: ObservedRuntime, call: BusinessCall, reading: str, events: tuple[int, ...]
+    check: Property, runtime: ObservedRuntime, call: ex.BusinessCall, reading: str, events: tuple[int, ...]
 ) -> Conclusions:
     callers = list(call.callers())
-    for member, port in goals_of(runtime, call):
+    for member, port in ex.goals_of(runtime, call):
         body = member.component, member.instance
         for caller in callers:
             if (caller.enter.component, caller.enter.instance) == body:
@@ -196,12 +190,12 @@ def _came_round(
     check: Property,
     runtime: ObservedRuntime,
     member: Member,
-    waiting: Execution,
+    waiting: ex.Execution,
     port: str,
     reading: str,
     events: tuple[int, ...],
 ) -> Conclusions:
-    requirement = exclusion(member.declaration, runtime.ics, waiting.way, port)
+    requirement = ex.exclusion(member.declaration, runtime.ics, waiting.way, port)
     if requirement and not (yield from takes(runtime, "protected-recursion", reading)):
         yield check.fail(
             reading,
@@ -212,7 +206,7 @@ def _came_round(
         )
 
 
-@property_at("told", *CALL_EXCLUSIONS)
+@property_at("told", *ex.CALL_EXCLUSIONS)
 def no_overlap_under_stress(
     check: Property, runtime: ObservedRuntime, event: Return | Pushed | Counted | Paused | Stressed
 ) -> Conclusions:
@@ -226,9 +220,9 @@ def no_overlap_under_stress(
     if member is None or not member.serving:
         return
     ports = [runtime.ports[ref] for ref in step.refs]
-    requirement = exclusion(member.declaration, runtime.ics, ports[0], ports[-1])
+    requirement = ex.exclusion(member.declaration, runtime.ics, ports[0], ports[-1])
     if not requirement:
-        if event.overlaps and protection_of(member.declaration) == "unprotected":
+        if event.overlaps and ex.protection_of(member.declaration) == "unprotected":
             yield check.kept("R-10.1.3.2-20")
         return
     yield Measured("calls stressed", event.calls)

@@ -8,19 +8,8 @@ import statistics
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, HoldAtGate
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
-from ucm_cts.reference_models.conclusions import Conclusions, Measured, Taken, takes
-from ucm_cts.reference_models.model.executions import (
-    CALL_EXCLUSIONS,
-    EXCLUSIONS,
-    BusinessCall,
-    Execution,
-    calls_promised,
-    exclusion,
-    goals_of,
-    is_contradictory,
-    managed_ports,
-    protection_of,
-)
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measured, Taken, takes
+from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.interactions import Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
@@ -42,13 +31,13 @@ _INTERVALS = 3
 """So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
 
 
-@property_at("began", *EXCLUSIONS)
-def no_reentry(check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> Conclusions:
+@property_at("began", *ex.EXCLUSIONS)
+def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]) -> Conclusions:
     """A protected component is not entered while it is executed, unless the execution's own calls lead back into it."""
     enter = execution.enter
     declaration = runtime.scenario.components[enter.component]
     for other in met:
-        requirement = exclusion(declaration, runtime.ics, execution.way, other.way)
+        requirement = ex.exclusion(declaration, runtime.ics, execution.way, other.way)
         if requirement:
             yield check.fail(
                 f"{other.way} {execution.way}",
@@ -62,29 +51,29 @@ def no_reentry(check: Property, runtime: ObservedRuntime, execution: Execution, 
 
 @property_at("began", "R-10.1.3.2-20")
 def overlap_possible(
-    check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
+) -> Concluded:
     """Two callers may be inside an unprotected passive component, which is told and never demanded."""
-    if met and protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
+    if met and ex.protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
         return (Taken("unprotected-concurrency", "concurrent"), check.kept(), Measured("overlaps provoked"))
     return ()
 
 
-@property_at("over", *EXCLUSIONS)
-def kept_out(check: Property, runtime: ObservedRuntime, execution: Execution, end: int) -> Conclusions:
+@property_at("over", *ex.EXCLUSIONS)
+def kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution, end: int) -> Conclusions:
     """An execution was held, a call that was to execute the same body had been made, and did not until the first ended."""
     enter = execution.enter
     for call in execution.waited:
-        for member, port in goals_of(runtime, call):
+        for member, port in ex.goals_of(runtime, call):
             own = (member.component, member.instance) == (enter.component, enter.instance)
-            requirement = exclusion(member.declaration, runtime.ics, execution.way, port) if own else ""
+            requirement = ex.exclusion(member.declaration, runtime.ics, execution.way, port) if own else ""
             inside = any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries)
             if requirement and not inside:
                 yield check.kept(requirement)
                 yield Measured("exclusions proved")
 
 
-@property_at("delivered", *CALL_EXCLUSIONS)
+@property_at("delivered", *ex.CALL_EXCLUSIONS)
 def message_kept_out(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """A message was pushed while its receiver was executed, time passed, and it came in when the execution had ended."""
     call, receiver = delivery.call, delivery.receiver
@@ -94,7 +83,7 @@ def message_kept_out(check: Property, runtime: ObservedRuntime, delivery: Delive
     for execution in runtime.executions.past(enter.component, enter.instance):
         was_there = execution.enter.n < call.request.n
         if was_there and _time_passed(runtime, call.request.n, execution.end) and enter.port is not None:
-            requirement = exclusion(receiver.declaration, runtime.ics, execution.way, enter.port)
+            requirement = ex.exclusion(receiver.declaration, runtime.ics, execution.way, enter.port)
             if requirement:
                 yield check.kept(requirement)
                 yield Measured("exclusions proved")
@@ -106,11 +95,11 @@ def _time_passed(runtime: ObservedRuntime, begin: int, end: int) -> bool:
 
 
 @property_at("over", "R-10.1.3.2-20")
-def callers_meet(check: Property, runtime: ObservedRuntime, execution: Execution, end: int) -> Conclusions:
+def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execution, end: int) -> Conclusions:
     """Who waits while an unprotected component is executed is kept out, which is wrong if callers are said to meet."""
     enter = execution.enter
     body = enter.component, enter.instance
-    if protection_of(runtime.scenario.components[enter.component]) != "unprotected":
+    if ex.protection_of(runtime.scenario.components[enter.component]) != "unprotected":
         return
     for call in execution.waited:
         inside = any((e.component, e.instance) == body for e, _ in call.entries)
@@ -126,7 +115,7 @@ def callers_meet(check: Property, runtime: ObservedRuntime, execution: Execution
 
 
 @property_at("began", "R-10.1.3.2-05")
-def run_kept_out(check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> Conclusions:
+def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]) -> Concluded:
     """A run was held inside for several of the intervals at which run is called, and nobody came in."""
     runs = [run for run in execution.earlier if run.over]
     if execution.way != "run" or met or len(runs) < _INTERVALS:
@@ -134,40 +123,38 @@ def run_kept_out(check: Property, runtime: ObservedRuntime, execution: Execution
     begun = [run.enter.t for run in (*runs, execution)]
     usual = statistics.median(later - earlier for earlier, later in itertools.pairwise(begun))
     if any(run.left - run.enter.t >= _INTERVALS * usual for run in runs):
-        return (check.kept(),)
+        return check.kept()
     return ()
 
 
 @property_at("served", "R-10.1.3.2-17", timed=True)
 def waiting_calls_served(
-    check: Property, runtime: ObservedRuntime, call: BusinessCall, waited: Execution, end: int
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, call: ex.BusinessCall, waited: ex.Execution, end: int
+) -> Concluded:
     """Who had to wait for an execution is served when it has ended; ``end`` is 0 if the call never came back."""
     enter = waited.enter
-    if protection_of(runtime.scenario.components[enter.component]) in ("", "unprotected"):
+    if ex.protection_of(runtime.scenario.components[enter.component]) in ("", "unprotected"):
         return ()
     if end and any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries):
-        return (check.kept(),)
+        return check.kept()
     ending = runtime.interactions.ends_phases(call.n, end or _NOW)
-    if ending or not all(member.serving for member, _ in goals_of(runtime, call)):
+    if ending or not all(member.serving for member, _ in ex.goals_of(runtime, call)):
         return ()  # who is being stopped serves nobody
-    return (
-        check.fail(
-            "refused" if end else "never",
-            expected=f"the call that waits while '{lane(enter.component, enter.instance)}' is executed is carried out afterwards",
-            observed="it ended without having been carried out" if end else "it did not end",
-            at=(enter.n, call.n, *((end,) if end else ())),
-        ),
+    return check.fail(
+        "refused" if end else "never",
+        expected=f"the call that waits while '{lane(enter.component, enter.instance)}' is executed is carried out afterwards",
+        observed="it ended without having been carried out" if end else "it did not end",
+        at=(enter.n, call.n, *((end,) if end else ())),
     )
 
 
 @property_at("answered", "R-10.1.3.2-07", "R-10.1.3.2-08", "R-10.1.3.2-15", "R-10.1.3.2-21", feature="policies")
-def calls_carried_out(check: Property, runtime: ObservedRuntime, call: BusinessCall, end: Result) -> Conclusions:
+def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.BusinessCall, end: Result) -> Conclusions:
     """A call through a port that the policy speaks of enters the body once, there, with the value sent; its result comes back."""
     member, port = call.callee, call.port
     if member is None or port is None or not call.possible or not member.serving or member.raises("exchange"):
         return
-    promised = calls_promised(member.declaration, port)
+    promised = ex.calls_promised(member.declaration, port)
     own = [(e, x) for e, x in call.entries if (e.component, e.instance) == (member.component, member.instance)]
     if not promised or (call.waited and not own):  # who waits in vain is waiting_calls_served's matter
         return
@@ -189,27 +176,21 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: BusinessC
 
 @property_at("called", "R-10.1.3.2-14", "R-10.1.3.2-19", feature="policies")
 def no_self_execution(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: Ongoing,
-    event: Enter,
-    call: BusinessCall | None,
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: ex.BusinessCall | None
+) -> Concluded:
     """A passive component is executed because somebody calls it."""
     member = runtime.member_of(event.component, event.instance)
-    requirement = _BY_ITSELF.get(protection_of(member.declaration), "") if member is not None else ""
+    requirement = _BY_ITSELF.get(ex.protection_of(member.declaration), "") if member is not None else ""
     if member is None or not requirement or member.suspended:
         return ()
     if call is not None:
-        return (check.kept(requirement),)
-    return (
-        check.fail(
-            "no caller",
-            expected=f"'{member.lane}' is executed because it is called",
-            observed=f"its {event.port} was entered with {event.value}, and nobody had called",
-            at=(event.n,),
-            requirement=requirement,
-        ),
+        return check.kept(requirement)
+    return check.fail(
+        "no caller",
+        expected=f"'{member.lane}' is executed because it is called",
+        observed=f"its {event.port} was entered with {event.value}, and nobody had called",
+        at=(event.n,),
+        requirement=requirement,
     )
 
 
@@ -227,27 +208,24 @@ def policy_supported(
         return
     for member in ongoing.container.live_members():
         hooks = [c.hook for c in ongoing.by_body.get((member.component, member.instance), ())]
-        requirement = _SUPPORT.get(protection_of(member.declaration), "")
+        requirement = _SUPPORT.get(ex.protection_of(member.declaration), "")
         if requirement and "on_startup" in hooks:
             yield check.kept(requirement)
 
 
 def _refused(check: Property, ongoing: OperationInProgress, declaration: Declaration, end: Raise) -> Conclusions:
-    requirement = _SUPPORT.get(protection_of(declaration), "")
-    excused = is_contradictory(declaration) or len(managed_ports(declaration)) > 1  # may count as two policies
+    requirement = _SUPPORT.get(ex.protection_of(declaration), "")
+    excused = ex.is_contradictory(declaration) or len(ex.managed_ports(declaration)) > 1  # may count as two policies
     excused = excused or bool(policies_of(declaration, *SERVICES))  # may be the reason
     if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
-        return (
-            check.fail(
-                "refused",
-                expected=f"a component with the policy {declaration.policies[0].definition} is added",
-                observed=f"add_component raised {end.error} {end.detail}".rstrip(),
-                at=(end.n,),
-                step=ongoing.step_number,
-                requirement=requirement,
-            ),
+        yield check.fail(
+            "refused",
+            expected=f"a component with the policy {declaration.policies[0].definition} is added",
+            observed=f"add_component raised {end.error} {end.detail}".rstrip(),
+            at=(end.n,),
+            step=ongoing.step_number,
+            requirement=requirement,
         )
-    return ()
 
 
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
@@ -257,10 +235,10 @@ def one_execution_policy(
     """A component with two execution policies is refused when it is added, or at the latest when it is to be started."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
-        if declaration is not None and is_contradictory(declaration) and isinstance(end, Raise):
+        if declaration is not None and ex.is_contradictory(declaration) and isinstance(end, Raise):
             yield check.kept()
         return
-    members = [m for m in ongoing.container.live_members() if is_contradictory(m.declaration)]
+    members = [m for m in ongoing.container.live_members() if ex.is_contradictory(m.declaration)]
     if members and isinstance(end, Raise):
         yield check.kept()
     for member in members if isinstance(end, Return) else ():
@@ -274,7 +252,7 @@ def one_execution_policy(
 
 
 @property_at("began", "R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03")
-def run_phases(check: Property, runtime: ObservedRuntime, execution: Execution, met: list[Execution]) -> Conclusions:
+def run_phases(check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]) -> Conclusions:
     """run is called on an operational component, and needs neither connections nor callers."""
     enter = execution.enter
     member = runtime.member_of(enter.component, enter.instance)

@@ -6,22 +6,9 @@ from collections.abc import Iterator
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise
-from ucm_cts.reference_models.conclusions import Conclusions
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.model.clock_readings import (
-    CLOCK_METHODS,
-    LOCAL,
-    MICROSECOND,
-    MILLISECOND,
-    SECOND,
-    SYNCHRONIZED,
-    ClockReading,
-    calendar_at,
-    clock_call,
-    passed,
-    readings_of,
-    time_told,
-)
+from ucm_cts.reference_models.model import clock_readings as clocks
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
@@ -36,50 +23,46 @@ _LONG_ENOUGH = 3
 
 
 @property_at("completed", "R-10.1.4.1-06")
-def clock_answers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
+def clock_answers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """Both methods of the clock return, from on_startup to on_shutdown."""
-    method, caller, reply = clock_call(call, runtime.scenario.components), call.caller, call.reply
+    method, caller, reply = clocks.clock_call(call, runtime.scenario.components), call.caller, call.reply
     if not method or reply is None or caller is None or caller.suspended:
         return ()
-    if time_told(call) is not None:
-        if _has_told(runtime, call, *(other for other in CLOCK_METHODS if other != method)):
-            return (check.kept(),)
+    if clocks.time_told(call) is not None:
+        if _has_told(runtime, call, *(other for other in clocks.CLOCK_METHODS if other != method)):
+            return check.kept()
         return ()
     failed = reply.raised or reply.exception is not None
-    return (
-        check.fail(
-            f"{method} {'raises' if failed else 'no time'}",
-            expected=f"{method} tells '{caller.lane}' the time",
-            observed="it raised" if failed else f"it gave {list(reply.results or ())}",
-            at=(call.request.n, reply.n),
-        ),
+    return check.fail(
+        f"{method} {'raises' if failed else 'no time'}",
+        expected=f"{method} tells '{caller.lane}' the time",
+        observed="it raised" if failed else f"it gave {list(reply.results or ())}",
+        at=(call.request.n, reply.n),
     )
 
 
 def _has_told(runtime: ObservedRuntime, call: MethodCall, *methods: str) -> bool:
     """Have other methods told this caller the time, too?"""
     calls = runtime.interactions.calls
-    own = (c for c in reversed(calls) if c.caller is call.caller and time_told(c) is not None)
-    return any(clock_call(c, runtime.scenario.components) in methods for c in own)
+    own = (c for c in reversed(calls) if c.caller is call.caller and clocks.time_told(c) is not None)
+    return any(clocks.clock_call(c, runtime.scenario.components) in methods for c in own)
 
 
 @property_at("completed", "R-10.1.4.2-14")
-def time_range(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
+def time_range(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """The microseconds of a time are those of one second, and its seconds have 32 bits without sign."""
-    told = time_told(call) if clock_call(call, runtime.scenario.components) else None
+    told = clocks.time_told(call) if clocks.clock_call(call, runtime.scenario.components) else None
     if told is None or call.reply is None:
         return ()
     seconds, microseconds = told
     if 0 <= microseconds <= _LARGEST_MICROSECONDS and 0 <= seconds <= _LARGEST_SECONDS:
-        return (check.kept(),)
+        return check.kept()
     part, value = ("seconds", seconds) if not 0 <= seconds <= _LARGEST_SECONDS else ("microseconds", microseconds)
-    return (
-        check.fail(
-            f"negative {part}" if value < 0 else f"too many {part}",
-            expected=f"seconds from 0 to {_LARGEST_SECONDS}, microseconds from 0 to {_LARGEST_MICROSECONDS}",
-            observed=f"{call.request.method} told {seconds} s and {microseconds} µs",
-            at=(call.request.n, call.reply.n),
-        ),
+    return check.fail(
+        f"negative {part}" if value < 0 else f"too many {part}",
+        expected=f"seconds from 0 to {_LARGEST_SECONDS}, microseconds from 0 to {_LARGEST_MICROSECONDS}",
+        observed=f"{call.request.method} told {seconds} s and {microseconds} µs",
+        at=(call.request.n, call.reply.n),
     )
 
 
@@ -129,11 +112,11 @@ def local_time_order(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Of two readings of local time in one container, one after the other, the later one is not earlier, unless the clock
     may have been set. Another container may be on another node.
     """
-    tolerance = runtime.ics.tolerance("clock-tolerance") * MILLISECOND
-    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(runtime)):
+    tolerance = runtime.ics.tolerance("clock-tolerance") * clocks.MILLISECOND
+    for earlier, later, drift in _pairs(runtime, clocks.LOCAL, _is_never_set(runtime)):
         if earlier.container is None or earlier.container is not later.container:
             continue
-        went = passed(earlier.time, later.time)
+        went = clocks.passed(earlier.time, later.time)
         if went >= 0:
             if drift <= tolerance:
                 yield check.kept()
@@ -146,21 +129,21 @@ def local_time_order(check: Property, runtime: ObservedRuntime) -> Conclusions:
 def synchronized_time_agrees(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Of two readings of synchronized time, wherever, the later one is not earlier by more than the tolerance."""
     tolerance = runtime.ics.tolerance("synchronization-tolerance")
-    for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
-        if passed(earlier.time, later.time) < -tolerance * MILLISECOND - drift:
+    for earlier, later, drift in _pairs(runtime, clocks.SYNCHRONIZED):
+        if clocks.passed(earlier.time, later.time) < -tolerance * clocks.MILLISECOND - drift:
             yield _went_back(check, "R-10.1.4.1-10", earlier, later, tolerance)
             return
-        if earlier.body != later.body and drift <= tolerance * MILLISECOND:
+        if earlier.body != later.body and drift <= tolerance * clocks.MILLISECOND:
             yield check.kept()
 
 
 @property_at("closed", "R-10.1.4.1-10", timed=True)
 def synchronized_time_passes(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Between two readings of one body synchronized time went on, by half of the real time at least."""
-    tolerance = runtime.ics.tolerance("synchronization-tolerance") * MILLISECOND
-    for earlier, later, drift in _pairs(runtime, SYNCHRONIZED):
+    tolerance = runtime.ics.tolerance("synchronization-tolerance") * clocks.MILLISECOND
+    for earlier, later, drift in _pairs(runtime, clocks.SYNCHRONIZED):
         least = (later.asked - earlier.told) // 2 + later.advanced - earlier.advanced
-        went = passed(earlier.time, later.time)
+        went = clocks.passed(earlier.time, later.time)
         if earlier.body != later.body or went >= least - tolerance - drift:
             continue
         yield check.fail(
@@ -175,14 +158,14 @@ def synchronized_time_passes(check: Property, runtime: ObservedRuntime) -> Concl
 @property_at("closed", "R-10.1.4.1-09", timed=True)
 def local_time_rate(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Between two readings of one body as much local time passed as on the host's monotonic clock, and virtual time."""
-    tolerance = runtime.ics.tolerance("clock-tolerance") * MILLISECOND
+    tolerance = runtime.ics.tolerance("clock-tolerance") * clocks.MILLISECOND
     rate = runtime.ics.tolerance("clock-rate") / 100
-    for earlier, later, drift in _pairs(runtime, LOCAL, _is_never_set(runtime)):
+    for earlier, later, drift in _pairs(runtime, clocks.LOCAL, _is_never_set(runtime)):
         if earlier.body != later.body or _width(earlier) + _width(later) > tolerance:
             continue
         virtual = later.advanced - earlier.advanced
         least, most = later.asked - earlier.told + virtual, later.told - earlier.asked + virtual
-        went, slack = passed(earlier.time, later.time), tolerance + drift + 2 * MICROSECOND
+        went, slack = clocks.passed(earlier.time, later.time), tolerance + drift + 2 * clocks.MICROSECOND
         if least * (1 - rate) - slack <= went <= most * (1 + rate) + slack:
             if least >= _LONG_ENOUGH * tolerance and drift <= tolerance:
                 yield check.kept()
@@ -201,27 +184,27 @@ def local_time_epoch(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Local time is the host's calendar time, within the tolerance, where the vendor says that it begins like Unix time."""
     if runtime.ics.reading("clock-epoch") != "unix":
         return
-    tolerance = runtime.ics.tolerance("epoch-tolerance") * MILLISECOND
-    for reading in _readings(runtime, LOCAL):
-        calendar = calendar_at(runtime.interactions.pauses, reading.asked, reading.told)
+    tolerance = runtime.ics.tolerance("epoch-tolerance") * clocks.MILLISECOND
+    for reading in _readings(runtime, clocks.LOCAL):
+        calendar = clocks.calendar_at(runtime.interactions.pauses, reading.asked, reading.told)
         if calendar is None:
             continue
-        away = passed(calendar[0] + reading.advanced, reading.time)
+        away = clocks.passed(calendar[0] + reading.advanced, reading.time)
         slack = tolerance + calendar[1]
         if -slack <= away <= slack + _width(reading):
             yield check.kept()
             continue
         yield check.fail(
             "not unix",
-            expected=f"local time is the calendar's, about {calendar[0] // SECOND} s, as declared",
-            observed=f"'{_who(reading)}' was told {reading.time // SECOND} s",
+            expected=f"local time is the calendar's, about {calendar[0] // clocks.SECOND} s, as declared",
+            observed=f"'{_who(reading)}' was told {reading.time // clocks.SECOND} s",
             at=(reading.begin, reading.end),
         )
         return
 
 
-def _readings(runtime: ObservedRuntime, method: str) -> list[ClockReading]:
-    return readings_of(runtime.interactions, runtime.scenario.components, method)
+def _readings(runtime: ObservedRuntime, method: str) -> list[clocks.ClockReading]:
+    return clocks.readings_of(runtime.interactions, runtime.scenario.components, method)
 
 
 def _is_never_set(runtime: ObservedRuntime) -> bool:
@@ -230,7 +213,7 @@ def _is_never_set(runtime: ObservedRuntime) -> bool:
 
 def _pairs(
     runtime: ObservedRuntime, method: str, is_never_set: bool = False
-) -> Iterator[tuple[ClockReading, ClockReading, int]]:
+) -> Iterator[tuple[clocks.ClockReading, clocks.ClockReading, int]]:
     """Two readings, one after the other, and by how many nanoseconds the clock may have been set in between.
 
     Pairs of which nobody can know that are left out.
@@ -239,15 +222,15 @@ def _pairs(
     pauses = runtime.interactions.pauses
     for later in readings:
         for earlier in (r for r in readings if r.is_before(later)):
-            calendar = (0, 0) if is_never_set else calendar_at(pauses, earlier.asked, later.told)
+            calendar = (0, 0) if is_never_set else clocks.calendar_at(pauses, earlier.asked, later.told)
             if calendar is not None:
                 yield earlier, later, calendar[1]
 
 
 def _went_back(
-    check: Property, requirement: str, earlier: ClockReading, later: ClockReading, tolerance: float
+    check: Property, requirement: str, earlier: clocks.ClockReading, later: clocks.ClockReading, tolerance: float
 ) -> Finding:
-    back = _milliseconds(-passed(earlier.time, later.time))
+    back = _milliseconds(-clocks.passed(earlier.time, later.time))
     return check.fail(
         "one component" if earlier.body == later.body else "two components",
         expected=f"'{_who(later)}' is told no earlier time than '{_who(earlier)}' before it"
@@ -258,13 +241,13 @@ def _went_back(
     )
 
 
-def _width(reading: ClockReading) -> int:
+def _width(reading: clocks.ClockReading) -> int:
     return reading.told - reading.asked
 
 
-def _who(reading: ClockReading) -> str:
+def _who(reading: clocks.ClockReading) -> str:
     return lane(*reading.body)
 
 
 def _milliseconds(nanoseconds: int) -> str:
-    return f"{nanoseconds / MILLISECOND:.3f}"
+    return f"{nanoseconds / clocks.MILLISECOND:.3f}"

@@ -6,19 +6,11 @@ from collections.abc import Generator
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Enter, Paused, Pushed, Raise, Return, Stressed
-from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model import log_contents as logs
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.interactions import MethodCall
-from ucm_cts.reference_models.model.log_contents import (
-    Contents,
-    Message,
-    Threshold,
-    Tracing,
-    contents_of,
-    log_readings,
-    severities_shown,
-)
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import lane
@@ -65,7 +57,7 @@ def policy_references(
 
 
 @property_at("completed", "R-10.1.4.2-25")
-def log_returns(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
+def log_returns(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """A call of log comes back, whichever severity it has, from on_startup to on_shutdown."""
     request, reply, caller = call.request, call.reply, call.caller
     if reply is None or caller is None or caller.suspended or request.method != "log":
@@ -73,24 +65,22 @@ def log_returns(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
     if request.port not in policy_elements(caller.declaration, s.COMPONENT_TRACE) or not request.arguments:
         return ()
     severity, text = str(request.arguments[0]), str(request.arguments[-1])
-    if not Threshold.declared(runtime.ics).knows(severity) or not _is_sendable(runtime, text):
+    if not logs.Threshold.declared(runtime.ics).knows(severity) or not _is_sendable(runtime, text):
         return ()
     if not reply.raised and reply.exception is None:
-        return (check.kept(),)
-    return (
-        check.fail(
-            "raises",
-            expected=f"log({severity}, {_shown(text)}) of '{caller.lane}' returns",
-            observed="it raised" if reply.raised else f"it raised {reply.exception}",
-            at=(request.n, reply.n),
-        ),
+        return check.kept()
+    return check.fail(
+        "raises",
+        expected=f"log({severity}, {_shown(text)}) of '{caller.lane}' returns",
+        observed="it raised" if reply.raised else f"it raised {reply.exception}",
+        at=(request.n, reply.n),
     )
 
 
 @property_at("ended", _SEVERAL, at=("add_component",), feature="policies")
 def traces_supported(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+) -> Concluded:
     """A component may have any number of trace policies."""
     step = ongoing.step
     declaration = runtime.scenario.components.get(step.component) if isinstance(step, s.AddComponent) else None
@@ -98,14 +88,12 @@ def traces_supported(
         return ()
     if only_service(declaration, *TRACES):
         names = ", ".join(policy.definition for policy in policies_of(declaration, *TRACES))
-        return (
-            check.fail(
-                "refused",
-                expected=f"a component with the policies {names} is added",
-                observed=f"add_component raised {end.error} {end.detail}".rstrip(),
-                at=(end.n,),
-                step=ongoing.step_number,
-            ),
+        return check.fail(
+            "refused",
+            expected=f"a component with the policies {names} is added",
+            observed=f"add_component raised {end.error} {end.detail}".rstrip(),
+            at=(end.n,),
+            step=ongoing.step_number,
         )
     return ()
 
@@ -198,7 +186,9 @@ def port_trace_recorded(check: Property, runtime: ObservedRuntime, event: Told) 
             yield check.kept("R-10.1.4.2-32")
 
 
-def _number_problem(runtime: ObservedRuntime, contents: Contents, tracing: Tracing) -> Generator[Taken, None, str]:
+def _number_problem(
+    runtime: ObservedRuntime, contents: logs.Contents, tracing: logs.Tracing
+) -> Generator[Taken, None, str]:
     """What is wrong with the number of records; empty if nothing is, or more may come."""
     found, due, possible = len(tracing.records), tracing.due, tracing.due + tracing.possible
     in_vain = contents.reading.in_vain
@@ -222,7 +212,7 @@ def _readings_of_number(found: int, calls: int, in_vain: bool) -> list[str]:
     return ["call-and-return", "call"] if in_vain and found < 2 * calls else ["call-and-return"]
 
 
-def _has_too_many(runtime: ObservedRuntime, contents: Contents, tracing: Tracing) -> bool:
+def _has_too_many(runtime: ObservedRuntime, contents: logs.Contents, tracing: logs.Tracing) -> bool:
     """Are there more records with the method's name than one, or two, for each call that is traced at a port?"""
     found, most = len(tracing.records), tracing.most
     no_more_to_come = contents.reading.in_vain and not tracing.possible
@@ -231,13 +221,13 @@ def _has_too_many(runtime: ObservedRuntime, contents: Contents, tracing: Tracing
     return found > 2 * most or (between and no_more_to_come) or (one_a_call and most < found < 2 * most)
 
 
-def _may_be_of_others(tracing: Tracing) -> bool:
+def _may_be_of_others(tracing: logs.Tracing) -> bool:
     """Can records that are too many be of calls that are not traced?"""
     most = 2 * (tracing.most + tracing.others)
     return tracing.others > 0 and (not tracing.is_traced or len(tracing.records) <= most)
 
 
-def _wrong_number(check: Property, contents: Contents, tracing: Tracing, problem: str) -> Finding:
+def _wrong_number(check: Property, contents: logs.Contents, tracing: logs.Tracing, problem: str) -> Finding:
     beside = [t for t in contents.tracings.values() if t.ports.keys() & tracing.ports.keys()]
     nothing = problem == "none" and not any(t.records for t in beside)
     return check.fail(
@@ -281,10 +271,10 @@ def port_trace_selective(check: Property, runtime: ObservedRuntime, event: Told)
         )
 
 
-def _unexplained(runtime: ObservedRuntime, contents: Contents) -> int:
+def _unexplained(runtime: ObservedRuntime, contents: logs.Contents) -> int:
     """How many records have come that nobody can explain, while nothing happened but calls that are not traced."""
     interactions = runtime.interactions
-    readings = log_readings(interactions)
+    readings = logs.log_readings(interactions)
     if len(readings) < 2:
         return 0
     before, now = readings[-2:]
@@ -294,7 +284,7 @@ def _unexplained(runtime: ObservedRuntime, contents: Contents) -> int:
     written = [c for c in calls if c.request.port in policy_elements(components.get(c.request.component), *TRACES)]
     if not calls or written or any(isinstance(step, s.ContainerCall) for step in between):
         return 0
-    earlier = contents_of(before, interactions, components, runtime.ics)
+    earlier = logs.contents_of(before, interactions, components, runtime.ics)
     if sum(t.most for t in contents.tracings.values()) > sum(t.most for t in earlier.tracings.values()):
         return 0
     return max(len(contents.strays) - len(earlier.strays), 0)
@@ -315,14 +305,14 @@ def port_trace_severity(check: Property, runtime: ObservedRuntime, event: Told) 
         yield check.fail(
             " or ".join(sorted(tracing.severities)),
             expected=f"records of calls of {tracing.method} with severity {' or '.join(sorted(tracing.severities))}",
-            observed=f"records: {severities_shown(tracing.records)}",
+            observed=f"records: {logs.severities_shown(tracing.records)}",
             at=(contents.reading.begin.n, contents.reading.end.n),
             step=contents.reading.end.step,
         )
 
 
 @property_at("told", _SEVERAL)
-def several_traces(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
+def several_traces(check: Property, runtime: ObservedRuntime, event: Told) -> Concluded:
     """Counts components of which more than one trace policy has been seen to work."""
     contents = _contents(runtime, event)
     if contents is None or contents.surplus:
@@ -334,26 +324,26 @@ def several_traces(check: Property, runtime: ObservedRuntime, event: Told) -> Co
         for component, port in tracing.ports:
             working.setdefault(component, set()).add(port)
     if any(len(ways) > 1 for ways in working.values()):
-        return (check.kept(),)
+        return check.kept()
     return ()
 
 
-def _contents(runtime: ObservedRuntime, event: Told) -> Contents | None:
+def _contents(runtime: ObservedRuntime, event: Told) -> logs.Contents | None:
     """What was read of the log, if that is what the event tells."""
     if not isinstance(event, Return) or event.records is None:
         return None
-    readings = log_readings(runtime.interactions)
+    readings = logs.log_readings(runtime.interactions)
     last = next((reading for reading in readings if reading.end is event), None)
     if last is None:
         return None
-    return contents_of(last, runtime.interactions, runtime.scenario.components, runtime.ics)
+    return logs.contents_of(last, runtime.interactions, runtime.scenario.components, runtime.ics)
 
 
 def _violated(
     check: Property,
     runtime: ObservedRuntime,
-    contents: Contents,
-    message: Message,
+    contents: logs.Contents,
+    message: logs.Message,
     requirement: str,
     cause: str,
     expected: str,

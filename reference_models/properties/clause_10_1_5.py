@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Reply
-from ucm_cts.reference_models.conclusions import Conclusions, takes
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -269,7 +269,7 @@ def _may_be_late(runtime: ObservedRuntime, moment: int) -> bool:
 @property_at("linked", _CALLS, _CLIENTS, _ONE_SERVER, _TEMPLATE)
 def connector_takes_its_ends(
     check: Property, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Result
-) -> Conclusions:
+) -> Concluded:
     """While nothing is started, a connector can be had for each interface, and takes one server and any number of clients."""
     if any(container.started is not False for container in runtime.containers.values()):
         return ()
@@ -277,14 +277,14 @@ def connector_takes_its_ends(
         if step.connector == s.SERVICE_CONNECTOR and isinstance(end, Raise):
             others = [k for k in runtime.interactions.links.values() if k.connector == step.connector]
             if not others or not new_types(runtime, step):  # otherwise a matter of its types
-                return (_refused(check, _TEMPLATE if others else _CALLS, step, end, "made"),)
+                return _refused(check, _TEMPLATE if others else _CALLS, step, end, "made")
         return ()
     if isinstance(step, s.Attach) and link is not None and link.connector == s.SERVICE_CONNECTOR:
         return _attached(check, runtime, link, step, end)
     return ()
 
 
-def _attached(check: Property, runtime: ObservedRuntime, link: LinkState, step: s.Attach, end: Result) -> Conclusions:
+def _attached(check: Property, runtime: ObservedRuntime, link: LinkState, step: s.Attach, end: Result) -> Concluded:
     member = runtime.members.get(step.id)
     if member is None or member.suspended or member.declaration.ports.get(step.port) != link.interface:
         return ()
@@ -295,7 +295,7 @@ def _attached(check: Property, runtime: ObservedRuntime, link: LinkState, step: 
             return _refused_second_server(check, runtime, step, end)
     elif isinstance(end, Raise) and _fits(link, step, bool(servers)):
         clients = [e for e in before if e.role == "client"]
-        return (_refused(check, _CLIENTS if step.role == "client" and clients else _CALLS, step, end, "attached"),)
+        return _refused(check, _CLIENTS if step.role == "client" and clients else _CALLS, step, end, "attached")
     return ()
 
 

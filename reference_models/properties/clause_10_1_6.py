@@ -4,23 +4,11 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Timeout
-from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
+from ucm_cts.reference_models.model import messages as msg
 from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.links import End, LinkState
-from ucm_cts.reference_models.model.messages import (
-    OK,
-    counts,
-    events_of,
-    is_disturbed,
-    is_well,
-    is_whole,
-    lasting,
-    messages,
-    name_of,
-    overdue,
-    was_delivered,
-)
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member
@@ -33,15 +21,15 @@ def messages_arrived(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Counts what the properties about missing messages checked: messages that reached every receiver they had to."""
     arrived: dict[str, set[Member | None]] = {}
     interfaces = set()
-    for call in messages(runtime):
-        ready = [end for end, was_ready in call.targets if was_ready and not counts(end.member)]
-        if call.link is None or not ready or not all(was_delivered(call, end) for end in ready):
+    for call in msg.messages(runtime):
+        ready = [end for end, was_ready in call.targets if was_ready and not msg.counts(end.member)]
+        if call.link is None or not ready or not all(msg.was_delivered(call, end) for end in ready):
             continue
         yield check.kept("R-10.1.6.1-10")
         arrived.setdefault(call.link.name, set()).add(call.caller)
         interfaces.add(call.link.interface)
         if len(ready) > 1:
-            yield check.kept("R-10.1.6.1-08" if is_disturbed(runtime, call) else "R-10.1.6.1-04")
+            yield check.kept("R-10.1.6.1-08" if msg.is_disturbed(runtime, call) else "R-10.1.6.1-04")
     if len(interfaces) > 1:
         yield check.kept("R-10.1.6.1-20")
     for emitters in arrived.values():
@@ -52,8 +40,8 @@ def messages_arrived(check: Property, runtime: ObservedRuntime) -> Conclusions:
 @property_at("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True)
 def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """What entered one receiver enters all that are well; one that is slow or fails costs the others nothing."""
-    for call, missing in overdue(runtime, timeout):
-        refused, disturbed = call.code != OK, is_disturbed(runtime, call)
+    for call, missing in msg.overdue(runtime, timeout):
+        refused, disturbed = call.code != msg.OK, msg.is_disturbed(runtime, call)
         if not call.deliveries and (refused or not disturbed):
             continue  # ok_kept's matter
         if refused and call.crowded:
@@ -68,15 +56,15 @@ def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
     """Whether the others have the message while one of its receivers is held."""
     interactions = runtime.interactions
     held = {(event.component, event.instance) for event in interactions.held}
-    for call in messages(runtime):
+    for call in msg.messages(runtime):
         holding = {d.receiver for d in call.deliveries if d.receiver is not None and d.exit is None}
         own = {(member.component, member.instance or 0) for member in holding}
-        if not held or not held <= own or not is_whole(runtime, call) or (call.reply is not None and call.code != OK):
+        if not held or not held <= own or not msg.is_whole(runtime, call) or (call.reply is not None and call.code != msg.OK):
             continue
         if timeout.t - call.request.t < runtime.scenario.patience * 900_000:
             continue
-        others = [end for end in lasting(runtime, call) if end.member not in holding and is_well(end.member)]
-        missing = [end for end in others if not was_delivered(call, end)]
+        others = [end for end in msg.lasting(runtime, call) if end.member not in holding and msg.is_well(end.member)]
+        missing = [end for end in others if not msg.was_delivered(call, end)]
         if missing and not (yield from takes(runtime, "slow-receiver", "shared")):
             yield _missing(check, "R-10.1.6.1-08", call, missing, "they wait for one that is slow", timeout)
         elif others and not missing:
@@ -86,10 +74,10 @@ def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
 @property_at("waited", "R-10.1.6.1-03", timed=True)
 def many_emitters(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Messages of each emitter arrive, not of one only."""
-    for call, missing in overdue(runtime, timeout):
-        if call.code != OK or call.deliveries:
+    for call, missing in msg.overdue(runtime, timeout):
+        if call.code != msg.OK or call.deliveries:
             continue
-        arrived = {c.caller for c in messages(runtime) if c.link is call.link and c.deliveries}
+        arrived = {c.caller for c in msg.messages(runtime) if c.link is call.link and c.deliveries}
         if arrived and call.caller not in arrived:
             yield _missing(check, "R-10.1.6.1-03", call, missing, "only another emitter's came", timeout)
 
@@ -97,29 +85,27 @@ def many_emitters(check: Property, runtime: ObservedRuntime, timeout: Timeout) -
 @property_at("waited", "R-10.1.6.1-20", timed=True)
 def message_template(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Messages of each type arrive, not of one only."""
-    for call, missing in overdue(runtime, timeout):
-        arrived = {c.link.interface for c in messages(runtime) if c.link is not None and c.deliveries}
-        if call.code != OK or call.link is None or not arrived or call.link.interface in arrived:
+    for call, missing in msg.overdue(runtime, timeout):
+        arrived = {c.link.interface for c in msg.messages(runtime) if c.link is not None and c.deliveries}
+        if call.code != msg.OK or call.link is None or not arrived or call.link.interface in arrived:
             continue
         yield _missing(check, "R-10.1.6.1-20", call, missing, "only another type's came", timeout)
 
 
 @property_at("delivered", "R-10.1.6.1-05")
-def at_most_once(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
+def at_most_once(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Concluded:
     """One push enters each receiver once."""
     call = delivery.call
     if call is None or not call.is_message or delivery.receiver is None:
         return ()
     if delivery.fit != "repeated":
-        return (check.kept(),)
+        return check.kept()
     times = len(call.delivered_to(delivery.receiver, delivery.enter.port))
-    return (
-        check.fail(
-            "repeated",
-            expected=f"{name_of(call)} enters {delivery.receiver.lane} once",
-            observed=f"it was entered {times} times",
-            at=events_of(call, delivery.enter.n),
-        ),
+    return check.fail(
+        "repeated",
+        expected=f"{msg.name_of(call)} enters {delivery.receiver.lane} once",
+        observed=f"it was entered {times} times",
+        at=msg.events_of(call, delivery.enter.n),
     )
 
 
@@ -135,14 +121,14 @@ def message_origin(check: Property, runtime: ObservedRuntime) -> Conclusions:
             yield check.fail(
                 "no receiver any more",
                 expected=f"{receiver.lane} gets nothing that is pushed when it is no longer a receiver",
-                observed=f"it got {name_of(call)}",
-                at=events_of(call, enter.n),
+                observed=f"it got {msg.name_of(call)}",
+                at=msg.events_of(call, enter.n),
             )
             continue
         if delivery.fit != "stray":
             yield check.kept()
             continue
-        elsewhere = [c for c in messages(runtime) if c.request.arguments == enter.arguments and c.link is not link]
+        elsewhere = [c for c in msg.messages(runtime) if c.request.arguments == enter.arguments and c.link is not link]
         what = "which was pushed through another connection" if elsewhere else "which nobody had pushed"
         yield check.fail(
             "another connection" if elsewhere else "invented",
@@ -158,7 +144,7 @@ def message_order(check: Property, runtime: ObservedRuntime, delivery: Delivery)
     call = delivery.call
     if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
         return
-    others = [c for c in messages(runtime) if c.caller is call.caller and c.link is call.link and c is not call]
+    others = [c for c in msg.messages(runtime) if c.caller is call.caller and c.link is call.link and c is not call]
     came = [c for c in others if c.delivered_to(delivery.receiver, delivery.enter.port)]
     overtaken = [c for c in came if call.reply is not None and call.reply.n < c.request.n]
     if overtaken:
@@ -166,9 +152,9 @@ def message_order(check: Property, runtime: ObservedRuntime, delivery: Delivery)
         if not (yield from takes(runtime, "message-order", "unordered")):
             yield check.fail(
                 "overtaken",
-                expected=f"{name_of(call)} comes before {name_of(overtaken[0])}, which was pushed later",
+                expected=f"{msg.name_of(call)} comes before {msg.name_of(overtaken[0])}, which was pushed later",
                 observed="it came after it",
-                at=events_of(call, overtaken[0].request.n, delivery.enter.n),
+                at=msg.events_of(call, overtaken[0].request.n, delivery.enter.n),
             )
     elif any(c.reply is not None and c.reply.n < call.request.n for c in came):
         yield check.kept()
@@ -176,7 +162,7 @@ def message_order(check: Property, runtime: ObservedRuntime, delivery: Delivery)
 
 
 @property_at("delivered", "R-10.1.6.1-19")
-def values_isolated(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
+def values_isolated(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Concluded:
     """Who overwrites what he pushed or got changes what nobody else sees."""
     call = delivery.call
     if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
@@ -190,15 +176,13 @@ def values_isolated(check: Property, runtime: ObservedRuntime, delivery: Deliver
         return ()
     pushed, got = list(call.request.arguments or ()), list(enter.arguments or ())
     if delivery.fit == "same":
-        return (check.kept(),)
+        return check.kept()
     if got in overwritten(pushed):
-        return (
-            check.fail(
-                "overwritten",
-                expected=f"{enter.component} gets {pushed} as it was pushed",
-                observed=f"it got {got}, after {' and '.join(owners)} had overwritten what is theirs",
-                at=events_of(call, enter.n),
-            ),
+        return check.fail(
+            "overwritten",
+            expected=f"{enter.component} gets {pushed} as it was pushed",
+            observed=f"it got {got}, after {' and '.join(owners)} had overwritten what is theirs",
+            at=msg.events_of(call, enter.n),
         )
     return ()
 
@@ -206,7 +190,7 @@ def values_isolated(check: Property, runtime: ObservedRuntime, delivery: Deliver
 @property_at("linked", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-10", "R-10.1.6.1-20")
 def message_connector(
     check: Property, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Result
-) -> Conclusions:
+) -> Concluded:
     """A message connector can be had for each type, and any number of emitters and receivers can be joined by it."""
     if not isinstance(end, Raise) or any(c.started is not False for c in runtime.containers.values()):
         return ()
@@ -228,17 +212,15 @@ def message_connector(
     else:
         return ()
     observed = f"it raised {end.error} {end.detail}"
-    return (
-        check.fail(
-            s.operation(step), expected=what, observed=observed, at=(end.n,), step=end.step, requirement=requirement
-        ),
+    return check.fail(
+        s.operation(step), expected=what, observed=observed, at=(end.n,), step=end.step, requirement=requirement
     )
 
 
 @property_at("ended", "R-10.1.6.1-10", at=("start",), feature="interactions")
 def joined_and_started(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+) -> Concluded:
     """Whoever is joined by a message connector can be started."""
     if not isinstance(end, Raise) or ongoing.forgiving:
         return ()
@@ -250,14 +232,12 @@ def joined_and_started(
     links = [link for link in runtime.interactions.links.values() if link.connector == s.MESSAGE_CONNECTOR]
     joined = [link.name for link in links if any(e.member in members for e in link.live("emitter", "receiver"))]
     if joined:
-        return (
-            check.fail(
-                "start",
-                expected=f"what is joined by {joined[0]} is started",
-                observed=f"start raised {end.error} {end.detail}",
-                at=(ongoing.call, end.n),
-                step=ongoing.step_number,
-            ),
+        return check.fail(
+            "start",
+            expected=f"what is joined by {joined[0]} is started",
+            observed=f"start raised {end.error} {end.detail}",
+            at=(ongoing.call, end.n),
+            step=ongoing.step_number,
         )
     return ()
 
@@ -272,19 +252,14 @@ def _overwrites(receiver: Member) -> bool:
 
 
 def _missing(
-    check: Property,
-    requirement: str,
-    call: MethodCall,
-    missing: list[End],
-    observed: str,
-    timeout: Timeout,
+    check: Property, requirement: str, call: MethodCall, missing: list[End], observed: str, timeout: Timeout
 ) -> Finding:
     names = ", ".join(sorted(end.member.lane for end in missing))
     return check.fail(
         "missing",
-        expected=f"{name_of(call)} comes to {names}",
+        expected=f"{msg.name_of(call)} comes to {names}",
         observed=f"it did not come; {observed}",
-        at=events_of(call, timeout.n),
+        at=msg.events_of(call, timeout.n),
         step=timeout.step,
         requirement=requirement,
     )

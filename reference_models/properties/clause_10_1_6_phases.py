@@ -4,23 +4,9 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Timeout
-from ucm_cts.reference_models.conclusions import Conclusions, takes
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
+from ucm_cts.reference_models.model import messages as msg
 from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
-from ucm_cts.reference_models.model.messages import (
-    CODES,
-    OK,
-    counts,
-    events_of,
-    is_quiet,
-    is_well,
-    is_whole,
-    messages,
-    name_of,
-    of_one_phase,
-    pushed_before_start,
-    waited_for,
-    was_delivered,
-)
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member
@@ -28,7 +14,7 @@ from ucm_cts.reference_models.properties.declaration import Property, property_a
 
 
 @property_at("delivered", "R-10.1.6.1-09")
-def message_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
+def message_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Concluded:
     """No message enters a receiver before start was called on its container, or after stop returned."""
     receiver, call = delivery.receiver, delivery.call
     if receiver is None or receiver.suspended or (call is not None and not call.is_message):
@@ -38,18 +24,16 @@ def message_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery
     in_progress = runtime.interactions.in_progress.values()
     if receiver.operational or any(isinstance(o.step, s.Start) for o in in_progress):
         if call is not None and _was_kept_waiting(runtime, call, receiver):
-            return (check.kept(),)
+            return check.kept()
         return ()
     if receiver.container.started is not False:
         return ()
     when = "after it was stopped" if receiver.startups else "before it was started"
-    return (
-        check.fail(
-            when,
-            expected=f"{receiver.lane} gets messages in its operational phase only",
-            observed=f"{list(delivery.enter.arguments or ())} entered it {when}",
-            at=(delivery.enter.n,),
-        ),
+    return check.fail(
+        when,
+        expected=f"{receiver.lane} gets messages in its operational phase only",
+        observed=f"{list(delivery.enter.arguments or ())} entered it {when}",
+        at=(delivery.enter.n,),
     )
 
 
@@ -57,7 +41,7 @@ def message_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery
 def later_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """A message of an earlier phase comes in a later one only if the vendor has not declared that it does not."""
     call, receiver = delivery.call, delivery.receiver
-    if call is None or receiver is None or not call.is_message or not pushed_before_start(runtime, delivery):
+    if call is None or receiver is None or not call.is_message or not msg.pushed_before_start(runtime, delivery):
         return
     ready = [was_ready for end, was_ready in call.targets if end.member is receiver]
     was_idle = any(end.member is receiver for end in call.idle)
@@ -67,35 +51,41 @@ def later_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) 
     if not (yield from takes(runtime, option, value)):
         yield check.fail(
             option,
-            expected=f"{option} was declared as {runtime.ics.reading(option)}: {name_of(call)} does not come after a start",
+            expected=f"{option} was declared as {runtime.ics.reading(option)}: {msg.name_of(call)} does not come after a start",
             observed=f"it entered {receiver.lane} after its next start",
-            at=events_of(call, delivery.enter.n),
+            at=msg.events_of(call, delivery.enter.n),
         )
 
 
 @property_at("waited", "R-10.1.6.1-09", timed=True)
 def kept_for_later_phases(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """A message that waits for the next start comes then, where the vendor has declared it."""
-    for call in messages(runtime):
-        if call.code != OK or not is_whole(runtime, call):
+    for call in msg.messages(runtime):
+        if call.code != msg.OK or not msg.is_whole(runtime, call):
             continue
         for end, was_ready in call.targets:
             since, _ = runtime.startups.get((end.member.component, end.member.instance or 0), (0, 0))
-            lost = end.member.serving and end.until is None and since > call.request.n and not was_delivered(call, end)
-            if not lost or counts(end.member) or not waited_for(runtime, timeout, call.reply.t if call.reply else 0):
+            lost = (
+                end.member.serving and end.until is None and since > call.request.n and not msg.was_delivered(call, end)
+            )
+            if (
+                not lost
+                or msg.counts(end.member)
+                or not msg.waited_for(runtime, timeout, call.reply.t if call.reply else 0)
+            ):
                 continue
             if not was_ready and end not in call.idle:
                 continue
             option = "pending-at-stop" if was_ready else "receiver-not-ready"
             if not (yield from takes(runtime, option, "drop")):
                 expected = (
-                    f"{option} was declared as {runtime.ics.reading(option)}: {name_of(call)} comes after the start"
+                    f"{option} was declared as {runtime.ics.reading(option)}: {msg.name_of(call)} comes after the start"
                 )
                 yield check.fail(
                     option,
                     expected=expected,
                     observed=f"it never came to {end.member.lane}",
-                    at=events_of(call, timeout.n),
+                    at=msg.events_of(call, timeout.n),
                 )
 
 
@@ -106,39 +96,39 @@ def delivered_at_stop(
     """All that had got ok has arrived when stop returns, where the vendor has declared it."""
     if isinstance(end, Raise):
         return
-    for call in messages(runtime):
-        for target in of_one_phase(runtime, call) if call.code == OK and is_whole(runtime, call) else ():
-            here = target.member.container is ongoing.container and not counts(target.member)
-            if not here or call.request.n > ongoing.call or was_delivered(call, target):
+    for call in msg.messages(runtime):
+        for target in msg.of_one_phase(runtime, call) if call.code == msg.OK and msg.is_whole(runtime, call) else ():
+            here = target.member.container is ongoing.container and not msg.counts(target.member)
+            if not here or call.request.n > ongoing.call or msg.was_delivered(call, target):
                 continue
             if runtime.ics.reading("pending-at-stop") == "deliver":
                 yield check.fail(
                     "pending-at-stop",
-                    expected=f"pending-at-stop was declared as deliver: {name_of(call)} is delivered when stop returns",
+                    expected=f"pending-at-stop was declared as deliver: {msg.name_of(call)} is delivered when stop returns",
                     observed=f"it had not come to {target.member.lane}",
-                    at=events_of(call, end.n),
+                    at=msg.events_of(call, end.n),
                 )
 
 
 @property_at("completed", "R-10.1.6.1-09")
 def unready_receivers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """What is pushed to a receiver that is not operational is answered as the vendor has declared."""
-    if not call.is_message or not call.idle or not is_whole(runtime, call) or not is_quiet(runtime, call):
+    if not call.is_message or not call.idle or not msg.is_whole(runtime, call) or not msg.is_quiet(runtime, call):
         return
     others = [end for end, ready in call.targets if ready and end not in call.idle]
-    if len(others) + len(call.idle) < len(call.targets) or not all(is_well(end.member) for end in others):
+    if len(others) + len(call.idle) < len(call.targets) or not all(msg.is_well(end.member) for end in others):
         return
-    refused = call.code in CODES and call.code != OK
+    refused = call.code in msg.CODES and call.code != msg.OK
     declared = runtime.ics.reading("receiver-not-ready")
     if (refused and not (yield from takes(runtime, "receiver-not-ready", "error"))) or (
-        declared == "error" and call.code == OK
+        declared == "error" and call.code == msg.OK
     ):
         expected = f"is answered as receiver-not-ready was declared: {declared}"
         yield check.fail(
             "receiver-not-ready",
-            expected=f"{name_of(call)} {expected}",
+            expected=f"{msg.name_of(call)} {expected}",
             observed=f"the answer was {call.code}",
-            at=events_of(call),
+            at=msg.events_of(call),
         )
 
 
@@ -148,6 +138,6 @@ def _was_kept_waiting(runtime: ObservedRuntime, call: MethodCall, receiver: Memb
     starts = [o.begin.n for o in runtime.interactions.operations if isinstance(o.step, s.Start)]
     started = max((n for n in starts if n < since), default=0)
     last = min(call.request.n, started - 1)
-    earlier = [c for c in messages(runtime) if c.link is call.link and c.request.n <= last]
+    earlier = [c for c in msg.messages(runtime) if c.link is call.link and c.request.n <= last]
     pending = [c for c in earlier if all(d.enter.n > since for d in c.delivered_to(receiver))]
     return any(end.member is receiver for c in pending for end, _ in c.targets)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import read_spelled, spell
 from ucm_cts.adapters.contract.trace import Enter, Reference, Return, Siblings
-from ucm_cts.reference_models.conclusions import Conclusions
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -74,31 +74,29 @@ def _holds_others(
 @property_at("ended", "R-11.2.1.2-08", at=("start",))
 def configuration_first(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+) -> Concluded:
     """Once start has started a member, nothing of the container is initialised or connected any more."""
     if not isinstance(end, Return):
         return ()
     own = [m for m in ongoing.container.live_members() if m.instance is not None] if ongoing.callbacks else []
     late = [c for m in own for c in (*ongoing.received(m, "on_init"), *ongoing.received(m, "on_connect"))]
     if late:
-        return (
-            check.fail(
-                late[0].hook,
-                expected="when start is called, every member is initialised and connected",
-                observed=f"{late[0].component} received {late[0].hook} during start",
-                at=tuple(c.n for c in late),
-                step=ongoing.step_number,
-            ),
+        return check.fail(
+            late[0].hook,
+            expected="when start is called, every member is initialised and connected",
+            observed=f"{late[0].component} received {late[0].hook} during start",
+            at=tuple(c.n for c in late),
+            step=ongoing.step_number,
         )
     if sum(bool(ongoing.received(m, "on_startup")) for m in own) > 1:
-        return (check.kept(),)
+        return check.kept()
     return ()
 
 
 @property_at("entered", "R-11.2.1.3-04", at=("on_connect",))
 def connect_arguments(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+) -> Concluded:
     """on_connect is given the port element's name and the reference that connect was given."""
     if ongoing is None or not isinstance(ongoing.step, s.Connect):
         return ()
@@ -116,25 +114,21 @@ def connect_arguments(
         isinstance(event.reference, Reference) and isinstance(reference, Reference) and event.reference != reference
     )
     if not wrong and not wrong_reference:
-        return (check.kept(),)
-    return (
-        check.fail(
-            "name" if wrong else "reference",
-            expected=f"on_connect({ongoing.step.port}, {_show(reference)})",
-            observed=f"on_connect({event.port}, {_show(event.reference)})",
-            at=(event.n,),
-            step=ongoing.step_number,
-            instead=(
-                Arrow(ongoing.container.name, member.lane, f"on_connect({ongoing.step.port}, {_show(reference)})"),
-            ),
-        ),
+        return check.kept()
+    return check.fail(
+        "name" if wrong else "reference",
+        expected=f"on_connect({ongoing.step.port}, {_show(reference)})",
+        observed=f"on_connect({event.port}, {_show(event.reference)})",
+        at=(event.n,),
+        step=ongoing.step_number,
+        instead=(Arrow(ongoing.container.name, member.lane, f"on_connect({ongoing.step.port}, {_show(reference)})"),),
     )
 
 
 @property_at("entered", "R-11.2.1.3-06", at=("on_disconnect",))
 def disconnect_arguments(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+) -> Concluded:
     """on_disconnect is given the name of the port element whose connection is undone."""
     if ongoing is None:
         return ()
@@ -148,24 +142,22 @@ def disconnect_arguments(
     if not ports:
         return ()
     if event.port in ports:
-        return (check.kept(),)
+        return check.kept()
     wanted = " or ".join(sorted(ports))
-    return (
-        check.fail(
-            "name",
-            expected=f"on_disconnect({wanted})",
-            observed=f"on_disconnect({event.port})",
-            at=(event.n,),
-            step=ongoing.step_number,
-            instead=(Arrow(ongoing.container.name, member.lane, f"on_disconnect({wanted})"),),
-        ),
+    return check.fail(
+        "name",
+        expected=f"on_disconnect({wanted})",
+        observed=f"on_disconnect({event.port})",
+        at=(event.n,),
+        step=ongoing.step_number,
+        instead=(Arrow(ongoing.container.name, member.lane, f"on_disconnect({wanted})"),),
     )
 
 
 @property_at("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"), feature="fragments")
 def container_interface(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+) -> Concluded:
     """A fragment gets its container's interface exactly once, before on_startup."""
     declaration = runtime.scenario.components.get(event.component)
     if declaration is None or not declaration.fragment:
@@ -174,27 +166,25 @@ def container_interface(
     first_start = event.hook == "on_startup" and not history.begun
     again = event.hook == "set_container_interface" and given > 0
     if first_start and given == 1:
-        return (check.kept(),)
+        return check.kept()
     if again or (first_start and given == 0):
-        return (
-            check.fail(
-                "twice" if again else "never",
-                expected="set_container_interface comes once, before on_startup",
-                observed="set_container_interface came again"
-                if again
-                else "on_startup came without set_container_interface",
-                at=(event.n,) if again else tuple(sorted({history.first_at or event.n, event.n})),
-                step=ongoing.step_number if ongoing else None,
-                instead=(
-                    Arrow(ongoing.container.name if ongoing else "manager", event.component, "set_container_interface"),
-                ),
+        return check.fail(
+            "twice" if again else "never",
+            expected="set_container_interface comes once, before on_startup",
+            observed="set_container_interface came again"
+            if again
+            else "on_startup came without set_container_interface",
+            at=(event.n,) if again else tuple(sorted({history.first_at or event.n, event.n})),
+            step=ongoing.step_number if ongoing else None,
+            instead=(
+                Arrow(ongoing.container.name if ongoing else "manager", event.component, "set_container_interface"),
             ),
         )
     return ()
 
 
 @property_at("noted", "R-11.2.1.4-03")
-def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Siblings) -> Conclusions:
+def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Siblings) -> Concluded:
     """What a fragment learns of its container's members is what they are, unless an operation is changing that."""
     member = runtime.member_of(event.component, event.instance)
     if ongoing is not None or member is None or not member.declaration.fragment:
@@ -203,14 +193,12 @@ def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event:
         return ()
     problem = "the query failed" if event.raised else listing_problem(runtime, member.container, event.ids)
     if problem is None:
-        return (check.kept(),)
-    return (
-        check.fail(
-            problem.split()[0],
-            expected=f"the fragment sees {[m.id for m in member.container.live_members()]}",
-            observed=f"the fragment sees {list(event.ids)}: {problem}",
-            at=(event.n,),
-        ),
+        return check.kept()
+    return check.fail(
+        problem.split()[0],
+        expected=f"the fragment sees {[m.id for m in member.container.live_members()]}",
+        observed=f"the fragment sees {list(event.ids)}: {problem}",
+        at=(event.n,),
     )
 
 

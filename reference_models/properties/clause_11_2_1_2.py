@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
-from ucm_cts.reference_models.conclusions import Conclusions
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -24,7 +24,7 @@ def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
 @property_at("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
 def dependencies(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+) -> Concluded:
     """on_startup names each connected required port element and gives the reference it was connected to."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended or member.operational:
@@ -41,16 +41,14 @@ def dependencies(
             )
         return ()
     requirement, cause, expected, observed = problem
-    return (
-        check.fail(
-            cause,
-            expected=expected,
-            observed=observed,
-            at=(event.n,),
-            step=ongoing.step_number if ongoing else None,
-            instead=(Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
-            requirement="R-11.2.3-10" if again else requirement,
-        ),
+    return check.fail(
+        cause,
+        expected=expected,
+        observed=observed,
+        at=(event.n,),
+        step=ongoing.step_number if ongoing else None,
+        instead=(Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
+        requirement="R-11.2.3-10" if again else requirement,
     )
 
 

@@ -6,7 +6,7 @@ import itertools
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Reference, Return
-from ucm_cts.reference_models.conclusions import Broken, Conclusions
+from ucm_cts.reference_models.conclusions import Broken, Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -68,13 +68,13 @@ _FROM_TABLE = [
 @property_at("ended", *DECLARED.values())
 def declared_errors(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+) -> Concluded:
     """Nothing but the declared exceptions leaves an operation."""
     requirement, declared = DECLARED[ongoing.operation], DECLARED_ERRORS[ongoing.operation]
     if isinstance(end, Return) or end.error in declared:
-        return (check.kept(requirement),)
+        return check.kept(requirement)
     name = end.error if end.error != "UNDECLARED" else f"an undeclared exception ({end.detail})"
-    violation = check.fail(
+    return check.fail(
         f"{ongoing.operation} {end.error}",
         expected=f"{ongoing.operation} returns or raises {' or '.join(declared)}",
         observed=f"{ongoing.operation} raised {name}",
@@ -83,13 +83,14 @@ def declared_errors(
         instead=(Arrow(ongoing.container.name, "test", f"return or {' or '.join(declared)}"),),
         requirement=requirement,
     )
-    return (violation,)
 
 
 @property_at("ended", *_FROM_TABLE)
-def outcomes(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def outcomes(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """The operation ends in a way that the life-cycle table permits for every instance concerned."""
     outcome = ongoing.outcome
+    if outcome.forbidding is None and len(outcome.permitting) == 1:  # the common case
+        return outcome.permitting[0].requirement
     kept = [check.kept(row.requirement) for row in outcome.permitting]
     return kept if outcome.forbidding is None else (*kept, *_forbidden(check, ongoing, outcome.forbidding, end))
 
@@ -115,7 +116,7 @@ def _forbidden(
 
 
 @property_at("ended", "R-11.2.2.1-03", "R-12.10-02", at=("add_component",))
-def component_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def component_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """Component ids are 32-bit, and distinct among the live members of a container."""
     if isinstance(end, Return):
         live = [m.id for m in ongoing.container.live_members() if not m.doubtful]
@@ -124,7 +125,7 @@ def component_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationI
 
 
 @property_at("ended", "R-11.2.2.1-09", "R-12.10-03", at=("connect",))
-def connection_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def connection_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """Connection ids are 32-bit, and distinct among the live connections of a container."""
     if isinstance(end, Return) and ongoing.outcome.permitted:
         assert isinstance(ongoing.step, s.Connect)
@@ -136,13 +137,7 @@ def connection_ids(check: Property, runtime: ObservedRuntime, ongoing: Operation
 
 
 def _identifier(
-    check: Property,
-    ongoing: OperationInProgress,
-    end: Return,
-    live: list[int],
-    kind: str,
-    unique: str,
-    in_range: str,
+    check: Property, ongoing: OperationInProgress, end: Return, live: list[int], kind: str, unique: str, in_range: str
 ) -> Conclusions:
     value = end.value
     if not isinstance(value, int) or not _SMALLEST <= value <= _LARGEST:
@@ -174,7 +169,7 @@ def _identifier(
 @property_at("ended", "R-11.2.2.1-06", at=("get_port_element",))
 def port_element_identity(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+) -> Concluded:
     """get_port_element gives the object that the designated body made for that name."""
     if not isinstance(ongoing.step, s.GetPortElement) or not isinstance(end, Return):
         return ()
@@ -184,23 +179,21 @@ def port_element_identity(
     if isinstance(end.value, Reference) or end.value is None:
         wanted = Reference(member.component, member.instance or 1, port)
         if end.value == wanted:
-            return (check.kept(),)
+            return check.kept()
         got = f"{end.value.component}'s {end.value.port}" if isinstance(end.value, Reference) else "a null reference"
-        return (
-            check.fail(
-                "null" if end.value is None else "another object",
-                expected=f"get_port_element returns {member.lane}'s own {port}",
-                observed=f"get_port_element returned {got}",
-                at=(ongoing.call, end.n),
-                step=ongoing.step_number,
-                instead=(Arrow(ongoing.container.name, "test", f"{member.lane}.{port}"),),
-            ),
+        return check.fail(
+            "null" if end.value is None else "another object",
+            expected=f"get_port_element returns {member.lane}'s own {port}",
+            observed=f"get_port_element returned {got}",
+            at=(ongoing.call, end.n),
+            step=ongoing.step_number,
+            instead=(Arrow(ongoing.container.name, "test", f"{member.lane}.{port}"),),
         )
     return ()
 
 
 @property_at("ended", "R-11.2.2.1-14", "R-12.10-22", at=("get_components",))
-def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """get_components lists exactly the live members; a failed add has left nothing among them."""
     if not isinstance(end, Return) or not ongoing.outcome.permitted:
         return ()
@@ -212,15 +205,13 @@ def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
     if problem is None:
         return (check.kept(requirement), check.kept("R-11.2.2.1-14"))
     members = ", ".join(f"{m.id} ({m.lane})" for m in ongoing.container.live_members()) or "none"
-    return (
-        check.fail(
-            problem.split()[0],
-            expected=f"get_components lists the members: {members}",
-            observed=f"get_components returned {list(listed)}: {problem}",
-            at=(ongoing.call, end.n),
-            step=ongoing.step_number,
-            requirement=requirement,
-        ),
+    return check.fail(
+        problem.split()[0],
+        expected=f"get_components lists the members: {members}",
+        observed=f"get_components returned {list(listed)}: {problem}",
+        at=(ongoing.call, end.n),
+        step=ongoing.step_number,
+        requirement=requirement,
     )
 
 
@@ -244,28 +235,26 @@ def listing_problem(runtime: ObservedRuntime, container: Container, listed: tupl
 
 
 @property_at("ended", "R-11.2.2.1-02", at=("add_component",))
-def right_body(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def right_body(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """The one body initialised by add_component is of the implementation asked for."""
     new = ongoing.outcome.initialised
     if not new or not isinstance(ongoing.step, s.AddComponent):
         return ()
     if ongoing.outcome.right_body:
-        return (check.kept(),)
+        return check.kept()
     bodies = sorted({(c.component, c.instance) for c in new})
-    return (
-        check.fail(
-            "wrong body" if len(bodies) == 1 else "several bodies",
-            expected=f"add_component initialises one body of {ongoing.step.component}",
-            observed=f"add_component initialised {', '.join(f'{c}#{i}' for c, i in bodies)}",
-            at=tuple(c.n for c in new),
-            step=ongoing.step_number,
-            instead=(Arrow(ongoing.container.name, ongoing.step.component, "on_init"),),
-        ),
+    return check.fail(
+        "wrong body" if len(bodies) == 1 else "several bodies",
+        expected=f"add_component initialises one body of {ongoing.step.component}",
+        observed=f"add_component initialised {', '.join(f'{c}#{i}' for c, i in bodies)}",
+        at=tuple(c.n for c in new),
+        step=ongoing.step_number,
+        instead=(Arrow(ongoing.container.name, ongoing.step.component, "on_init"),),
     )
 
 
 @property_at("ended", "R-11.2.2.1-13", at=("stop",))
-def stop_order(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def stop_order(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """stop shuts members down in the reverse of the order they were started in, where they were not started at a time."""
     if not isinstance(end, Return) or runtime.ics.reading("start-order") == "at-once":
         return ()
@@ -277,15 +266,13 @@ def stop_order(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
         return ()
     if not any(runtime.started_before(one, other) for one, other in itertools.combinations(stopped, 2)):
         if stopped == expected:
-            return (check.kept(),)
+            return check.kept()
         return ()
-    return (
-        check.fail(
-            "order",
-            expected=f"stop shuts down {', '.join(m.lane for m in expected)}, the reverse of the start",
-            observed=f"stop shut down {', '.join(m.lane for m in stopped)}",
-            at=tuple(when[id(m)][0].n for m in stopped),
-            step=ongoing.step_number,
-            instead=tuple(Arrow(ongoing.container.name, m.lane, "on_shutdown") for m in expected),
-        ),
+    return check.fail(
+        "order",
+        expected=f"stop shuts down {', '.join(m.lane for m in expected)}, the reverse of the start",
+        observed=f"stop shut down {', '.join(m.lane for m in stopped)}",
+        at=tuple(when[id(m)][0].n for m in stopped),
+        step=ongoing.step_number,
+        instead=tuple(Arrow(ongoing.container.name, m.lane, "on_shutdown") for m in expected),
     )

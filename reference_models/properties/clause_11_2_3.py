@@ -5,19 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract.trace import Enter
-from ucm_cts.reference_models.conclusions import Broken, Conclusions, Suspended
+from ucm_cts.reference_models.conclusions import Broken, Concluded, Conclusions, Suspended
 from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.model import operation as op
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.expected_callbacks import CONNECTABLE_HOOKS, LIFE_CYCLE_HOOKS
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import (
-    Deviating,
-    Intrusion,
-    Ongoing,
-    OperationEnd,
-    OperationInProgress,
-    Result,
-)
 from ucm_cts.reference_models.model.operation_end import OF_ALL_MEMBERS
 from ucm_cts.reference_models.model.runtime import Member, lane, raises
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -47,14 +40,18 @@ _FROM_TABLE = [
 
 
 @property_at("ended", *_FROM_TABLE)
-def callbacks(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def callbacks(
+    check: Property, runtime: ObservedRuntime, ongoing: op.OperationInProgress, end: op.Result
+) -> Concluded:
     """Each instance receives exactly the callbacks that the life-cycle table asks for, in its order."""
     outcome = ongoing.outcome
     fits = [fit for _, _, fit in outcome.fitted]
     return fits if outcome.is_plain else (*fits, *_peculiarities(check, ongoing, outcome, end))
 
 
-def _peculiarities(check: Property, ongoing: OperationInProgress, outcome: OperationEnd, end: Result) -> Conclusions:
+def _peculiarities(
+    check: Property, ongoing: op.OperationInProgress, outcome: op.OperationEnd, end: op.Result
+) -> Conclusions:
     for intrusion in outcome.intrusions:
         yield _intrudes(check, ongoing, intrusion)
         yield Suspended(intrusion.member)
@@ -72,7 +69,7 @@ def _peculiarities(check: Property, ongoing: OperationInProgress, outcome: Opera
             yield Suspended(role.member)
 
 
-def _deviates(check: Property, ongoing: OperationInProgress, role: Deviating, end: Result) -> Finding:
+def _deviates(check: Property, ongoing: op.OperationInProgress, role: op.Deviating, end: op.Result) -> Finding:
     _, row, who, events, deviation = role
     hook, operation, container = deviation.hook, ongoing.operation, ongoing.container.name
     if deviation.missing:
@@ -100,7 +97,7 @@ def _deviates(check: Property, ongoing: OperationInProgress, role: Deviating, en
     )
 
 
-def _intrudes(check: Property, ongoing: OperationInProgress, intrusion: Intrusion) -> Finding:
+def _intrudes(check: Property, ongoing: op.OperationInProgress, intrusion: op.Intrusion) -> Finding:
     operation, who, hook = ongoing.operation, intrusion.member.lane, intrusion.events[0].hook
     other = "another container" if intrusion.elsewhere else "another instance"
     return check.fail(
@@ -114,7 +111,7 @@ def _intrudes(check: Property, ongoing: OperationInProgress, intrusion: Intrusio
     )
 
 
-def _reaches_nobody(check: Property, ongoing: OperationInProgress, members: Sequence[Member], end: int) -> Finding:
+def _reaches_nobody(check: Property, ongoing: op.OperationInProgress, members: Sequence[Member], end: int) -> Finding:
     """A successful start or stop of the manager reaches none of its own members (11.2.2.2)."""
     hook = OF_ALL_MEMBERS[ongoing.operation]
     return check.fail(
@@ -128,7 +125,7 @@ def _reaches_nobody(check: Property, ongoing: OperationInProgress, members: Sequ
     )
 
 
-def _is_stray(runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, member: Member) -> bool:
+def _is_stray(runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, member: Member) -> bool:
     """Does a life-cycle callback come while no operation of the container is in progress?"""
     if ongoing is not None or member.suspended or member.gone:
         return False  # whoever is joined by a connector is connected, too
@@ -137,8 +134,8 @@ def _is_stray(runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, member: 
 
 @property_at("entered", "R-11.1.1-01", "R-11.1.2-01", at=LIFE_CYCLE_HOOKS)
 def whole_life(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory
+) -> Concluded:
     """Life-cycle callbacks come during operations of the container; a whole life has them in order."""
     if ongoing is not None and event.hook != "on_remove":
         return ()
@@ -158,11 +155,11 @@ def whole_life(
         )
         return finding, Suspended(member)
     if ongoing is not None and not member.suspended and history.is_whole_life:
-        return (check.kept(requirement),)
+        return check.kept(requirement)
     return ()
 
 
-def outside_life(runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory) -> str:
+def outside_life(runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory) -> str:
     """When a callback comes that is not to come before on_init or after on_remove; empty if it may come."""
     early, late = event.hook != "on_init" and not history.initialised, history.removed
     if not (early or late) or (early and ongoing is not None and not ongoing.judged):
@@ -179,11 +176,11 @@ def outside_life(runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, histo
 
 @property_at("entered", "R-11.2.1.2-01", at=LIFE_CYCLE_HOOKS)
 def nothing_outside_life(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory
+) -> Concluded:
     """No callback before on_init or after on_remove."""
     if event.hook == "on_remove" and history.first == "on_init" and not history.removed:
-        return (check.kept(),)
+        return check.kept()
     when = outside_life(runtime, ongoing, event, history)
     if not when:
         return ()
@@ -200,8 +197,8 @@ def nothing_outside_life(
 
 @property_at("unclear", "R-11.2.3-09", "R-11.2.1.2-10", at=("on_startup", "on_shutdown"))
 def alternation(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory
+) -> Concluded:
     """No second on_startup without on_shutdown between, no on_shutdown without on_startup before: whatever else is unclear."""
     started_again, not_started = check.stands_for
     member = runtime.member_of(event.component, event.instance)
@@ -212,31 +209,27 @@ def alternation(
         return ()
     if history.in_operation == (event.hook == "on_shutdown"):
         return ()
-    return (
-        check.fail(
-            event.hook,
-            expected="on_startup and on_shutdown alternate",
-            observed=f"{event.hook} after {', '.join(history.phases) or 'neither'}",
-            at=(event.n,),
-            step=ongoing.step_number,
-            requirement=started_again if event.hook == "on_startup" else not_started,
-        ),
+    return check.fail(
+        event.hook,
+        expected="on_startup and on_shutdown alternate",
+        observed=f"{event.hook} after {', '.join(history.phases) or 'neither'}",
+        at=(event.n,),
+        step=ongoing.step_number,
+        requirement=started_again if event.hook == "on_startup" else not_started,
     )
 
 
 @property_at("entered", "R-12.10-22", at=LIFE_CYCLE_HOOKS)
 def discarded(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory
+) -> Concluded:
     """What a failed add_component made hears nothing more but its on_remove."""
     if (event.component, event.instance) not in runtime.discarded or event.hook == "on_remove":
         return ()
-    return (
-        check.fail(
-            event.hook,
-            expected="a failed add_component leaves nothing behind",
-            observed=f"its body received {event.hook} later",
-            at=(event.n,),
-            step=ongoing.step_number if ongoing else None,
-        ),
+    return check.fail(
+        event.hook,
+        expected="a failed add_component leaves nothing behind",
+        observed=f"its body received {event.hook} later",
+        at=(event.n,),
+        step=ongoing.step_number if ongoing else None,
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
-from ucm_cts.reference_models.conclusions import Conclusions
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, calls_promised
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -51,7 +51,7 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
 
 
 @property_at("replied", "R-11.1.3-01", "R-11.1.2-02")
-def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Conclusions:
+def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Concluded:
     """A call through a connection enters a connected body with the value sent; its result comes back."""
     request = call.request
     if request is None or reply.raised:
@@ -65,11 +65,11 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
         enter, exit_ = call.entries[0]
         came_to = enter.component, enter.instance, enter.port
         if enter.value == wanted and came_to in targets and (exit_ is None or exit_.value == reply.value):
-            return (check.kept(requirement),)
+            return check.kept(requirement)
     reached = [(e, x) for e, x in call.entries if e.value == wanted and (e.component, e.instance, e.port) in targets]
     came_back = [x for _, x in reached if x is None or x.value == reply.value]
     if len(reached) == 1 and came_back:
-        return (check.kept(requirement),)
+        return check.kept(requirement)
     names = " or ".join(sorted(p.lane for p in providers))
     expected = f"{reply.component}'s call of {reply.port} with {call.value} reaches {names} and brings back its result"
     if not reached:
@@ -80,11 +80,11 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
     else:
         observed = f"it was carried out {len(reached)} times"
     cause = "target" if not reached else "result"
-    return (_violate(check, requirement, cause, expected, observed, call.n, reply.n, providers[0]),)
+    return _violate(check, requirement, cause, expected, observed, call.n, reply.n, providers[0])
 
 
 @property_at("replied", "R-11.2.3-03")
-def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Conclusions:
+def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Concluded:
     """In the operational phase a call between two components comes back."""
     request = call.request
     if not call.possible or request is None:
@@ -99,19 +99,15 @@ def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, 
         if not provider.serving or (provider.declaration.plan and provider.raises("exchange")):
             return ()
     if not reply.raised:
-        return (check.kept(),)
+        return check.kept()
     expected = f"{caller.lane} and {providers[0].lane} are ready, so the call comes back"
-    return (_violate(check, "R-11.2.3-03", "refused", expected, "the call raised", call.n, reply.n, providers[0]),)
+    return _violate(check, "R-11.2.3-03", "refused", expected, "the call raised", call.n, reply.n, providers[0])
 
 
 @property_at("called", "R-11.2.3-02", at=("body", "nobody"))
 def disabled_ports(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: Ongoing,
-    event: Enter,
-    call: BusinessCall | None,
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
+) -> Concluded:
     """Before start was called on its container, no component is called by another one or by the framework."""
     member = runtime.bodies.get((event.component, event.instance))
     if member is None:
@@ -122,7 +118,7 @@ def disabled_ports(
     starting = ongoing is not None and ongoing.operation == "start"
     if container.started is not False or starting:
         if call is not None and call.caller_hook == "on_startup":
-            return (check.kept(),)
+            return check.kept()
         return ()
     if member.suspended and not (call is not None and call.request is not None):
         return ()
@@ -133,27 +129,25 @@ def disabled_ports(
             return ()
         if (call.request.component, call.request.instance) in runtime.startups and ongoing is None:
             return ()  # it has kept the reference that it heard of in a start that failed
-    return (
-        check.fail(
-            "called before start",
-            expected=f"{member.lane} is not called before its container {container.name} is started",
-            observed=f"{caller} called {member.lane}'s {event.port} during configuration",
-            at=(event.n,),
-            step=ongoing.step_number if ongoing else None,
-            instead=(Arrow("test", container.name, "start"), Arrow(caller, member.lane, "exchange")),
-        ),
+    return check.fail(
+        "called before start",
+        expected=f"{member.lane} is not called before its container {container.name} is started",
+        observed=f"{caller} called {member.lane}'s {event.port} during configuration",
+        at=(event.n,),
+        step=ongoing.step_number if ongoing else None,
+        instead=(Arrow("test", container.name, "start"), Arrow(caller, member.lane, "exchange")),
     )
 
 
 @property_at("replied", "R-11.2.3-02")
-def refused_ports(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Conclusions:
+def refused_ports(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Concluded:
     """A call that a component makes as soon as it is told to start may be refused: ports were closed until then, too."""
     if call.caller_hook == "on_startup" and reply.raised and not call.entries:
-        return (check.kept(),)
+        return check.kept()
     return ()
 
 
-def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: BusinessCall | None) -> Conclusions:
+def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: BusinessCall | None) -> Concluded:
     """The body is one that add_component is just making, in a container that is not started."""
     step = ongoing.step if ongoing is not None else None
     if ongoing is None or not isinstance(step, s.AddComponent) or step.component != event.component:
@@ -162,65 +156,50 @@ def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: B
         return ()
     who = lane(event.component, event.instance)
     caller = call.request.component if call is not None and call.request is not None else "the framework"
-    return (
-        check.fail(
-            "called while added",
-            expected=f"{who} is not called before its container {ongoing.container.name} is started",
-            observed=f"{caller} called {who}'s {event.port} during add_component",
-            at=(event.n,),
-            step=ongoing.step_number,
-            instead=(Arrow("test", ongoing.container.name, "start"), Arrow(caller, who, "exchange")),
-            requirement="R-11.2.3-02",
-        ),
+    return check.fail(
+        "called while added",
+        expected=f"{who} is not called before its container {ongoing.container.name} is started",
+        observed=f"{caller} called {who}'s {event.port} during add_component",
+        at=(event.n,),
+        step=ongoing.step_number,
+        instead=(Arrow("test", ongoing.container.name, "start"), Arrow(caller, who, "exchange")),
+        requirement="R-11.2.3-02",
     )
 
 
 @property_at("called", "R-11.2.3-17", at=("nobody",))
 def nothing_after_stop(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: Ongoing,
-    event: Enter,
-    call: BusinessCall | None,
-) -> Conclusions:
+    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
+) -> Concluded:
     """After stop returned, no business method begins but those that are called."""
     member = runtime.member_of(event.component, event.instance)
     if member is None or member.suspended or member.operational or not member.startups:
         return ()
     if ongoing is not None and ongoing.operation in ("start", "stop", "add_component"):
         return ()
-    return (
-        check.fail(
-            "called after stop",
-            expected=f"{member.lane} was stopped, so nothing is run on it",
-            observed=f"the framework called {member.lane}'s {event.port} with {event.value}",
-            at=(event.n,),
-            step=ongoing.step_number if ongoing else None,
-        ),
+    return check.fail(
+        "called after stop",
+        expected=f"{member.lane} was stopped, so nothing is run on it",
+        observed=f"the framework called {member.lane}'s {event.port} with {event.value}",
+        at=(event.n,),
+        step=ongoing.step_number if ongoing else None,
     )
 
 
 @property_at("ended", "R-11.2.3-17", at=("get_components", "get_port_element"))
 def quiet_after_stop(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+) -> Concluded:
     """Counts what nothing_after_stop watched: queries of a container stopped after it had served calls."""
     if ongoing.container.started is not False:
         return ()
     if any(m.served and not m.suspended for m in ongoing.container.live_members()):
-        return (check.kept(),)
+        return check.kept()
     return ()
 
 
 def _violate(
-    check: Property,
-    requirement: str,
-    cause: str,
-    expected: str,
-    observed: str,
-    begin: int,
-    end: int,
-    member: Member,
+    check: Property, requirement: str, cause: str, expected: str, observed: str, begin: int, end: int, member: Member
 ) -> Finding:
     return check.fail(
         cause,

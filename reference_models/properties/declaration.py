@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from ucm_cts.reference_models.conclusions import Conclusions, Kept
+from ucm_cts.reference_models.conclusions import Concluded, Kept
 from ucm_cts.reference_models.findings import Arrow, Finding
 
 Moment = Literal[
@@ -41,7 +41,7 @@ followed, because port elements have interfaces or components policies; where co
 """
 
 
-Evaluate = Callable[..., Conclusions]
+Evaluate = Callable[..., Concluded]
 
 
 @dataclass(frozen=True)

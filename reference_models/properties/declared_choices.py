@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Skip
-from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
+from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.model.callback_history import CallbackHistory
 from ucm_cts.reference_models.model.expected_callbacks import Fit
 from ucm_cts.reference_models.model.ics import Ics
@@ -39,7 +39,7 @@ _OF_ALL_AT_ONCE = ("double-start", "stop-when-stopped")
 @property_at("ended", *_WITH_CHOICES)
 def declared_choices(
     check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+) -> Concluded:
     """Where the life-cycle table permits several ways, an instance goes the one that the vendor declares."""
     fitted = [one for one in ongoing.outcome.fitted if one[2].readings]
     return _chosen(check, runtime, ongoing, end, fitted) if fitted else ()
