@@ -202,7 +202,7 @@ class _TraceReader:
         self.check(self.table.told, event)
 
     def paused(self, event: t.Paused) -> None:
-        self.interactions.pauses.append(event)
+        self.interactions.pause(event)
         self.tell(event)
 
     def create(self, event: t.Create) -> None:
@@ -222,12 +222,13 @@ class _TraceReader:
             history = self.histories[body] = CallbackHistory()
         ongoing, runtime, add = self.ongoing, self.runtime, self.verdicts.add
         for evaluate, one in self.table.entered[hook]:
-            if conclusions := evaluate(one, runtime, ongoing, event, history):
-                add(conclusions)
+            if concluded := evaluate(one, runtime, ongoing, event, history):
+                add(concluded)
         if self.verdicts.suspended:
             self.suspend()
-        if not self.verdicts.findings:
-            self.check(self.table.unclear[hook], ongoing, event, history)
+        unclear = self.table.unclear[hook]
+        if unclear and not self.verdicts.findings:
+            self.check(unclear, ongoing, event, history)
         history.add(hook, event.n)
         if hook == "on_startup":
             runtime.startups[body] = event.n, event.thread
@@ -267,11 +268,8 @@ class _TraceReader:
         thread.served.append(call)
         body = event.component, event.instance
         thread.inside.append(body)
-        runtime, add = self.runtime, self.verdicts.add
-        execution, met = self.executions.begin(event, call)
-        for evaluate, one in self.table.began:
-            if conclusions := evaluate(one, runtime, execution, met):
-                add(conclusions)
+        runtime = self.runtime
+        self.check(self.table.began, *self.executions.begin(event, call))
         if hook == "run":
             runtime.last_run[body] = event.n
             return
@@ -280,9 +278,7 @@ class _TraceReader:
         if delivery is not None:
             self.check(self.table.delivered, delivery)
         else:
-            for evaluate, one in self.table.called[call.by if call is not None else "nobody"]:
-                if conclusions := evaluate(one, runtime, self.ongoing, event, call):
-                    add(conclusions)
+            self.check(self.table.called[call.by if call is not None else "nobody"], self.ongoing, event, call)
         member = runtime.bodies.get(body)
         if member is not None and member.operational:
             member.served = True
@@ -334,11 +330,8 @@ class _TraceReader:
         if not calls:
             return
         call = calls.pop()
-        runtime, add = self.runtime, self.verdicts.add
         if call.request is None or call.request.method is None:
-            for evaluate, one in self.table.replied:
-                if conclusions := evaluate(one, runtime, call, event):
-                    add(conclusions)
+            self.check(self.table.replied, call, event)
         else:
             completed = self.interactions.reply(event)
             if completed is not None:
@@ -362,7 +355,7 @@ class _TraceReader:
 
     def settled(self, event: t.Settled) -> None:
         self.executions.settle(event)
-        self.interactions.settled.append(event)
+        self.interactions.settle(event)
 
     def timeout(self, event: t.Timeout) -> None:
         step = self.steps[event.step]

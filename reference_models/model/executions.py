@@ -241,22 +241,16 @@ class Executions:
 class NoExecutions(Executions):
     """Stands for the executions of scenarios without policies: nothing is recorded, nobody waits."""
 
-    _NONE = Execution(Enter(0, 0, 0, "", 0, "exchange"), None)
-
-    def made(self, call: BusinessCall) -> None:
-        """Nothing is recorded."""
-
-    def answered(self, call: BusinessCall) -> Execution | None:
-        """No call has waited."""
-        return None
+    _NOTHING = Execution(Enter(0, 0, 0, "", 0, "exchange"), None), list[Execution]()
 
     def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
         """Nothing is recorded."""
-        return self._NONE, []
+        return self._NOTHING
 
-    def end(self, exit_: Exit) -> Execution | None:
-        """No execution was recorded."""
-        return None
+    def _ignore(self, *events: object, **named: object) -> None:
+        """Nothing is recorded."""
+
+    made = answered = innermost = end = hold = open = settle = _ignore
 
 
 def protection_of(declaration: Declaration | None) -> Protection:

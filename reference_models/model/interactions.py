@@ -311,6 +311,14 @@ class Interactions:
             self.released_at = event.t
         self.held = [held for held in self.held if held.gate != event.gate]
 
+    def settle(self, event: t.Settled) -> None:
+        """A worker was looked for."""
+        self.settled.append(event)
+
+    def pause(self, event: t.Paused) -> None:
+        """The scenario has let time pass."""
+        self.pauses.append(event)
+
     def improper(self, container: Container | None = None) -> list[LinkState]:
         """Links that members of ``container``, or of any, are ends of and that are not as they should be."""
         return [
@@ -411,24 +419,10 @@ class Interactions:
 class NoInteractions(Interactions):
     """Stands for the interactions of scenarios without interfaces and policies: nothing is recorded."""
 
-    def operate(self, step: s.Step, begin: t.Call) -> None:
+    def _ignore(self, *events: object, **named: object) -> None:
         """Nothing is recorded."""
 
-    def operated(self, end: t.Return | t.Raise) -> None:
-        """Nothing is recorded."""
-
-    def request(self, event: t.Request, business: BusinessCall) -> None:
-        """Nothing is recorded."""
-
-    def enter(self, event: t.Enter) -> Delivery | None:
-        """Nothing is recorded."""
-        return None
-
-    def push(self, event: t.Pushed) -> None:
-        """Nothing is recorded."""
-
-    def wait(self, event: t.Timeout) -> None:
-        """Nothing is recorded."""
+    operate = operated = request = enter = exit = push = wait = hold = open = settle = pause = _ignore
 
 
 def _waiting(calls: list[MethodCall], enter: t.Enter) -> list[MethodCall]:

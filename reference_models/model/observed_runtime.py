@@ -19,7 +19,12 @@ class ObservedRuntime(Runtime):
     def __init__(self, scenario: Scenario, ics: Ics | None = None, interacting: bool = False) -> None:
         super().__init__(scenario)
         self.ics = ics or Ics()
-        self.executions = Executions(self) if interacting else NoExecutions(self)
-        self.interactions = Interactions(self) if interacting else NoInteractions(self)
+        self.executions = Executions(self) if interacting else _NO_EXECUTIONS
+        self.interactions = Interactions(self) if interacting else _NO_INTERACTIONS
         self.service_calls: list[ServiceCall] | None = None
         self.is_over = False
+
+
+_EMPTY = Runtime(Scenario({}, ()))
+_NO_EXECUTIONS: Executions = NoExecutions(_EMPTY)
+_NO_INTERACTIONS: Interactions = NoInteractions(_EMPTY)

@@ -70,6 +70,8 @@ class OperationEnd:
     ``reached_own``: whether a start or stop of the manager reached its own members; None if it had none to reach.
     ``not_reached``: the manager's own members if it reached none of them.
     ``fitted``, ``deviating``: how it went for each role; both empty if that cannot be judged.
+    ``is_plain``: whether there is nothing to say about callbacks but how they fit.
+    ``has_choices``: whether one of ``fitted`` is permitted under some readings only.
     """
 
     permitting: Sequence[Row] = ()
@@ -83,15 +85,11 @@ class OperationEnd:
     not_reached: Sequence[Member] = ()
     fitted: Sequence[Fitted] = ()
     deviating: Sequence[Deviating] = ()
+    is_plain = True
+    has_choices = False
 
     def __init__(self, answer: str) -> None:
         self.answer = answer
-
-    @property
-    def is_plain(self) -> bool:
-        """Is there nothing to say about callbacks but how they fit?"""
-        peculiar = self.intrusions or self.deviating or self.not_reached
-        return not (peculiar or self.reached_own or self.others_undisturbed)
 
     def is_unknown(self, member: Member) -> bool:
         """Is the state of ``member`` not known, or not any more because of what it received?"""

@@ -86,13 +86,15 @@ def _find_intrusions(
             continue
         elsewhere = member.container is not ongoing.container
         if (member.component, member.instance) not in called:
-            outcome.others_undisturbed = outcome.others_undisturbed or elsewhere
+            if elsewhere:
+                outcome.others_undisturbed, outcome.is_plain = True, False
             continue
         if elsewhere and ongoing.container.name == s.MANAGER and ongoing.operation in OF_ALL_MEMBERS:
             continue
         events = _life_cycle_callbacks(ongoing, member.component, member.instance)
         role = "elsewhere" if elsewhere else "bystander"
         requirement = expected.of(events[0].hook, role).unexpected
+        outcome.is_plain = False
         outcome.intrusions = [*outcome.intrusions, op.Intrusion(member, events, requirement, elsewhere)]
 
 
@@ -102,6 +104,7 @@ def _reach_own(ongoing: op.OperationInProgress, outcome: op.OperationEnd, expect
     own = [(m, row) for m, row in ongoing.roles if m is not None and m.container is ongoing.container]
     due = [m for m, row in own if not row.missing and expected.always_calls(row, hook)]
     outcome.reached_own = any(ongoing.received(m, hook) for m in due)
+    outcome.is_plain = outcome.is_plain and not due
     if not outcome.reached_own:
         outcome.not_reached = due
 
@@ -121,7 +124,10 @@ def _compare_callbacks(
         fit = expected.fit(row, outcome.answer, listener, hooks)
         if fit is not None:
             fitted.append((member, row, fit))
+            if fit.readings:
+                outcome.has_choices = True
             continue
+        outcome.is_plain = False
         deviation = expected.deviation(row, outcome.answer, listener, hooks)
         who = lane(component, instance or 1)
         outcome.deviating = [*outcome.deviating, op.Deviating(member, row, who, events, deviation)]

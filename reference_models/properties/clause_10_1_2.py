@@ -30,7 +30,13 @@ def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
 @property_at("completed", "R-10.1.2-02")
 def without_receivers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """A push that nobody receives is answered what the vendor has declared."""
-    if not call.is_message or call.targets or not call.ready or not msg.is_whole(runtime, call) or call.code not in msg.CODES:
+    if (
+        not call.is_message
+        or call.targets
+        or not call.ready
+        or not msg.is_whole(runtime, call)
+        or call.code not in msg.CODES
+    ):
         return
     declared = runtime.ics.reading("push-without-receiver")
     if declared == "refused" and call.link is not None and any(end.role == "receiver" for end in call.link.ends):

@@ -6,7 +6,7 @@ import itertools
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Event, Pushed
-from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
+from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.interactions import PushedBurst
 from ucm_cts.reference_models.model.links import LinkState

@@ -54,9 +54,7 @@ def _note(
 
 
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
-def active_policies(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Concluded:
+def active_policies(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """A component with the active policy on several ports is refused, or started, as declared."""
     declarations = runtime.scenario.components
     if ongoing.operation == "add_component":

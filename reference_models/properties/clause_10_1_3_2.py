@@ -32,7 +32,9 @@ _INTERVALS = 3
 
 
 @property_at("began", *ex.EXCLUSIONS)
-def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]) -> Conclusions:
+def no_reentry(
+    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
+) -> Conclusions:
     """A protected component is not entered while it is executed, unless the execution's own calls lead back into it."""
     enter = execution.enter
     declaration = runtime.scenario.components[enter.component]
@@ -115,7 +117,9 @@ def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execut
 
 
 @property_at("began", "R-10.1.3.2-05")
-def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]) -> Concluded:
+def run_kept_out(
+    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
+) -> Concluded:
     """A run was held inside for several of the intervals at which run is called, and nobody came in."""
     runs = [run for run in execution.earlier if run.over]
     if execution.way != "run" or met or len(runs) < _INTERVALS:
@@ -252,7 +256,9 @@ def one_execution_policy(
 
 
 @property_at("began", "R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03")
-def run_phases(check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]) -> Conclusions:
+def run_phases(
+    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
+) -> Conclusions:
     """run is called on an operational component, and needs neither connections nor callers."""
     enter = execution.enter
     member = runtime.member_of(enter.component, enter.instance)

@@ -78,9 +78,7 @@ def log_returns(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
 
 
 @property_at("ended", _SEVERAL, at=("add_component",), feature="policies")
-def traces_supported(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Concluded:
+def traces_supported(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """A component may have any number of trace policies."""
     step = ongoing.step
     declaration = runtime.scenario.components.get(step.component) if isinstance(step, s.AddComponent) else None

@@ -59,7 +59,12 @@ def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
     for call in msg.messages(runtime):
         holding = {d.receiver for d in call.deliveries if d.receiver is not None and d.exit is None}
         own = {(member.component, member.instance or 0) for member in holding}
-        if not held or not held <= own or not msg.is_whole(runtime, call) or (call.reply is not None and call.code != msg.OK):
+        if (
+            not held
+            or not held <= own
+            or not msg.is_whole(runtime, call)
+            or (call.reply is not None and call.code != msg.OK)
+        ):
             continue
         if timeout.t - call.request.t < runtime.scenario.patience * 900_000:
             continue

@@ -66,13 +66,11 @@ _FROM_TABLE = [
 
 
 @property_at("ended", *DECLARED.values())
-def declared_errors(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Concluded:
+def declared_errors(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """Nothing but the declared exceptions leaves an operation."""
     requirement, declared = DECLARED[ongoing.operation], DECLARED_ERRORS[ongoing.operation]
     if isinstance(end, Return) or end.error in declared:
-        return check.kept(requirement)
+        return requirement
     name = end.error if end.error != "UNDECLARED" else f"an undeclared exception ({end.detail})"
     return check.fail(
         f"{ongoing.operation} {end.error}",

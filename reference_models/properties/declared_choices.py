@@ -37,17 +37,13 @@ _OF_ALL_AT_ONCE = ("double-start", "stop-when-stopped")
 
 
 @property_at("ended", *_WITH_CHOICES)
-def declared_choices(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Concluded:
+def declared_choices(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
     """Where the life-cycle table permits several ways, an instance goes the one that the vendor declares."""
-    fitted = [one for one in ongoing.outcome.fitted if one[2].readings]
-    return _chosen(check, runtime, ongoing, end, fitted) if fitted else ()
+    return _chosen(check, runtime, ongoing, end) if ongoing.outcome.has_choices else ()
 
 
-def _chosen(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result, fitted: list[Fitted]
-) -> Conclusions:
+def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+    fitted = ongoing.outcome.fitted
     telling = _choices(ongoing, end, fitted)
     for _, _, fit in telling:
         if len(fit.readings) == 1:
