@@ -422,6 +422,10 @@ class NoInteractions(Interactions):
     def _ignore(self, *events: object, **named: object) -> None:
         """Nothing is recorded."""
 
+    def improper(self, container: Container | None = None) -> list[LinkState]:
+        """There are no links."""
+        return []
+
     operate = operated = request = enter = exit = push = wait = hold = open = settle = pause = _ignore
 
 

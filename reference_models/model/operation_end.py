@@ -87,7 +87,8 @@ def _find_intrusions(
         elsewhere = member.container is not ongoing.container
         if (member.component, member.instance) not in called:
             if elsewhere:
-                outcome.others_undisturbed, outcome.is_plain = True, False
+                outcome.others_undisturbed = True
+                outcome.is_plain = outcome.is_plain and ongoing.operation not in ("start", "stop", "remove_container")
             continue
         if elsewhere and ongoing.container.name == s.MANAGER and ongoing.operation in OF_ALL_MEMBERS:
             continue

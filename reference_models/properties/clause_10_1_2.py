@@ -60,8 +60,7 @@ def refused_without_receivers(
             "refused",
             expected=f"push-without-receiver was declared as {declared}: who has nobody to push to is started",
             observed=f"start raised {end.error}",
-            at=(ongoing.call, end.n),
-            step=ongoing.step_number,
+            ended=(ongoing, end),
         )
 
 

@@ -50,8 +50,7 @@ def policy_references(
             f"{definition} {'null' if named else 'missing'}",
             expected=f"on_startup of '{member.lane}' hands over a reference for {element}, which its {definition} provides",
             observed=f"it handed over {'a null reference' if named else 'none of that name'}",
-            at=(event.n,),
-            step=ongoing.step_number if ongoing else None,
+            during=(ongoing, event),
             requirement=_SEVERAL if others else _REFERENCES[definition],
         )
 

@@ -241,8 +241,7 @@ def joined_and_started(
             "start",
             expected=f"what is joined by {joined[0]} is started",
             observed=f"start raised {end.error} {end.detail}",
-            at=(ongoing.call, end.n),
-            step=ongoing.step_number,
+            ended=(ongoing, end),
         )
     return ()
 

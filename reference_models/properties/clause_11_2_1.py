@@ -65,8 +65,7 @@ def _holds_others(
         "missing" if all(a not in held for a in wrong) else "another value",
         expected="on_init finds " + ", ".join(f"{a}={declaration.attributes[a]}" for a in some),
         observed="on_init found " + ", ".join(f"{a}={held[a]}" if a in held else f"{a} unset" for a in some),
-        at=(event.n,),
-        step=ongoing.step_number if ongoing else None,
+        during=(ongoing, event),
         requirement=requirement,
     )
 
@@ -119,8 +118,7 @@ def connect_arguments(
         "name" if wrong else "reference",
         expected=f"on_connect({ongoing.step.port}, {_show(reference)})",
         observed=f"on_connect({event.port}, {_show(event.reference)})",
-        at=(event.n,),
-        step=ongoing.step_number,
+        during=(ongoing, event),
         instead=(Arrow(ongoing.container.name, member.lane, f"on_connect({ongoing.step.port}, {_show(reference)})"),),
     )
 
@@ -148,8 +146,7 @@ def disconnect_arguments(
         "name",
         expected=f"on_disconnect({wanted})",
         observed=f"on_disconnect({event.port})",
-        at=(event.n,),
-        step=ongoing.step_number,
+        during=(ongoing, event),
         instead=(Arrow(ongoing.container.name, member.lane, f"on_disconnect({wanted})"),),
     )
 

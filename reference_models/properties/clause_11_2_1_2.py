@@ -45,8 +45,7 @@ def dependencies(
         cause,
         expected=expected,
         observed=observed,
-        at=(event.n,),
-        step=ongoing.step_number if ongoing else None,
+        during=(ongoing, event),
         instead=(Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
         requirement="R-11.2.3-10" if again else requirement,
     )
@@ -110,8 +109,7 @@ def no_dangling_reference(
                     "removed provider",
                     expected=f"{provider.lane} was removed, so {port} is not connected to it",
                     observed=f"on_startup handed over {_show(reference)} for {port}",
-                    at=(event.n,),
-                    step=ongoing.step_number if ongoing else None,
+                    during=(ongoing, event),
                     requirement="R-11.2.3-14",
                 )
                 return
@@ -121,8 +119,7 @@ def no_dangling_reference(
                     "undone connection",
                     expected=f"{of_port[0].name} was disconnected, so its reference is not handed over",
                     observed=f"on_startup handed over {_show(reference)} for {port}",
-                    at=(event.n,),
-                    step=ongoing.step_number if ongoing else None,
+                    during=(ongoing, event),
                     requirement="R-11.2.2.1-10",
                 )
                 return

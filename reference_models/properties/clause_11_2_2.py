@@ -12,7 +12,7 @@ from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Container, Member
-from ucm_cts.reference_models.properties.declaration import Property, property_at
+from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
 DECLARED = {
     "add_component": "R-12.10-04",
@@ -31,38 +31,12 @@ DECLARED = {
 
 _SMALLEST, _LARGEST = -(2**31), 2**31 - 1
 
-_FROM_TABLE = [
-    "R-11.1.3-02",
-    "R-11.1.3-03",
-    "R-11.2.1.1-01",
-    "R-11.2.1.3-01",
-    "R-11.2.2.1-01",
-    "R-11.2.2.1-05",
-    "R-11.2.2.1-07",
-    "R-11.2.2.1-08",
-    "R-11.2.2.1-10",
-    "R-11.2.2.2-02",
-    "R-11.2.2.2-03",
-    "R-11.2.2.2-06",
-    "R-11.2.3-06",
-    "R-11.2.3-07",
-    "R-11.2.3-08",
-    "R-11.2.3-10",
-    "R-11.2.3-11",
-    "R-11.2.3-13",
-    "R-11.2.3-15",
-    "R-12.10-15",
-    "R-12.10-16",
-    "R-12.10-17",
-    "R-12.10-18",
-    "R-12.10-19",
-    "R-12.10-20",
-    "R-12.10-21",
-    "R-12.10-22",
-    "R-12.10-23",
-    "R-12.10-24",
-    "R-12.10-26",
-]
+_FROM_TABLE = requirements("""
+    R-11.1.3-02 R-11.1.3-03 R-11.2.1.1-01 R-11.2.1.3-01 R-11.2.2.1-01 R-11.2.2.1-05 R-11.2.2.1-07 R-11.2.2.1-08
+    R-11.2.2.1-10 R-11.2.2.2-02 R-11.2.2.2-03 R-11.2.2.2-06 R-11.2.3-06 R-11.2.3-07 R-11.2.3-08 R-11.2.3-10
+    R-11.2.3-11 R-11.2.3-13 R-11.2.3-15 R-12.10-15 R-12.10-16 R-12.10-17 R-12.10-18 R-12.10-19 R-12.10-20
+    R-12.10-21 R-12.10-22 R-12.10-23 R-12.10-24 R-12.10-26
+""")
 
 
 @property_at("ended", *DECLARED.values())
@@ -76,8 +50,7 @@ def declared_errors(check: Property, runtime: ObservedRuntime, ongoing: Operatio
         f"{ongoing.operation} {end.error}",
         expected=f"{ongoing.operation} returns or raises {' or '.join(declared)}",
         observed=f"{ongoing.operation} raised {name}",
-        at=(ongoing.call, end.n),
-        step=ongoing.step_number,
+        ended=(ongoing, end),
         instead=(Arrow(ongoing.container.name, "test", f"return or {' or '.join(declared)}"),),
         requirement=requirement,
     )
@@ -106,8 +79,7 @@ def _forbidden(
         f"{row.id} {answer}",
         expected=f"{ongoing.operation} ends with {expected}{f' ({situation})' if situation else ''}",
         observed=f"{ongoing.operation} {'returned' if answer == 'return' else f'raised {answer}'}",
-        at=(ongoing.call, end.n),
-        step=ongoing.step_number,
+        ended=(ongoing, end),
         instead=(Arrow(ongoing.container.name, "test", " or ".join(sorted(permitted))),),
         requirement=row.requirement,
     )
@@ -153,12 +125,7 @@ def _identifier(
     if value in live:
         text = f"{ongoing.operation} returned {value}, the id of another live {kind}"
         yield check.fail(
-            "in use",
-            expected=f"a {kind} id not in use",
-            observed=text,
-            at=(ongoing.call, end.n),
-            step=ongoing.step_number,
-            requirement=unique,
+            "in use", expected=f"a {kind} id not in use", observed=text, ended=(ongoing, end), requirement=unique
         )
     elif live:
         yield check.kept(unique)
@@ -183,8 +150,7 @@ def port_element_identity(
             "null" if end.value is None else "another object",
             expected=f"get_port_element returns {member.lane}'s own {port}",
             observed=f"get_port_element returned {got}",
-            at=(ongoing.call, end.n),
-            step=ongoing.step_number,
+            ended=(ongoing, end),
             instead=(Arrow(ongoing.container.name, "test", f"{member.lane}.{port}"),),
         )
     return ()
@@ -207,8 +173,7 @@ def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
         problem.split()[0],
         expected=f"get_components lists the members: {members}",
         observed=f"get_components returned {list(listed)}: {problem}",
-        at=(ongoing.call, end.n),
-        step=ongoing.step_number,
+        ended=(ongoing, end),
         requirement=requirement,
     )
 

@@ -13,30 +13,18 @@ from ucm_cts.reference_models.model.expected_callbacks import CONNECTABLE_HOOKS,
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation_end import OF_ALL_MEMBERS
 from ucm_cts.reference_models.model.runtime import Member, lane, raises
-from ucm_cts.reference_models.properties.declaration import Property, property_at
+from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
 _ELSEWHERE, _OF_THE_MANAGER = "R-11.1.3-04", "R-11.2.2.2-01"
-_FROM_TABLE = [
+_FROM_TABLE = (
     _ELSEWHERE,
-    "R-11.2.1.2-04",
-    "R-11.2.1.2-06",
-    "R-11.2.1.2-10",
-    "R-11.2.1.3-02",
-    "R-11.2.1.3-03",
-    "R-11.2.1.3-05",
-    "R-11.2.1.4-01",
-    "R-11.2.2.1-11",
-    "R-11.2.2.1-12",
     _OF_THE_MANAGER,
-    "R-11.2.2.2-04",
-    "R-11.2.2.2-05",
-    "R-11.2.3-01",
-    "R-11.2.3-05",
-    "R-11.2.3-09",
-    "R-11.2.3-07",
-    "R-11.2.3-12",
-    "R-11.2.3-15",
-]
+    *requirements("""
+    R-11.2.1.2-04 R-11.2.1.2-06 R-11.2.1.2-10 R-11.2.1.3-02 R-11.2.1.3-03 R-11.2.1.3-05 R-11.2.1.4-01
+    R-11.2.2.1-11 R-11.2.2.1-12 R-11.2.2.2-04 R-11.2.2.2-05 R-11.2.3-01 R-11.2.3-05 R-11.2.3-09 R-11.2.3-07
+    R-11.2.3-12 R-11.2.3-15
+"""),
+)
 
 
 @property_at("ended", *_FROM_TABLE)
@@ -189,8 +177,7 @@ def nothing_outside_life(
         f"{event.hook} {when}",
         expected=f"{who} hears nothing {when}",
         observed=f"{who} received {event.hook}",
-        at=(event.n,),
-        step=ongoing.step_number if ongoing else None,
+        during=(ongoing, event),
     )
     return (finding, Suspended(member)) if member is not None else (finding,)
 
@@ -213,8 +200,7 @@ def alternation(
         event.hook,
         expected="on_startup and on_shutdown alternate",
         observed=f"{event.hook} after {', '.join(history.phases) or 'neither'}",
-        at=(event.n,),
-        step=ongoing.step_number,
+        during=(ongoing, event),
         requirement=started_again if event.hook == "on_startup" else not_started,
     )
 
@@ -230,6 +216,5 @@ def discarded(
         event.hook,
         expected="a failed add_component leaves nothing behind",
         observed=f"its body received {event.hook} later",
-        at=(event.n,),
-        step=ongoing.step_number if ongoing else None,
+        during=(ongoing, event),
     )

@@ -133,8 +133,7 @@ def disabled_ports(
         "called before start",
         expected=f"{member.lane} is not called before its container {container.name} is started",
         observed=f"{caller} called {member.lane}'s {event.port} during configuration",
-        at=(event.n,),
-        step=ongoing.step_number if ongoing else None,
+        during=(ongoing, event),
         instead=(Arrow("test", container.name, "start"), Arrow(caller, member.lane, "exchange")),
     )
 
@@ -160,8 +159,7 @@ def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: B
         "called while added",
         expected=f"{who} is not called before its container {ongoing.container.name} is started",
         observed=f"{caller} called {who}'s {event.port} during add_component",
-        at=(event.n,),
-        step=ongoing.step_number,
+        during=(ongoing, event),
         instead=(Arrow("test", ongoing.container.name, "start"), Arrow(caller, who, "exchange")),
         requirement="R-11.2.3-02",
     )
@@ -181,8 +179,7 @@ def nothing_after_stop(
         "called after stop",
         expected=f"{member.lane} was stopped, so nothing is run on it",
         observed=f"the framework called {member.lane}'s {event.port} with {event.value}",
-        at=(event.n,),
-        step=ongoing.step_number if ongoing else None,
+        during=(ongoing, event),
     )
 
 

@@ -6,8 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
+from ucm_cts.adapters.contract.trace import Enter
 from ucm_cts.reference_models.conclusions import Concluded, Kept
 from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 
 Moment = Literal[
     "ended",
@@ -77,11 +79,25 @@ class Property:
         observed: str,
         at: tuple[int, ...] = (),
         step: int | None = None,
+        ended: tuple[OperationInProgress, Result] | None = None,
+        during: tuple[Ongoing, Enter] | None = None,
         instead: tuple[Arrow, ...] = (),
         requirement: str = "",
     ) -> Finding:
-        """The requirement was violated; without ``requirement`` the first one. The others are the fields of ``Finding``."""
+        """The requirement was violated; without ``requirement`` the first one. The others are the fields of ``Finding``:
+        ``ended`` (an operation with its end) and ``during`` (a callback in an operation, if there is one) stand for
+        ``at`` and ``step``.
+        """
+        if ended is not None:
+            at, step = (ended[0].call, ended[1].n), ended[0].step_number
+        elif during is not None:
+            at, step = (during[1].n,), during[0].step_number if during[0] is not None else None
         return Finding(requirement or self.stands_for[0], self.name, cause, expected, observed, at, step, instead)
+
+
+def requirements(text: str) -> tuple[str, ...]:
+    """The requirements whose ids ``text`` names."""
+    return tuple(text.split())
 
 
 PROPERTIES: dict[str, Property] = {}

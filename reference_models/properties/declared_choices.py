@@ -16,21 +16,12 @@ from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Fitted, Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member, lane
-from ucm_cts.reference_models.properties.declaration import Property, property_at
+from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
-_WITH_CHOICES = (
-    "R-11.2.2.1-08",
-    "R-11.2.2.2-02",
-    "R-11.2.3-06",
-    "R-11.2.3-07",
-    "R-11.2.3-10",
-    "R-11.2.3-11",
-    "R-11.2.3-13",
-    "R-11.2.3-15",
-    "R-12.10-22",
-    "R-12.10-23",
-    "R-12.10-24",
-)
+_WITH_CHOICES = requirements("""
+    R-11.2.2.1-08 R-11.2.2.2-02 R-11.2.3-06 R-11.2.3-07 R-11.2.3-10 R-11.2.3-11 R-11.2.3-13 R-11.2.3-15
+    R-12.10-22 R-12.10-23 R-12.10-24
+""")
 
 _OF_ALL_AT_ONCE = ("double-start", "stop-when-stopped")
 """Options about a container as a whole."""
@@ -58,8 +49,7 @@ def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgr
         f"{row.id} {taken}",
         expected=f"{ongoing.operation} goes as the vendor declares: {', '.join(declared)}",
         observed=f"it went the way of {taken}" + (f" ({member.lane}, {row.state})" if member is not None else ""),
-        at=(ongoing.call, end.n),
-        step=ongoing.step_number,
+        ended=(ongoing, end),
         requirement=row.requirement,
     )
 
@@ -126,8 +116,7 @@ def declared_listing(
             reading,
             expected=f"the vendor declares manager-get-components = {runtime.ics.reading('manager-get-components')}",
             observed=f"get_components of the manager returned {list(listed)}, which is {reading}",
-            at=(ongoing.call, end.n),
-            step=ongoing.step_number,
+            ended=(ongoing, end),
         )
 
 
@@ -149,8 +138,7 @@ def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: Operation
                 "abandoned",
                 expected="the vendor declares stop-drain = wait: stop returns when the calls in progress have ended",
                 observed=f"stop returned while {member.lane} was still carrying out a call",
-                at=(ongoing.call, end.n),
-                step=ongoing.step_number,
+                ended=(ongoing, end),
             )
         return
 
@@ -169,8 +157,7 @@ def declared_order(
             "at once",
             expected="the vendor declares start-order = one-by-one: one on_startup has returned before the next one comes",
             observed=f"{member.lane} received on_startup while {lane(*beside[0])} was still inside its own",
-            at=(event.n,),
-            step=ongoing.step_number,
+            during=(ongoing, event),
         )
 
 
@@ -195,8 +182,7 @@ def declared_meeting(
         "one by one",
         expected="the vendor declares start-order = at-once: several members are inside on_startup at a time",
         observed=f"{member.lane} was not started within {runtime.scenario.patience} ms while {before.lane} was inside",
-        at=(event.n,),
-        step=ongoing.step_number,
+        during=(ongoing, event),
     )
 
 
