@@ -83,9 +83,9 @@ def mutated_lines() -> list[bytes]:
     )
     method = d.Method((d.Parameter("p", "INOUT", every_type),), (d.Structure("wrong", {}),))
     interfaces = {"i": d.Interface({"m": method}, ("j",))}
-    asked = s.Scenario({"A": declared}, steps, 50, interfaces, ("w",))
+    asked = s.Scenario({"A": declared}, steps, 500, interfaces, ("w",))
     message = json.loads(m.encode(m.Run(1, asked, stream=False)))
-    message["scenario"]["patience"] = 50
+    message["scenario"]["patience"] = 500
     reach = json.loads(m.encode(m.Run(1, s.Scenario({}, (s.ReachGate("g", 1, 2),), patience=0))))
     changed = (*mutations(copy.deepcopy(message)), *(r for r in mutations(reach) if "patience" in str(r)))
     lines = [json.dumps(one).encode() for one in changed]

@@ -8,7 +8,7 @@ from pathlib import Path
 import msgspec
 import pytest
 from cpp_builds import SDK, STRICT, run
-from folders import SUPPORT
+from folders import ROOT, SUPPORT
 from protocol_samples import Samples
 
 from ucm_cts.adapters.contract import generating
@@ -24,7 +24,8 @@ def test_schema_is_that_of_the_types() -> None:
 
 @pytest.mark.parametrize("path", generating.FILES, ids=lambda path: path.name)
 def test_committed_files_are_what_the_generator_makes(path: Path) -> None:
-    assert path.read_text() == generating.rendered(generating.FILES[path])
+    committed = ROOT / "adapters" / "sdk" / path.relative_to(generating.SDK)  # an installed package leaves them out
+    assert committed.read_text() == generating.rendered(generating.FILES[path])
 
 
 @pytest.mark.native
