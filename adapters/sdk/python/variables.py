@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TypeVar
 
 from ucm_cts.adapters.contract.adapter import ContainerHandle, LinkHandle
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.contract.scenario import MANAGER, NIL, UNKNOWN
 from ucm_cts.adapters.sdk.python.seal import KeptClass
 
+T = TypeVar("T")
 _LARGEST_ID = 2**31 - 1
 
 
@@ -32,24 +34,20 @@ class Variables(metaclass=KeptClass):
 
     def bind_id(self, name: str, value: int) -> None:
         """``name`` is a component or connection from now on."""
-        self._forget(name)
         self._given.add(value)
-        self._ids[name] = value
+        self._bind(self._ids, name, value)
 
     def bind_reference(self, name: str, reference: PortElementObject | None) -> None:
         """``name`` is a reference, possibly null, from now on."""
-        self._forget(name)
-        self._references[name] = reference
+        self._bind(self._references, name, reference)
 
     def bind_container(self, name: str, container: ContainerHandle) -> None:
         """``name`` is a container from now on."""
-        self._forget(name)
-        self._containers[name] = container
+        self._bind(self._containers, name, container)
 
     def bind_link(self, name: str, link: LinkHandle) -> None:
         """``name`` is a connection with a connector from now on."""
-        self._forget(name)
-        self._links[name] = link
+        self._bind(self._links, name, link)
 
     def saw(self, ids: Iterable[int]) -> None:
         """The framework has let these ids be known, so none of them can serve as unknown."""
@@ -59,34 +57,27 @@ class Variables(metaclass=KeptClass):
         """The component or connection ``name``; ``unknown`` gives an integer the framework has not given out."""
         if name == UNKNOWN:
             return next(i for i in range(_LARGEST_ID, 0, -1) if i not in self._given)
-        if name not in self._ids:
-            raise Unbound(name)
-        return self._ids[name]
+        return _find(self._ids, name)
 
     def reference(self, name: str) -> PortElementObject | None:
         """The reference ``name``; ``nil`` gives the null reference."""
-        if name == NIL:
-            return None
-        if name not in self._references:
-            raise Unbound(name)
-        return self._references[name]
+        return None if name == NIL else _find(self._references, name)
 
     def container(self, name: str) -> ContainerHandle:
         """The container ``name``; ``nil`` gives the null container."""
-        if name == NIL:
-            return None
-        if name not in self._containers:
-            raise Unbound(name)
-        return self._containers[name]
+        return None if name == NIL else _find(self._containers, name)
 
     def link(self, name: str) -> LinkHandle:
         """The connection with a connector ``name``."""
-        if name not in self._links:
-            raise Unbound(name)
-        return self._links[name]
+        return _find(self._links, name)
 
-    def _forget(self, name: str) -> None:
-        self._ids.pop(name, None)
-        self._references.pop(name, None)
-        self._containers.pop(name, None)
-        self._links.pop(name, None)
+    def _bind(self, values: dict[str, T], name: str, value: T) -> None:
+        for known in (self._ids, self._references, self._containers, self._links):
+            known.pop(name, None)
+        values[name] = value
+
+
+def _find(values: dict[str, T], name: str) -> T:
+    if name not in values:
+        raise Unbound(name)
+    return values[name]

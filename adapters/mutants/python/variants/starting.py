@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from ucm_cts.adapters.contract import programming_model as pm
@@ -116,21 +116,8 @@ def _elsewhere(work: Callable[..., Any]) -> Callable[..., Any]:
     """``work``, done by a thread of its own and waited for."""
 
     def call(*arguments: object) -> Any:
-        results: list[Any] = []
-        errors: list[Exception] = []
-
-        def run() -> None:
-            try:
-                results.append(work(*arguments))
-            except Exception as error:  # noqa: BLE001 - whatever it is, the caller gets it
-                errors.append(error)
-
-        thread = threading.Thread(target=run)
-        thread.start()
-        thread.join()
-        if errors:
-            raise errors[0]
-        return results[0]
+        with ThreadPoolExecutor(1) as executor:
+            return executor.submit(work, *arguments).result()
 
     return call
 

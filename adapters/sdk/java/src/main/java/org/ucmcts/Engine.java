@@ -1,7 +1,6 @@
 package org.ucmcts;
 
 import java.io.IOException;
-import java.util.LinkedHashMap;
 import java.util.Map;
 import java.util.function.Consumer;
 import java.util.function.Supplier;
@@ -51,20 +50,16 @@ final class Engine {
             return refusal(
                     "the harness speaks protocol " + spoken + ", this host speaks " + Protocol.VERSION, null);
         }
-        Map<String, Object> welcome = new LinkedHashMap<>();
-        welcome.put("type", "welcome");
-        welcome.put("protocol", Protocol.VERSION);
-        welcome.put("product", product.name());
-        welcome.put("version", product.version());
-        welcome.put("port_element_name", product.portElementName());
+        Map<String, Object> welcome = Json.object("type", "welcome", "protocol", Protocol.VERSION, "product",
+                product.name(), "version", product.version(), "port_element_name", product.portElementName());
         return new Answer(Json.line(welcome), false);
     }
 
     private static <C> Answer perform(Adapter<C> adapter, Node run, Consumer<byte[]> emit) throws Exception {
         long id = run.number("id");
         Consumer<Map<String, Object>> sink =
-                run.flag("stream") ? event -> emit.accept(Json.line(happened(id, event))) : null;
-        Recorder recorder = new Recorder(sink);
+                event -> emit.accept(Json.line(Json.object("type", "event", "id", id, "event", event)));
+        Recorder recorder = new Recorder(run.flag("stream") ? sink : null);
         Performance.Outcome outcome = null;
         try {
             outcome = new Performance<>(adapter, run.node("scenario"), recorder).run();
@@ -77,29 +72,12 @@ final class Engine {
         if (recorder.complaint() != null) {
             return new Answer(refusal(recorder.complaint(), id).line(), stuck);
         }
-        Map<String, Object> traced = new LinkedHashMap<>();
-        traced.put("type", "trace");
-        traced.put("id", id);
-        traced.put("events", outcome.events());
-        traced.put("stuck", outcome.stuck());
+        Map<String, Object> traced =
+                Json.object("type", "trace", "id", id, "events", outcome.events(), "stuck", outcome.stuck());
         return new Answer(Json.line(traced), stuck);
     }
 
-    private static Map<String, Object> happened(long id, Map<String, Object> event) {
-        Map<String, Object> message = new LinkedHashMap<>();
-        message.put("type", "event");
-        message.put("id", id);
-        message.put("event", event);
-        return message;
-    }
-
     private static Answer refusal(String reason, Long id) {
-        Map<String, Object> refused = new LinkedHashMap<>();
-        refused.put("type", "refused");
-        refused.put("reason", reason);
-        if (id != null) {
-            refused.put("id", id);
-        }
-        return new Answer(Json.line(refused), false);
+        return new Answer(Json.line(Json.object("type", "refused", "reason", reason, "id", id)), false);
     }
 }

@@ -5,6 +5,8 @@ import com.fasterxml.jackson.jr.ob.JSON;
 import java.io.IOException;
 import java.nio.ByteBuffer;
 import java.nio.charset.StandardCharsets;
+import java.util.LinkedHashMap;
+import java.util.Map;
 
 /** JSON to maps, lists, texts and numbers, and back. */
 final class Json {
@@ -22,6 +24,17 @@ final class Json {
             }
             return value;
         }
+    }
+
+    /** An object; {@code fields} are names and values by turns, and those that are null are left out. */
+    static Map<String, Object> object(Object... fields) {
+        Map<String, Object> object = new LinkedHashMap<>();
+        for (int index = 0; index < fields.length; index += 2) {
+            if (fields[index + 1] != null) {
+                object.put((String) fields[index], fields[index + 1]);
+            }
+        }
+        return object;
     }
 
     /** One line, with its newline. */

@@ -4,6 +4,7 @@ import java.time.Instant;
 import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
+import java.util.stream.Stream;
 
 /** One run of one scenario against one adapter. Making it creates the runtime. */
 final class Performance<C> {
@@ -75,7 +76,7 @@ final class Performance<C> {
             case "await_messages" -> {
                 Object[] counted =
                         stage.messages.await(step.text("component"), step.number("instance"), step.number("count"));
-                recorder.record("counted", joined(number, counted));
+                recorder.record("counted", Stream.concat(Stream.of("step", number), Stream.of(counted)).toArray());
             }
             case "stress" -> stress(number, step);
             default -> operations.perform(number, step);
@@ -91,14 +92,6 @@ final class Performance<C> {
     private static long calendar() {
         Instant now = Instant.now();
         return now.getEpochSecond() * 1_000_000_000 + now.getNano();
-    }
-
-    private static Object[] joined(int number, Object[] fields) {
-        Object[] all = new Object[fields.length + 2];
-        all[0] = "step";
-        all[1] = number;
-        System.arraycopy(fields, 0, all, 2, fields.length);
-        return all;
     }
 
     private void stress(int number, Node step) {

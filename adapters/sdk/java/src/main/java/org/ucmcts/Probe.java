@@ -246,19 +246,22 @@ class Probe implements Body {
         return value != null;
     }
 
-    final void connected(String portName, PortElement required) {
+    /** For those that are {@link Connectable}. */
+    public final void onConnect(String portName, PortElement required) {
         if (isGiven("on_connect", portName)) {
             visit("on_connect", null, "port", portName, "reference", stage.recognise(required));
         }
     }
 
-    final void disconnected(String portName) {
+    /** For those that are {@link Connectable}. */
+    public final void onDisconnect(String portName) {
         if (isGiven("on_disconnect", portName)) {
             visit("on_disconnect", null, "port", portName);
         }
     }
 
-    final void contained(Fragment.ContainerInterface container) {
+    /** For those that are {@link Fragment}. */
+    public final void setContainerInterface(Fragment.ContainerInterface container) {
         actions.container = container;
         visit("set_container_interface", null);
     }
@@ -267,47 +270,17 @@ class Probe implements Body {
         private ConnectableOnly(Stage stage, String component, Node declaration) {
             super(stage, component, declaration);
         }
-
-        @Override
-        public void onConnect(String portName, PortElement required) {
-            connected(portName, required);
-        }
-
-        @Override
-        public void onDisconnect(String portName) {
-            disconnected(portName);
-        }
     }
 
     private static final class FragmentOnly extends Probe implements Fragment {
         private FragmentOnly(Stage stage, String component, Node declaration) {
             super(stage, component, declaration);
         }
-
-        @Override
-        public void setContainerInterface(ContainerInterface container) {
-            contained(container);
-        }
     }
 
     private static final class ConnectableFragment extends Probe implements Connectable, Fragment {
         private ConnectableFragment(Stage stage, String component, Node declaration) {
             super(stage, component, declaration);
-        }
-
-        @Override
-        public void onConnect(String portName, PortElement required) {
-            connected(portName, required);
-        }
-
-        @Override
-        public void onDisconnect(String portName) {
-            disconnected(portName);
-        }
-
-        @Override
-        public void setContainerInterface(ContainerInterface container) {
-            contained(container);
         }
     }
 }

@@ -1,7 +1,6 @@
 package org.ucmcts;
 
 import java.util.ArrayList;
-import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.function.Consumer;
@@ -32,16 +31,9 @@ final class Recorder {
         if (numbers.get() == null) {
             numbers.set(threads++);
         }
-        Map<String, Object> event = new LinkedHashMap<>();
-        event.put("kind", kind);
-        event.put("n", events.size() + 1);
-        event.put("t", System.nanoTime());
-        event.put("thread", numbers.get());
-        for (int index = 0; index < fields.length; index += 2) {
-            if (fields[index + 1] != null) {
-                event.put((String) fields[index], fields[index + 1]);
-            }
-        }
+        Map<String, Object> event =
+                Json.object("kind", kind, "n", events.size() + 1, "t", System.nanoTime(), "thread", numbers.get());
+        event.putAll(Json.object(fields));
         events.add(event);
         if (sink != null) {
             sink.accept(event);

@@ -3,29 +3,28 @@ package org.ucmcts;
 /** The exceptions that 12.10 declares. */
 public abstract sealed class UcmException extends RuntimeException {
     private static final long serialVersionUID = 1;
+    private final String spelling;
 
-    private UcmException(String message, Throwable cause) {
+    private UcmException(String spelling, String message, Throwable cause) {
         super(message, cause);
+        this.spelling = spelling;
     }
 
     /** How it is spelled in 12.10 and on the wire. */
-    abstract String spelling();
+    final String spelling() {
+        return spelling;
+    }
 
     /** NOT_FOUND of 12.10. */
     public static final class NotFound extends UcmException {
         private static final long serialVersionUID = 1;
 
         public NotFound(String message) {
-            super(message, null);
+            super("NOT_FOUND", message, null);
         }
 
         public NotFound(Throwable cause) {
-            super(cause.toString(), cause);
-        }
-
-        @Override
-        String spelling() {
-            return "NOT_FOUND";
+            super("NOT_FOUND", cause.toString(), cause);
         }
     }
 
@@ -34,16 +33,11 @@ public abstract sealed class UcmException extends RuntimeException {
         private static final long serialVersionUID = 1;
 
         public BadParameter(String message) {
-            super(message, null);
+            super("BAD_PARAMETER", message, null);
         }
 
         public BadParameter(Throwable cause) {
-            super(cause.toString(), cause);
-        }
-
-        @Override
-        String spelling() {
-            return "BAD_PARAMETER";
+            super("BAD_PARAMETER", cause.toString(), cause);
         }
     }
 
@@ -52,16 +46,11 @@ public abstract sealed class UcmException extends RuntimeException {
         private static final long serialVersionUID = 1;
 
         public UcmError(String message) {
-            super(message, null);
+            super("UCM_ERROR", message, null);
         }
 
         public UcmError(Throwable cause) {
-            super(cause.toString(), cause);
-        }
-
-        @Override
-        String spelling() {
-            return "UCM_ERROR";
+            super("UCM_ERROR", cause.toString(), cause);
         }
     }
 }
