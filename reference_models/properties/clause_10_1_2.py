@@ -24,7 +24,7 @@ def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
     results = list(call.reply.results or ())
     if not call.reply.raised and call.reply.exception is None and len(results) == 1 and results[0] in msg.CODES:
         return check.kept()
-    return _violate(check, "R-10.1.2-02", call, f"is answered {' or '.join(msg.CODES)}", "unknown")
+    return _violate(check, call, f"is answered {' or '.join(msg.CODES)}", "unknown")
 
 
 @property_at("completed", "R-10.1.2-02")
@@ -43,7 +43,7 @@ def without_receivers(check: Property, runtime: ObservedRuntime, call: MethodCal
         return  # what was refused is to connect or start without one; this one lost its receivers later
     if not (yield from takes(runtime, "push-without-receiver", str(call.code))):
         expected = f"has no receiver, for which {declared} was declared"
-        yield _violate(check, "R-10.1.2-02", call, expected, "without receivers")
+        yield _violate(check, call, expected, "without receivers")
 
 
 @property_at("ended", "R-10.1.2-02", at=("start",), feature="interactions")
@@ -89,7 +89,7 @@ def ok_when_healthy(check: Property, runtime: ObservedRuntime, call: MethodCall)
         blocking = runtime.ics.reading("message-overflow") == "block"
         if msg.is_quiet(runtime, call) or (blocking and call.code in msg.CODES):
             expected = "is answered ok: all its receivers are operational and well, and nothing is broken"
-            return _violate(check, "R-10.1.2-09", call, expected, "not ok")
+            return _violate(check, call, expected, "not ok")
     return ()
 
 
@@ -104,10 +104,10 @@ def receivers_codes(check: Property, runtime: ObservedRuntime, call: MethodCall)
     reading = "dropped" if call.code == msg.OK else "passed"
     if call.code != msg.OK and call.code not in answers:
         expected = f"is answered ok, or what a receiver answered: {', '.join(sorted(answers - {msg.OK}))}"
-        yield _violate(check, "R-10.1.2-09", call, expected, "another code")
+        yield _violate(check, call, expected, "another code")
     elif not (yield from takes(runtime, "receiver-code", reading)):
         expected = f"is answered so that the receiver's code is {runtime.ics.reading('receiver-code')}, as declared"
-        yield _violate(check, "R-10.1.2-09", call, expected, "receiver-code")
+        yield _violate(check, call, expected, "receiver-code")
     else:
         yield check.kept()
 
@@ -119,7 +119,7 @@ def answered_at_all(check: Property, runtime: ObservedRuntime, timeout: Timeout)
         if call.reply is not None or not msg.is_whole(runtime, call) or not msg.is_healthy(runtime, call):
             continue
         if msg.waited_for(runtime, timeout, call.request.t):
-            yield _violate(check, "R-10.1.2-09", call, "is answered ok", "no answer")
+            yield _violate(check, call, "is answered ok", "no answer")
 
 
 @property_at("closed", "R-10.1.2-10")
@@ -137,7 +137,7 @@ def ok_kept(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conc
         if call.code == msg.OK and not call.deliveries and not msg.is_disturbed(runtime, call):
             names = ", ".join(sorted(end.member.lane for end in missing))
             expected = f"was answered ok and comes to {names}"
-            yield _violate(check, "R-10.1.2-10", call, expected, "lost", "it came to nobody", timeout.n)
+            yield _violate(check, call, expected, "lost", "it came to nobody", timeout.n)
 
 
 @property_at("completed", "R-10.1.2-10")
@@ -153,7 +153,7 @@ def delivered_before_ok(check: Property, runtime: ObservedRuntime, call: MethodC
         and late
     ):
         expected = f"comes to {late[0].member.lane} before push returns, as declared"
-        yield _violate(check, "R-10.1.2-10", call, expected, "not yet", "push returned before")
+        yield _violate(check, call, expected, "not yet", "push returned before")
 
 
 @property_at("completed", "R-10.1.2-01", timed=True)
@@ -170,7 +170,7 @@ def failure_noticed(check: Property, runtime: ObservedRuntime, call: MethodCall)
                 if call.broken == "transport"
                 else "it is broken inside"
             )
-            return _violate(check, "R-10.1.2-01", call, f"is not answered ok while {where}", "ok")
+            return _violate(check, call, f"is not answered ok while {where}", "ok")
         return check.kept()
     return ()
 
@@ -184,14 +184,14 @@ def _failed_request(check: Property, runtime: ObservedRuntime, call: MethodCall)
         taken, reading = _is_still_broken(call) or (yield from takes(runtime, "service-failure", "wait")), "wait"
     else:
         expected = "does not return as if its server had answered: the connection is broken"
-        yield _violate(check, "R-10.1.2-01", call, expected, "invented result")
+        yield _violate(check, call, expected, "invented result")
         return
     if taken:
         yield check.kept("R-10.1.2-01")
     else:
         declared = runtime.ics.reading("service-failure")
         expected = f"ends as declared of calls whose connection is broken: {declared}"
-        yield _violate(check, "R-10.1.2-01", call, expected, reading)
+        yield _violate(check, call, expected, reading)
 
 
 @property_at("completed", "R-10.1.2-11")
@@ -202,7 +202,7 @@ def internal_error_when_due(check: Property, runtime: ObservedRuntime, call: Met
     if call.code == msg.INTERNAL_ERROR:
         return check.kept()
     expected = "is answered internal_error: its connector is broken inside"
-    return _violate(check, "R-10.1.2-11", call, expected, "another code")
+    return _violate(check, call, expected, "another code")
 
 
 @property_at("completed", "R-10.1.2-12", timed=True)
@@ -216,7 +216,7 @@ def comm_error_when_due(check: Property, runtime: ObservedRuntime, call: MethodC
             yield Taken("comm-error", "at-once")
     elif _is_known(runtime, call) or not (yield from takes(runtime, "comm-error", "eventually")):
         expected = "is answered comm_error: the transport of its connection is broken"
-        yield _violate(check, "R-10.1.2-12", call, expected, "another code")
+        yield _violate(check, call, expected, "another code")
 
 
 @property_at("completed", "R-10.1.2-11", "R-10.1.2-12", timed=True)
@@ -232,7 +232,7 @@ def ok_after_mending(check: Property, runtime: ObservedRuntime, call: MethodCall
     requirement, _ = _DUE[link.was_broken]
     if call.code == msg.OK:
         return check.kept(requirement)
-    return _violate(check, requirement, call, "is answered ok: its connection was mended", "mended")
+    return _violate(check, call, "is answered ok: its connection was mended", "mended", requirement=requirement)
 
 
 def _is_undisturbed(runtime: ObservedRuntime, call: MethodCall) -> bool:
@@ -266,7 +266,13 @@ def _is_known(runtime: ObservedRuntime, call: MethodCall) -> bool:
 
 
 def _violate(
-    check: Property, requirement: str, call: MethodCall, expected: str, cause: str, observed: str = "", *further: int
+    check: Property,
+    call: MethodCall,
+    expected: str,
+    cause: str,
+    observed: str = "",
+    *further: int,
+    requirement: str = "",
 ) -> Finding:
     return check.fail(
         cause,

@@ -30,7 +30,7 @@ def burst_answered(check: Property, runtime: ObservedRuntime, event: Event) -> C
         expected = f"each message of a burst is answered {' or '.join(CODES)}"
         yield _violate(check, "R-10.1.2-02", expected, f"{unknown[0] or 'nothing'} was the answer", event)
         return
-    yield check.kept("R-10.1.2-02")
+    yield check.kept()
     healthy = len(burst.receivers) == len(burst.link.live("receiver")) > 0 and all(map(is_well, burst.receivers))
     if not healthy or burst.link.broken_at:
         return
@@ -59,7 +59,7 @@ def burst_counted(check: Property, runtime: ObservedRuntime, event: Event) -> Co
     due = sum(burst.pushed.answers.get(OK, 0) for burst in bursts)
     step = runtime.scenario.steps[event.step]
     if event.distinct >= due:
-        yield check.kept("R-10.1.2-10")
+        yield check.kept()
         if len({(b.pushed.component, b.pushed.instance) for b in bursts}) > 1:
             yield check.kept("R-10.1.6.1-03")
     elif isinstance(step, s.AwaitMessages) and event.received < step.count and not runtime.interactions.held:

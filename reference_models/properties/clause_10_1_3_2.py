@@ -265,7 +265,7 @@ def run_phases(
     if enter.hook != "run" or (member is not None and member.suspended):
         return
     if member is not None and runtime.may_run(member):
-        yield check.kept("R-10.1.3.2-01")
+        yield check.kept()
         yield check.kept("R-10.1.3.2-02")
         if not member.connections and not member.served:
             yield check.kept("R-10.1.3.2-03")

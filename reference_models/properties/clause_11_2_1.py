@@ -35,7 +35,7 @@ def attributes_before_init(
     held = event.attributes or {}
     wrong = [a for a, value in declaration.attributes.items() if not _is_configured(held.get(a), value)]
     if not wrong:
-        yield check.kept("R-11.2.1.2-05")
+        yield check.kept()
     else:
         yield _holds_others(check, "R-11.2.1.2-05", declaration, wrong, held, event, ongoing)
     typed = {a for a, value in declaration.attributes.items() if read_spelled(value) is not None}

@@ -167,7 +167,7 @@ def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
     if ongoing.container.failed_adds and (problem is None or problem.startswith("holds")):
         requirement = "R-12.10-22"
     if problem is None:
-        return (check.kept(requirement), check.kept("R-11.2.2.1-14"))
+        return (check.kept(requirement), check.kept())
     members = ", ".join(f"{m.id} ({m.lane})" for m in ongoing.container.live_members()) or "none"
     return check.fail(
         problem.split()[0],

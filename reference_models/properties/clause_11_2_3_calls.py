@@ -34,7 +34,7 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
     result = exit_.value if exit_ is not None else None
     if enter.port == port and enter.value == call.value and end.value == result and len(own) == 1:
         yield check.kept("R-11.2.1.2-07")
-        yield check.kept("R-11.2.1.1-02")
+        yield check.kept()
         yield check.kept("R-11.2.2.1-06")
         return
     yield check.kept("R-11.2.1.2-07")
