@@ -138,8 +138,7 @@ class _TraceReader:
 
     def call(self, event: t.Call) -> bool | None:
         step = self.steps[event.step]
-        kind = type(step)
-        is_operation = kind in _CONTAINER_CALLS
+        is_operation = type(step) in _CONTAINER_CALLS
         if is_operation and self.ongoing is not None:
             return True
         self.interactions.operate(step, event)

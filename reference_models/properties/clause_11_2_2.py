@@ -108,11 +108,11 @@ def connection_ids(check: Property, runtime: ObservedRuntime, ongoing: Operation
 
 def _identifier(
     check: Property, ongoing: OperationInProgress, end: Return, live: list[int], kind: str, unique: str, in_range: str
-) -> Conclusions:
+) -> Concluded:
     value = end.value
     if not isinstance(value, int) or not _SMALLEST <= value <= _LARGEST:
         text = f"{ongoing.operation} returned {value!r}"
-        yield check.fail(
+        return check.fail(
             "range",
             expected=f"a {kind} id that fits in 32 bits",
             observed=text,
@@ -120,15 +120,12 @@ def _identifier(
             step=ongoing.step_number,
             requirement=in_range,
         )
-        return
-    yield check.kept(in_range)
     if value in live:
         text = f"{ongoing.operation} returned {value}, the id of another live {kind}"
-        yield check.fail(
+        return check.kept(in_range), check.fail(
             "in use", expected=f"a {kind} id not in use", observed=text, ended=(ongoing, end), requirement=unique
         )
-    elif live:
-        yield check.kept(unique)
+    return (check.kept(in_range), check.kept(unique)) if live else check.kept(in_range)
 
 
 @property_at("ended", "R-11.2.2.1-06", at=("get_port_element",))
