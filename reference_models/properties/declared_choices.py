@@ -174,6 +174,8 @@ def declared_meeting(
     if member is None or ongoing is None or ongoing.operation != "start" or member.container is not ongoing.container:
         return
     meeting = _gates(member) - runtime.opened
+    if not meeting:
+        return
     gone = [m for m in map(runtime.bodies.get, runtime.starting) if m is not None and m is not member]
     before = next((m for m in gone if m.container is member.container and _gates(m) & meeting), None)
     if before is None or (yield from takes(runtime, "start-order", "one-by-one")):
