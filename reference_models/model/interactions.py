@@ -182,7 +182,7 @@ class Interactions:
         return any(isinstance(o.step, s.Attach | s.Detach) for o in self.in_progress.values())
 
     def has_left(self, delivery: Delivery) -> bool:
-        """Had who was entered been detached from the link, or removed, before this was called, or anything like it?"""
+        """Was the receiver detached from the link, or removed, before the first call with these values was made?"""
         member, link, arguments = delivery.receiver, delivery.link, delivery.enter.arguments
         moment = min(
             (c.request.n for c in self.calls if c.link is link and c.request.arguments == arguments), default=0
@@ -223,7 +223,7 @@ class Interactions:
         self._connect_ends(link)
 
     def _connect_ends(self, link: LinkState) -> None:
-        """Whether clients are connected depends on the other side; of two servers nobody knows which serves."""
+        """A client is connected while the link has a taker; with two servers its provider is unknown."""
         servers, takers = link.live("server"), link.live(*TAKERS)
         for sender in link.live(*SENDERS):
             if sender.connection is not None:
