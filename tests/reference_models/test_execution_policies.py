@@ -15,6 +15,7 @@ from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
+from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.monitor import Monitor
 
 pytestmark = pytest.mark.native
@@ -28,7 +29,8 @@ def judged(adapter: str, times: int = 1) -> tuple[Counter[str], dict[str, set[st
     monitor = Monitor(load_life_cycle())
     exercised: Counter[str] = Counter()
     broken: dict[str, set[str]] = {}
-    cases = [case for purpose in overlap_purposes() if not purpose.under for case in purpose.scenarios]
+    alone = [p for p in load_purposes("core") if p.id == "self-executing/alone"]
+    cases = [case for purpose in (*overlap_purposes(), *alone) if not purpose.under for case in purpose.scenarios]
     for seed in range(times):
         with Driver(locate(adapter), seed=seed) as driver:
             for answer in driver.run(cases):

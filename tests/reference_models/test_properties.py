@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import random
 from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from performing import answer
@@ -16,9 +18,11 @@ from ucm_cts.adapters.mutants.python.registry import CONTAINER, POLICIES, mutant
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.reference_models.monitor import Monitor
+from ucm_cts.reference_models.properties import table
 from ucm_cts.reference_models.properties.table import PROPERTIES
 
 SCENARIOS, MUTANTS = 6, 8
+PROPERTY_MODULES = Path(table.__file__).parent
 
 
 @pytest.fixture(scope="module")
@@ -62,3 +66,15 @@ def test_the_order_of_properties_does_not_matter(traces: list[tuple[Scenario, Tr
         PROPERTIES.clear()
         PROPERTIES.update(shuffled)
         assert verdicts_on(traces) == expected, f"seed {seed}"
+
+
+def test_properties_write_nothing() -> None:
+    """No property assigns to an attribute or an element: what follows from a finding is a conclusion."""
+    modules = [*PROPERTY_MODULES.glob("clause_*.py"), PROPERTY_MODULES / "declared_choices.py"]
+    assert len(modules) > 10
+    for path in modules:
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Assign | ast.AugAssign | ast.AnnAssign):
+                targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+                written = [t for t in targets if isinstance(t, ast.Attribute | ast.Subscript)]
+                assert not written, f"{path.name}:{node.lineno} writes {ast.unparse(written[0])}"

@@ -28,6 +28,7 @@ SCRIPTED = {
     "entered-while-it-waits-for-another",
     "run-that-fails",
     "executes-by-itself-while-nobody-calls",
+    "self-executing/alone",
 }
 
 

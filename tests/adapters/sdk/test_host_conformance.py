@@ -32,8 +32,6 @@ from ucm_cts.adapters.sdk.python.engine import Engine
 from ucm_cts.harness.catalogue.documents import read
 from ucm_cts.harness.execution.integrity import contradiction
 
-pytestmark = pytest.mark.native
-
 __all__ = ["java"]
 
 

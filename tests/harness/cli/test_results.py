@@ -158,7 +158,7 @@ def test_what_is_no_whole_result_is_refused(tmp_path: Path, name: str, content: 
 
 def test_published_pages_are_those_of_the_published_files() -> None:
     folder = ROOT / "results"
-    assert {path: path.read_text() for path in pages(folder)} == pages(folder)
+    assert {path: path.read_text() for path in folder.rglob("README.md")} == pages(folder)
 
 
 def test_published_files_are_as_the_command_writes_them() -> None:
