@@ -2,74 +2,25 @@
 
 from __future__ import annotations
 
-import functools
 import subprocess
 import sys
-from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import msgspec
 import pytest
 from command_line import within
+from endpoint_runs import Seen, in_a_process_of_its_own, sample, through
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Refused, from_host_decoder
-from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Return, Siblings, Trace
 from ucm_cts.adapters.reference.cpp import COMMAND
-from ucm_cts.harness.catalogue.requirements import load_life_cycle
-from ucm_cts.harness.execution.driver import Driver
-from ucm_cts.harness.hosting.locate import locate
-from ucm_cts.harness.purposes.scripts import load_scripts
-from ucm_cts.harness.purposes.selection import load_purposes
-from ucm_cts.reference_models.monitor import Monitor
 
 pytestmark = pytest.mark.native
 
-GENERATED = 60
 PYTHON = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
-
-
-@dataclass(frozen=True)
-class Seen:
-    """What came through an endpoint; what was exercised is counted where no threads run a race."""
-
-    traces: dict[str, Trace]
-    exercised: Counter[str]
-    broken: dict[str, list[str]]
-
-
-@functools.cache
-def sample() -> tuple[tuple[str, Scenario], ...]:
-    """Every script, and generated scenarios from all over the life cycle."""
-    purposes = load_purposes("container")
-    scripts = len(load_scripts())
-    generated = [case for purpose in purposes[scripts:] for case in purpose.scenarios]
-    return (
-        *(case for purpose in purposes[:scripts] for case in purpose.scenarios),
-        *generated[:: len(generated) // GENERATED],
-    )
-
-
-@functools.cache
-def through(endpoint: str, in_process: bool = False) -> Seen:
-    """The sample run and judged, each endpoint with the same names and payloads."""
-    monitor = Monitor(load_life_cycle())
-    seen = Seen({}, Counter(), {})
-    with Driver(locate(endpoint, in_process), seed=9) as driver:
-        for answer in driver.run(sample()):
-            assert answer.incident is None, (answer.name, answer.incident)
-            verdicts = monitor.judge(answer.disguised, answer.trace)
-            seen.traces[answer.name] = answer.trace
-            if not any(step.thread for step in answer.disguised.steps):
-                seen.exercised.update(verdicts.exercises)
-            if verdicts.findings:
-                seen.broken[answer.name] = sorted(f.requirement for f in verdicts.findings)
-    assert len(seen.traces) == len(sample())
-    return seen
 
 
 def plain(name: str, trace: Trace) -> list[Any]:
@@ -175,6 +126,6 @@ def test_executable_that_is_already_running(listening: str) -> None:
 
 @pytest.mark.parametrize("endpoint", ["reference-py", "reference-cpp-module", "subjects:stops_in_startup_order"])
 def test_in_process_and_in_a_host(endpoint: str) -> None:
-    assert_same_traces(through(endpoint), through(endpoint, in_process=True))
+    assert_same_traces(through(endpoint), in_a_process_of_its_own(endpoint))
     if endpoint.startswith("subjects"):
         assert {r for broken in through(endpoint).broken.values() for r in broken} == {"R-11.2.2.1-13"}
