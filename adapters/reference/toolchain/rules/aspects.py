@@ -61,12 +61,12 @@ def definitions_do_not_extend_themselves(_model: Model, root: Scope) -> Iterator
 
 
 @rule("R-9.4.3.2-12", TechnicalPolicyDefinition)
-def port_elements_are_notredefined(definition: TechnicalPolicyDefinition, scope: Scope) -> Iterator[Complaint]:
+def port_elements_are_not_redefined(definition: TechnicalPolicyDefinition, scope: Scope) -> Iterator[Complaint]:
     """A definition has the port elements of its ancestors already."""
     yield from redefined(definition, scope, "port_elements", "port element")
 
 
 @rule("R-9.4.3.2-13", TechnicalPolicyDefinition)
-def parameters_are_notredefined(definition: TechnicalPolicyDefinition, scope: Scope) -> Iterator[Complaint]:
+def parameters_are_not_redefined(definition: TechnicalPolicyDefinition, scope: Scope) -> Iterator[Complaint]:
     """A definition has the parameters of its ancestors already."""
     yield from redefined(definition, scope, "configuration_parameters", "parameter")
