@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -34,5 +35,7 @@ def test_every_class_is_drawn(models: tuple[Model, ...]) -> None:
 @settings(quick, max_examples=40)
 @given(strategies.spoilt(st.sampled_from(PRINTED)))
 def test_two_validators_agree(xml: bytes) -> None:
-    assume(not any(c.isspace() and c not in " \t\r\n" for c in xml.decode()))  # xmlschema takes these for spaces of XML
-    assert second_opinion().is_valid(xml.decode()) == (not violations(xml))
+    text = xml.decode()
+    assume("\u00a0" not in text)  # which xmlschema takes for a space
+    assume(not re.search(r"<(\w+)[^<>]*(?<!/)>\s+</\1>", text))  # libxml2 lets blanks stand where nothing may
+    assert second_opinion().is_valid(text) == (not violations(xml))
