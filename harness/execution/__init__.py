@@ -1,1 +1,1 @@
-"""Running it: drive, judge, look again, shorten."""
+"""Runs scenarios on one implementation under test: drive, judge, confirm, shorten."""

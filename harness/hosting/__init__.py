@@ -1,1 +1,1 @@
-"""On what: from ADAPTER to a host that answers, whatever happens."""
+"""Finds the host of an adapter, starts it and gets an answer to each message, whatever the host does."""
