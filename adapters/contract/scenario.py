@@ -56,6 +56,11 @@ class StepBase(Value, frozen=True, kw_only=True):
 
     thread: str | None = None
 
+    @property
+    def claim(self) -> str:
+        """What a vendor must claim for the step to be sent: a capability, or a reading as ``option=value``. Empty: nothing."""
+        return ""
+
     def words(self, known_as: KnownAs = lambda variable, kind: variable) -> str:
         """The arguments as people read them; ``known_as`` says how they know a variable that holds a thing of a kind."""
         read = {field: getattr(self, field) for field in self.__struct_fields__}
@@ -233,6 +238,11 @@ class Link(StepBase, frozen=True, tag_field="op", tag="link"):
     interface: Annotated[str, Names("interface")]
     bind: Annotated[str, Binds("link")]
 
+    @property
+    def claim(self) -> str:
+        """The connector is a part of 10.1."""
+        return self.connector
+
 
 class Attach(StepBase, frozen=True, tag_field="op", tag="attach"):
     """Make ``port`` of ``id`` an end of the connection bound to ``link``; clients and emitters have it as required port
@@ -269,6 +279,11 @@ class Break(StepBase, frozen=True, tag_field="op", tag="break"):
 
     link: UsedLink
     where: Literal["transport", "inside"] = "transport"
+
+    @property
+    def claim(self) -> str:
+        """One test operation for each place."""
+        return "transport-fault=hook" if self.where == "transport" else "connector-fault=hook"
 
 
 class Mend(StepBase, frozen=True, tag_field="op", tag="mend"):
@@ -325,13 +340,14 @@ class Stress(StepBase, frozen=True, tag_field="op", tag="stress"):
     wording = "{refs} for {milliseconds} ms"
 
     refs: Annotated[tuple[str, ...], Uses("reference", (NIL,))]
-    milliseconds: Annotated[Int32, Lasts(2)] = 100
+    milliseconds: Annotated[Int32, Lasts(2, at_least=0)] = 100
 
 
 class Advance(StepBase, frozen=True, tag_field="op", tag="advance"):
-    """Let virtual time pass: all times that components are told go on by so many ``milliseconds``, at once."""
+    """Let virtual time pass: all times that components read go on by so many ``milliseconds``, at once."""
 
     optional = True
+    claim = "virtual-time=hook"
     wording = "{milliseconds} ms"
 
     milliseconds: Int32

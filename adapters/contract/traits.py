@@ -50,9 +50,10 @@ class Names:
 
 @dataclass(frozen=True)
 class Lasts:
-    """The field is how many milliseconds the step takes; it takes them so many ``times``."""
+    """The field is how many milliseconds the step takes: at most so many ``times``, and ``at_least`` so many."""
 
     times: int = 1
+    at_least: int = 1
 
 
 Trait = Uses | Binds | Names | Lasts
@@ -113,6 +114,7 @@ def named(step: Value, subject: Subject) -> tuple[str, ...]:
     )
 
 
-def duration(step: Value) -> int:
-    """How many milliseconds ``step`` takes at least, whatever it waits for beside."""
-    return sum(trait.times * getattr(step, field) for field, trait in fields(type(step)) if isinstance(trait, Lasts))
+def duration(step: Value) -> tuple[int, int]:
+    """How many milliseconds ``step`` takes at least, and at most; waits are not counted."""
+    lasting = [(getattr(step, field), trait) for field, trait in fields(type(step)) if isinstance(trait, Lasts)]
+    return sum(time * trait.at_least for time, trait in lasting), sum(time * trait.times for time, trait in lasting)

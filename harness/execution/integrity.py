@@ -9,7 +9,7 @@ from typing import Any
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import Scenario
-from ucm_cts.adapters.contract.traits import bound_by, used_by
+from ucm_cts.adapters.contract.traits import bound_by, duration, used_by
 from ucm_cts.harness.execution.body_behaviour import BodyChecks, Frame, Thread
 from ucm_cts.harness.execution.step_order import StepOrder
 
@@ -170,10 +170,9 @@ class _Check(BodyChecks):
             return step
         if step.ends_with != t.kind_of(event) or event.step in self.done:
             return f"step {event.step} is not the step that this event ends"
-        if isinstance(step, s.Pause) and thread.clock is not None:
-            due = step.milliseconds * _NANOSECONDS * _PUNCTUALITY - _GRAIN
-            if event.t - thread.clock < due:
-                return f"step {event.step} ends too early"
+        shortest = duration(step)[0] * _NANOSECONDS * _PUNCTUALITY - _GRAIN
+        if thread.clock is not None and event.t - thread.clock < shortest:
+            return f"step {event.step} ends too early"
         if isinstance(event, t.Counted) and not 0 <= event.distinct <= event.received:
             return f"step {event.step} has counted {event.distinct} of {event.received}"
         problem = self.check_order(event.step, thread)

@@ -229,7 +229,7 @@ def waits(scenario: s.Scenario) -> float:
     for step in scenario.steps:
         threads = threads or step.thread is not None
         waiting += step.waits
-        milliseconds += duration(step)
+        milliseconds += duration(step)[1]
     for declaration in scenario.components.values():
         for actions in declaration.plan.values():
             waiting += sum(isinstance(action, s.HoldAtGate) for action in actions)

@@ -17,9 +17,6 @@ from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.results.statement import HOOKS, Statement, default_statement
 from ucm_cts.harness.results.values import Verdict
 
-_BROKEN = {"transport": "transport-fault=hook", "inside": "connector-fault=hook"}
-_VIRTUAL_TIME = "virtual-time=hook"
-
 Cases = tuple[tuple[str, Scenario], ...]
 Draw = Callable[[int, Mapping[str, str]], Cases]
 
@@ -35,10 +32,7 @@ def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> t
 def needs_of(scenario: Scenario) -> frozenset[str]:
     """What a vendor must claim for ``scenario`` to be run: parts of 10.1, and test operations of the adapter."""
     applied = {p.definition for declaration in scenario.components.values() for p in declaration.policies}
-    linked = {step.connector for step in scenario.steps if isinstance(step, s.Link)}
-    broken = {_BROKEN[step.where] for step in scenario.steps if isinstance(step, s.Break)}
-    virtual = {_VIRTUAL_TIME for step in scenario.steps if isinstance(step, s.Advance)}
-    return frozenset((applied | linked) & _parts() | broken | virtual)
+    return frozenset(applied & _parts() | {step.claim for step in scenario.steps if step.claim})
 
 
 def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, str] | None:
