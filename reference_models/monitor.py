@@ -7,7 +7,7 @@ from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
-from ucm_cts.reference_models.model.callback_history import CallbackHistory
+from ucm_cts.reference_models.model.callback_history import Callback, CallbackHistory
 from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks, Fit
 from ucm_cts.reference_models.model.ics import Ics
@@ -158,7 +158,7 @@ class _TraceReader:
             conclude(runtime, ongoing, event, self.monitor.expected)
             exercises, fits = verdicts.exercises, verdicts.fits
             for evaluate, one in self.table.ended[ongoing.operation]:
-                concluded = evaluate(one, runtime, ongoing, event)
+                concluded = evaluate(one, runtime, ongoing)
                 if type(concluded) is str:  # most are
                     exercises[concluded] = exercises.get(concluded, 0) + 1
                 elif type(concluded) is Fit:
@@ -221,19 +221,18 @@ class _TraceReader:
         history = self.histories.get(body)
         if history is None:
             history = self.histories[body] = CallbackHistory()
-        ongoing, runtime, add = self.ongoing, self.runtime, self.verdicts.add
-        for evaluate, one in self.table.entered[hook]:
-            if concluded := evaluate(one, runtime, ongoing, event, history):
-                add(concluded)
+        ongoing, runtime = self.ongoing, self.runtime
+        member = runtime.bodies.get(body)
+        callback = Callback(event, member, ongoing, history)
+        self.check(self.table.entered[hook], callback)
         if self.verdicts.suspended:
             self.suspend()
         unclear = self.table.unclear[hook]
         if unclear and not self.verdicts.findings:
-            self.check(unclear, ongoing, event, history)
+            self.check(unclear, callback)
         history.add(hook, event.n)
         if hook == "on_startup":
             runtime.startups[body] = event.n, event.thread
-        member = runtime.bodies.get(body)
         if member is not None:
             self.changes(member, hook)
             starts = ongoing is not None and ongoing.operation == "start" and ongoing.container is member.container

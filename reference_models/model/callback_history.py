@@ -1,32 +1,38 @@
-"""The callbacks that a body has received so far, as far as properties ask for them, however many they are."""
+"""The callbacks of a body: the one that enters it now, and those that it has received before."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
 from ucm_cts.adapters.contract.scenario import Hook
+from ucm_cts.adapters.contract.trace import Enter
+from ucm_cts.reference_models.model.operation import Ongoing
+from ucm_cts.reference_models.model.runtime import Member
 
 _REMEMBERED = 50
-"""So many phases are told of one by one."""
+"""The number of phases that findings list."""
 
 
+@dataclass(slots=True, eq=False)
 class CallbackHistory:
-    """The callbacks of one body. ``first`` is the first of all, ``first_at`` its ``n``; ``interfaces`` counts
-    set_container_interface.
+    """The callbacks that one body has received so far, however many they are.
 
-    ``regular`` says that of a component's life there was on_init first, and on_startup and on_shutdown in turn since;
-    ``phases`` are the last of these two, ``begun`` whether on_startup has ever come.
+    ``first``, ``first_at``: the first callback of all and its ``n``.
+    ``initialised``, ``removed``, ``begun``: on_init, on_remove or on_startup has come.
+    ``regular``: on_init came first, and on_startup and on_shutdown in turn since.
+    ``interfaces``: how often set_container_interface came.
+    ``phases``: the last on_startup and on_shutdown, in their order.
     """
 
-    __slots__ = ("begun", "first", "first_at", "initialised", "interfaces", "phases", "regular", "removed")
-
-    def __init__(self) -> None:
-        self.first = ""
-        self.first_at = 0
-        self.initialised = False
-        self.removed = False
-        self.begun = False
-        self.regular = True
-        self.interfaces = 0
-        self.phases: list[str] = []
+    first: str = ""
+    first_at: int = 0
+    initialised: bool = False
+    removed: bool = False
+    begun: bool = False
+    regular: bool = True
+    interfaces: int = 0
+    phases: list[str] = field(default_factory=list)
 
     def add(self, hook: Hook, n: int) -> None:
         """One more callback has come, with the event ``n``."""
@@ -56,3 +62,18 @@ class CallbackHistory:
     def is_whole_life(self) -> bool:
         """Has it been initialised, and then started and shut down, once or again and again, and nothing else?"""
         return self.regular and self.initialised and bool(self.phases) and not self.in_operation
+
+
+class Callback(NamedTuple):
+    """A body is entered by a callback.
+
+    ``event``: the entry.
+    ``member``: its instance; None if no add_component has returned for it.
+    ``ongoing``: the operation in progress, if there is one.
+    ``history``: the callbacks that the body received before.
+    """
+
+    event: Enter
+    member: Member | None
+    ongoing: Ongoing
+    history: CallbackHistory

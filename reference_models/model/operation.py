@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.scenario import Hook, Step
@@ -104,73 +105,54 @@ class OperationEnd:
 _NOT_ENDED = OperationEnd("")
 
 
+@dataclass(slots=True, eq=False)
 class OperationInProgress:
     """One operation of Container or ContainerManager, from call to return.
 
+    ``step_number``, ``step``: of the scenario.
+    ``call``: the ``n`` of the call event.
     ``roles``: each instance concerned with the row of the life-cycle table that stands for it (the instance is None where
     the row is about one that does not exist).
     ``judged``: False where the model cannot predict.
-    ``lost``: the state that it leaves is not known.
     ``forgiving``: it may end in UCM_ERROR for a reason that the rows do not show.
+    ``lost``: the state that it leaves is not known.
+    ``callbacks``: the entries meanwhile, with their ``hooks``, and the same ``by_body``.
     ``created``: the bodies made meanwhile.
-    ``call``: the ``n`` of the call event.
+    ``subject``, ``connection``: the instance or connection that the step designates.
+    ``end``: the event that ended it. Not there before.
     ``outcome``: how it ended, as soon as it has.
     """
 
-    __slots__ = (
-        "by_body",
-        "call",
-        "callbacks",
-        "connection",
-        "container",
-        "created",
-        "forgiving",
-        "hooks",
-        "judged",
-        "lost",
-        "operation",
-        "outcome",
-        "roles",
-        "step",
-        "step_number",
-        "subject",
-    )
-
-    def __init__(self, step_number: int, step: Step, operation: str, container: Container, call: int = 0) -> None:
-        self.step_number = step_number
-        self.step = step
-        self.operation = operation
-        self.container = container
-        self.call = call
-        self.roles: list[tuple[Member | None, Row]] = []
-        self.judged = True
-        self.forgiving = False
-        self.lost = False
-        self.callbacks: list[Enter] = []
-        self.hooks: set[Hook] = set()
-        self.by_body: dict[tuple[str, int | None], list[Enter]] = {}
-        self.created: list[tuple[str, int]] = []
-        self.subject: Member | None = None
-        self.connection: Connection | None = None
-        self.outcome = _NOT_ENDED
+    step_number: int
+    step: Step
+    operation: str
+    container: Container
+    call: int = 0
+    roles: list[tuple[Member | None, Row]] = field(default_factory=list)
+    judged: bool = True
+    forgiving: bool = False
+    lost: bool = False
+    callbacks: list[Enter] = field(default_factory=list)
+    hooks: set[Hook] = field(default_factory=set)
+    by_body: dict[tuple[str, int | None], list[Enter]] = field(default_factory=dict)
+    created: list[tuple[str, int]] = field(default_factory=list)
+    subject: Member | None = None
+    connection: Connection | None = None
+    end: Result = field(init=False)
+    outcome: OperationEnd = _NOT_ENDED
 
     def hear(self, callback: Enter) -> None:
         """A body was entered while the operation was in progress."""
         self.callbacks.append(callback)
         self.hooks.add(callback.hook)
         body = callback.component, callback.instance
-        callbacks = self.by_body.get(body)
-        if callbacks is None:
-            self.by_body[body] = [callback]
-        else:
-            callbacks.append(callback)
+        self.by_body.setdefault(body, []).append(callback)
 
     def received(self, member: Member, hook: Hook) -> list[Enter]:
         """The ``hook`` callbacks that the body of ``member`` received meanwhile."""
         if hook not in self.hooks:
             return []
-        callbacks = self.by_body.get((member.component, member.instance))
-        return [c for c in callbacks if c.hook == hook] if callbacks is not None else []
+        return [c for c in self.by_body.get((member.component, member.instance), ()) if c.hook == hook]
 
 
 Ongoing = OperationInProgress | None

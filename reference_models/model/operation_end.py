@@ -24,7 +24,8 @@ _LISTENERS = {
 def conclude(runtime: Runtime, ongoing: op.OperationInProgress, end: op.Result, expected: ExpectedCallbacks) -> None:
     """Compare the operation with its rows: sets its ``outcome``, and whether it can be ``judged`` and is ``lost``."""
     answer = "return" if isinstance(end, Return) else end.error
-    outcome = ongoing.outcome = op.OperationEnd(answer)
+    ongoing.end, outcome = end, op.OperationEnd(answer)
+    ongoing.outcome = outcome
     if answer != "return" and answer not in op.DECLARED_ERRORS[ongoing.operation]:
         ongoing.judged, ongoing.lost = False, True
     elif ongoing.judged:

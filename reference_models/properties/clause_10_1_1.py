@@ -196,7 +196,6 @@ def types_accepted(
         f"{kind_name(types[0])} refused by {step.connector}",
         expected=f"{step.connector} can be bound to an interface with {kind_name(types[0])}, as it is to another one",
         observed=f"it ended with {end.error} {end.detail}".rstrip(),
-        at=(end.n,),
-        step=end.step,
+        event=end,
         requirement=transport.requirement_of(types[0]),
     )

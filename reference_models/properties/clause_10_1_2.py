@@ -47,11 +47,9 @@ def without_receivers(check: Property, runtime: ObservedRuntime, call: MethodCal
 
 
 @property_at("ended", "R-10.1.2-02", at=("start",), feature="interactions")
-def refused_without_receivers(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+def refused_without_receivers(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """A connection without receivers is refused only where the vendor has declared it."""
-    if not isinstance(end, Raise) or any(not m.connected for m in ongoing.container.members):
+    if not isinstance(ongoing.end, Raise) or any(not m.connected for m in ongoing.container.members):
         return
     links = [k for k in runtime.interactions.improper(ongoing.container) if k.live("emitter")]
     if links and not (yield from takes(runtime, "push-without-receiver", "refused")):
@@ -59,8 +57,8 @@ def refused_without_receivers(
         yield check.fail(
             "refused",
             expected=f"push-without-receiver was declared as {declared}: who has nobody to push to is started",
-            observed=f"start raised {end.error}",
-            ended=(ongoing, end),
+            observed=f"start raised {ongoing.end.error}",
+            ended=ongoing,
         )
 
 
@@ -75,7 +73,7 @@ def refused_attachment(
         declared = runtime.ics.reading("push-without-receiver")
         expected = f"push-without-receiver was declared as {declared}: an emitter can be attached before a receiver"
         observed = f"it raised {end.error}"
-        yield check.fail("refused", expected=expected, observed=observed, at=(end.n,), step=end.step)
+        yield check.fail("refused", expected=expected, observed=observed, event=end)
 
 
 @property_at("completed", "R-10.1.2-09")

@@ -9,7 +9,7 @@ from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measure
 from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Member, lane, raises
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -17,56 +17,61 @@ _MILLISECOND = 1_000_000
 
 
 @property_at("ended", "R-10.1.3-02", at=("add_component", "start"), feature="policies")
-def execution_policy_given(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Concluded:
+def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """A component that says nothing of its execution is refused, or is given a policy by the framework."""
+    option, what = "missing-execution-policy", "which has no execution policy"
     declarations = runtime.scenario.components
     if not any(ex.protection_of(declaration) for declaration in declarations.values()):
         return ()  # a scenario of profile container, which knows no policies
-    if ongoing.operation == "add_component":
-        component = getattr(ongoing.step, "component", "")
-        declaration = declarations.get(component)
-        if declaration is None or ex.protection_of(declaration) or not isinstance(end, Raise) or declaration.plan:
-            return ()
-        return _note(check, runtime, ongoing, component, "refuse", end)
-    without = [m for m in ongoing.container.live_members() if not ex.protection_of(m.declaration)]
-    if not without or not ongoing.judged or isinstance(end, Raise):
+    if isinstance(ongoing.step, s.AddComponent):
+        declaration = declarations.get(ongoing.step.component)
+        is_open = declaration is not None and not ex.protection_of(declaration) and not declaration.plan
+        if is_open and isinstance(ongoing.end, Raise):
+            return _treated(
+                check, runtime, ongoing, option, "refuse", ongoing.step.component, what, "given a default one"
+            )
         return ()
-    return _note(check, runtime, ongoing, without[0].lane, "default", end)
+    without = [m for m in ongoing.container.live_members() if not ex.protection_of(m.declaration)]
+    if without and ongoing.judged and isinstance(ongoing.end, Return):
+        return _treated(check, runtime, ongoing, option, "default", without[0].lane, what, "refused")
+    return ()
 
 
-def _note(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, who: str, reading: str, end: Result
+def _treated(
+    check: Property,
+    runtime: ObservedRuntime,
+    ongoing: OperationInProgress,
+    option: str,
+    reading: str,
+    who: str,
+    what: str,
+    declared: str,
 ) -> Conclusions:
-    if (yield from takes(runtime, "missing-execution-policy", reading)):
-        yield check.kept("R-10.1.3-02")
-        return
-    refuses = reading == "refuse"
-    yield check.fail(
-        reading,
-        expected=f"'{who}', which has no execution policy, is {'given a default one' if refuses else 'refused'}, as declared",
-        observed=f"it was {'refused' if refuses else 'started'}",
-        at=(end.n,),
-        step=ongoing.step_number,
-        requirement="R-10.1.3-02",
-    )
+    """The framework treats ``who`` by a ``reading`` of ``option``; ``declared`` is the other way."""
+    if not (yield from takes(runtime, option, reading)):
+        yield check.fail(
+            reading,
+            expected=f"'{who}', {what}, is {declared}, as declared",
+            observed=f"it was {'refused' if reading == 'refuse' else 'started'}",
+            event=ongoing.end,
+        )
+    elif option == "missing-execution-policy":
+        yield check.kept()
 
 
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
-def active_policies(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def active_policies(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """A component with the active policy on several ports is refused, or started, as declared."""
-    declarations = runtime.scenario.components
-    if ongoing.operation == "add_component":
-        component = getattr(ongoing.step, "component", "")
-        declaration = declarations.get(component)
+    option, what = "second-active-policy", "of which two ports are active"
+    if isinstance(ongoing.step, s.AddComponent):
+        declaration = runtime.scenario.components.get(ongoing.step.component)
         is_open = declaration is not None and _is_active_twice(declaration) and ongoing.container.started is False
-        if is_open and isinstance(end, Raise):
-            return _note_active(check, runtime, ongoing, component, "refuse", end)
+        if is_open and isinstance(ongoing.end, Raise):
+            return _treated(check, runtime, ongoing, option, "refuse", ongoing.step.component, what, "allowed")
         return ()
     twice = [m for m in ongoing.container.live_members() if _is_active_twice(m.declaration)]
-    if twice and ongoing.judged and isinstance(end, Return):
-        return _note_active(check, runtime, ongoing, twice[0].lane, "allow", end)
+    if twice and ongoing.judged and isinstance(ongoing.end, Return):
+        return _treated(check, runtime, ongoing, option, "allow", twice[0].lane, what, "refused")
     return ()
 
 
@@ -75,22 +80,6 @@ def _is_active_twice(declaration: Declaration) -> bool:
     is_active = all(p.definition == s.ACTIVE and p.port is not None for p in declaration.policies)
     fails = raises(declaration, "on_init", "set_container_interface")
     return is_active and not fails and len(ex.managed_ports(declaration)) > 1
-
-
-def _note_active(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, who: str, reading: str, end: Result
-) -> Conclusions:
-    if (yield from takes(runtime, "second-active-policy", reading)):
-        return
-    allows = reading == "refuse"
-    yield check.fail(
-        reading,
-        expected=f"'{who}', of which two ports are active, is {'allowed' if allows else 'refused'}, as declared",
-        observed=f"it was {'refused' if allows else 'started'}",
-        at=(end.n,),
-        step=ongoing.step_number,
-        requirement="R-10.1.3-03",
-    )
 
 
 @property_at("began", "R-10.1.3.2-01")

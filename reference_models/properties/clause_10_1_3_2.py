@@ -199,16 +199,14 @@ def no_self_execution(
 
 
 @property_at("ended", *_SUPPORT.values(), at=("add_component", "start"), feature="policies")
-def policy_supported(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+def policy_supported(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """A component with an execution policy is added and started like any other."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
-        if isinstance(end, Raise) and declaration is not None and ongoing.container.started is False:
-            yield from _refused(check, ongoing, declaration, end)
+        if isinstance(ongoing.end, Raise) and declaration is not None and ongoing.container.started is False:
+            yield from _refused(check, declaration, ongoing.end)
         return
-    if not isinstance(end, Return) or not ongoing.judged:
+    if not isinstance(ongoing.end, Return) or not ongoing.judged:
         return
     for member in ongoing.container.live_members():
         hooks = [c.hook for c in ongoing.by_body.get((member.component, member.instance), ())]
@@ -217,41 +215,32 @@ def policy_supported(
             yield check.kept(requirement)
 
 
-def _refused(check: Property, ongoing: OperationInProgress, declaration: Declaration, end: Raise) -> Conclusions:
+def _refused(check: Property, declaration: Declaration, end: Raise) -> Conclusions:
     requirement = _SUPPORT.get(ex.protection_of(declaration), "")
     excused = ex.is_contradictory(declaration) or len(ex.managed_ports(declaration)) > 1  # may count as two policies
     excused = excused or bool(policies_of(declaration, *SERVICES))  # may be the reason
     if requirement and not excused and not raises(declaration, "on_init", "set_container_interface"):
-        yield check.fail(
-            "refused",
-            expected=f"a component with the policy {declaration.policies[0].definition} is added",
-            observed=f"add_component raised {end.error} {end.detail}".rstrip(),
-            at=(end.n,),
-            step=ongoing.step_number,
-            requirement=requirement,
-        )
+        expected = f"a component with the policy {declaration.policies[0].definition} is added"
+        yield check.refused("add_component", end, expected=expected, requirement=requirement)
 
 
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
-def one_execution_policy(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+def one_execution_policy(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """A component with two execution policies is refused when it is added, or at the latest when it is to be started."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
-        if declaration is not None and ex.is_contradictory(declaration) and isinstance(end, Raise):
+        if declaration is not None and ex.is_contradictory(declaration) and isinstance(ongoing.end, Raise):
             yield check.kept()
         return
     members = [m for m in ongoing.container.live_members() if ex.is_contradictory(m.declaration)]
-    if members and isinstance(end, Raise):
+    if members and isinstance(ongoing.end, Raise):
         yield check.kept()
-    for member in members if isinstance(end, Return) else ():
+    for member in members if isinstance(ongoing.end, Return) else ():
         yield check.fail(
             "started",
             expected=f"'{member.lane}', which has two execution policies, is not started",
             observed="start returned",
-            at=(end.n,),
-            step=ongoing.step_number,
+            event=ongoing.end,
         )
 
 

@@ -11,7 +11,7 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import clock_readings as clocks
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, only_service, policies_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -67,19 +67,19 @@ def time_range(check: Property, runtime: ObservedRuntime, call: MethodCall) -> C
 
 
 @property_at("ended", "R-10.1.4.1-02", at=("add_component", "start"), feature="policies")
-def one_clock(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def one_clock(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """A component without clock and one with a clock are started, one with two is refused when it is to start at latest."""
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
-        if declaration is None or ongoing.container.started is not False or not isinstance(end, Raise):
+        if declaration is None or ongoing.container.started is not False or not isinstance(ongoing.end, Raise):
             return
         if has_several_clocks(declaration):
             yield check.kept()
         elif only_service(declaration, s.CLOCK):
-            yield _refused(check, ongoing, end)
+            yield check.refused("add_component", ongoing.end, expected="a component with one clock is added")
         return
     members = [m for m in ongoing.container.live_members() if has_several_clocks(m.declaration)]
-    if isinstance(end, Raise):
+    if isinstance(ongoing.end, Raise):
         if members:
             yield check.kept()
         return
@@ -88,23 +88,11 @@ def one_clock(check: Property, runtime: ObservedRuntime, ongoing: OperationInPro
             "started",
             expected=f"'{member.lane}', which has two clocks, is not started",
             observed="start returned",
-            at=(end.n,),
-            step=ongoing.step_number,
+            event=ongoing.end,
         )
     for member in ongoing.container.live_members() if ongoing.judged and not members else ():
         if policies_of(member.declaration, s.CLOCK) and (member.component, member.instance) in ongoing.by_body:
             yield check.kept()
-
-
-def _refused(check: Property, ongoing: OperationInProgress, end: Raise) -> Finding:
-    return check.fail(
-        "refused",
-        expected="a component with one clock is added",
-        observed=f"add_component raised {end.error} {end.detail}".rstrip(),
-        at=(end.n,),
-        step=ongoing.step_number,
-        requirement="R-10.1.4.1-02",
-    )
 
 
 @property_at("closed", "R-10.1.4.1-08")

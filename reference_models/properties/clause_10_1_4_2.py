@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Generator
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Counted, Enter, Paused, Pushed, Raise, Return, Stressed
+from ucm_cts.adapters.contract.trace import Counted, Paused, Pushed, Raise, Return, Stressed
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import log_contents as logs
-from ucm_cts.reference_models.model.callback_history import CallbackHistory
+from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.interactions import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.service_policies import (
     TRACES,
@@ -30,11 +30,9 @@ _SHOWN = 60
 
 
 @property_at("entered", *_REFERENCES.values(), _SEVERAL, at=("on_startup",), feature="policies")
-def policy_references(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+def policy_references(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """on_startup hands over a reference for each port element that a component requires by its policies, at every start."""
-    member = runtime.member_of(event.component, event.instance)
+    event, member, ongoing, _ = callback
     if member is None or has_several_clocks(member.declaration) or member.operational:
         return
     elements = policy_elements(member.declaration, *_REFERENCES)
@@ -77,21 +75,15 @@ def log_returns(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
 
 
 @property_at("ended", _SEVERAL, at=("add_component",), feature="policies")
-def traces_supported(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def traces_supported(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """A component may have any number of trace policies."""
     step = ongoing.step
     declaration = runtime.scenario.components.get(step.component) if isinstance(step, s.AddComponent) else None
-    if declaration is None or not isinstance(end, Raise) or ongoing.container.started is not False:
+    if declaration is None or not isinstance(ongoing.end, Raise) or ongoing.container.started is not False:
         return ()
     if only_service(declaration, *TRACES):
         names = ", ".join(policy.definition for policy in policies_of(declaration, *TRACES))
-        return check.fail(
-            "refused",
-            expected=f"a component with the policies {names} is added",
-            observed=f"add_component raised {end.error} {end.detail}".rstrip(),
-            at=(end.n,),
-            step=ongoing.step_number,
-        )
+        return check.refused("add_component", ongoing.end, expected=f"a component with the policies {names} is added")
     return ()
 
 

@@ -307,13 +307,8 @@ def _fits(link: LinkState, step: s.Attach, has_server: bool) -> bool:
 
 def _refused(check: Property, requirement: str, step: s.Link | s.Attach, end: Raise, done: str) -> Finding:
     what = f"a connector for {step.interface}" if isinstance(step, s.Link) else f"{step.role} {step.id}"
-    return check.fail(
-        f"not {done}",
-        expected=f"{what} is {done}",
-        observed=f"{s.operation(step)} raised {end.error} {end.detail}".rstrip(),
-        at=(end.n,),
-        step=end.step,
-        requirement=requirement,
+    return check.refused(
+        s.operation(step), end, expected=f"{what} is {done}", cause=f"not {done}", requirement=requirement
     )
 
 
@@ -321,18 +316,12 @@ def _refused_second_server(check: Property, runtime: ObservedRuntime, step: s.At
     if end.error in _REFUSALS and (yield from takes(runtime, "second-server", "at-connect")):
         yield check.kept(_ONE_SERVER)
         return
-    yield check.fail(
-        "refused otherwise",
-        expected="a second server is refused with BAD_PARAMETER or UCM_ERROR, unless at-start was declared",
-        observed=f"attach raised {end.error} {end.detail}".rstrip(),
-        at=(end.n,),
-        step=end.step,
-        requirement=_ONE_SERVER,
-    )
+    expected = "a second server is refused with BAD_PARAMETER or UCM_ERROR, unless at-start was declared"
+    yield check.refused("attach", end, expected=expected, cause="refused otherwise", requirement=_ONE_SERVER)
 
 
 @property_at("ended", _ONE_SERVER, at=("start",), feature="interactions")
-def one_server(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def one_server(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """Two servers of one connection never are operational together."""
     links = runtime.interactions.improper()
     for link in (k for k in links if k.connector == s.SERVICE_CONNECTOR):
@@ -340,23 +329,21 @@ def one_server(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
         if len(servers) < 2 or all(e.member.container is not ongoing.container for e in link.live("server", "client")):
             continue
         started = [e for e in servers if e.member.container is ongoing.container or e.member.container.started]
-        if isinstance(end, Raise):
-            if end.error == "UCM_ERROR" and (yield from takes(runtime, "second-server", "at-start")):
+        if isinstance(ongoing.end, Raise):
+            if ongoing.end.error == "UCM_ERROR" and (yield from takes(runtime, "second-server", "at-start")):
                 yield check.kept()
-            elif end.error == "UCM_ERROR":
-                yield _started(check, ongoing, "it was to be refused at connect, as declared", end.n)
+            elif ongoing.end.error == "UCM_ERROR":
+                yield _started(check, ongoing, "it was to be refused at connect, as declared")
         elif len(started) == len(servers):
-            yield _started(check, ongoing, "start returned", end.n)
+            yield _started(check, ongoing, "start returned")
 
 
-def _started(check: Property, ongoing: OperationInProgress, observed: str, end: int) -> Finding:
+def _started(check: Property, ongoing: OperationInProgress, observed: str) -> Finding:
     return check.fail(
         "two",
         expected="a connection with two servers is not started",
         observed=observed,
-        at=(ongoing.call, end),
-        step=ongoing.step_number,
-        requirement=_ONE_SERVER,
+        ended=ongoing,
     )
 
 

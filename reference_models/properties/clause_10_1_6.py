@@ -217,17 +217,13 @@ def message_connector(
     else:
         return ()
     observed = f"it raised {end.error} {end.detail}"
-    return check.fail(
-        s.operation(step), expected=what, observed=observed, at=(end.n,), step=end.step, requirement=requirement
-    )
+    return check.fail(s.operation(step), expected=what, observed=observed, event=end, requirement=requirement)
 
 
 @property_at("ended", "R-10.1.6.1-10", at=("start",), feature="interactions")
-def joined_and_started(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Concluded:
+def joined_and_started(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Whoever is joined by a message connector can be started."""
-    if not isinstance(end, Raise) or ongoing.forgiving:
+    if not isinstance(ongoing.end, Raise) or ongoing.forgiving:
         return ()
     members = ongoing.container.live_members()
     if any(
@@ -240,8 +236,8 @@ def joined_and_started(
         return check.fail(
             "start",
             expected=f"what is joined by {joined[0]} is started",
-            observed=f"start raised {end.error} {end.detail}",
-            ended=(ongoing, end),
+            observed=f"start raised {ongoing.end.error} {ongoing.end.detail}",
+            ended=ongoing,
         )
     return ()
 

@@ -8,7 +8,7 @@ from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
 from ucm_cts.reference_models.model import messages as msg
 from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
@@ -90,11 +90,9 @@ def kept_for_later_phases(check: Property, runtime: ObservedRuntime, timeout: Ti
 
 
 @property_at("ended", "R-10.1.6.1-09", at=("stop",), feature="interactions")
-def delivered_at_stop(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+def delivered_at_stop(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """All that had got ok has arrived when stop returns, where the vendor has declared it."""
-    if isinstance(end, Raise):
+    if isinstance(ongoing.end, Raise):
         return
     for call in msg.messages(runtime):
         for target in msg.of_one_phase(runtime, call) if call.code == msg.OK and msg.is_whole(runtime, call) else ():
@@ -106,7 +104,7 @@ def delivered_at_stop(
                     "pending-at-stop",
                     expected=f"pending-at-stop was declared as deliver: {msg.name_of(call)} is delivered when stop returns",
                     observed=f"it had not come to {target.member.lane}",
-                    at=msg.events_of(call, end.n),
+                    at=msg.events_of(call, ongoing.end.n),
                 )
 
 

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import read_spelled, spell
-from ucm_cts.adapters.contract.trace import Enter, Reference, Return, Siblings
+from ucm_cts.adapters.contract.trace import Reference, Return, Siblings
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.model.callback_history import CallbackHistory
+from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress
 from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.properties.clause_11_2_2 import listing_problem
 from ucm_cts.reference_models.properties.clause_11_2_3 import outside_life
@@ -23,11 +23,10 @@ _SHOWN = 3
 
 
 @property_at("entered", "R-11.2.1.2-05", "R-10.1.1-06", at=("on_init",), feature="attributes")
-def attributes_before_init(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """On entry to on_init the body holds the configured attribute values."""
-    if history.initialised:
+    event = callback.event
+    if callback.history.initialised:
         return
     declaration = runtime.scenario.components.get(event.component)
     if declaration is None or not declaration.attributes:
@@ -37,12 +36,12 @@ def attributes_before_init(
     if not wrong:
         yield check.kept()
     else:
-        yield _holds_others(check, "R-11.2.1.2-05", declaration, wrong, held, event, ongoing)
+        yield _holds_others(check, "R-11.2.1.2-05", declaration, wrong, held, callback)
     typed = {a for a, value in declaration.attributes.items() if read_spelled(value) is not None}
     if typed and not typed.intersection(wrong):
         yield check.kept("R-10.1.1-06")
     elif typed:
-        yield _holds_others(check, "R-10.1.1-06", declaration, [a for a in wrong if a in typed], held, event, ongoing)
+        yield _holds_others(check, "R-10.1.1-06", declaration, [a for a in wrong if a in typed], held, callback)
 
 
 def _is_configured(held: str | None, configured: str) -> bool:
@@ -57,25 +56,22 @@ def _holds_others(
     declaration: s.Declaration,
     wrong: list[str],
     held: Mapping[str, str],
-    event: Enter,
-    ongoing: Ongoing,
+    callback: Callback,
 ) -> Finding:
     some = wrong[:_SHOWN]
     return check.fail(
         "missing" if all(a not in held for a in wrong) else "another value",
         expected="on_init finds " + ", ".join(f"{a}={declaration.attributes[a]}" for a in some),
         observed="on_init found " + ", ".join(f"{a}={held[a]}" if a in held else f"{a} unset" for a in some),
-        during=(ongoing, event),
+        during=(callback.ongoing, callback.event),
         requirement=requirement,
     )
 
 
 @property_at("ended", "R-11.2.1.2-08", at=("start",))
-def configuration_first(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Concluded:
+def configuration_first(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Once start has started a member, nothing of the container is initialised or connected any more."""
-    if not isinstance(end, Return):
+    if not isinstance(ongoing.end, Return):
         return ()
     own = [m for m in ongoing.container.live_members() if m.instance is not None] if ongoing.callbacks else []
     late = [c for m in own for c in (*ongoing.received(m, "on_init"), *ongoing.received(m, "on_connect"))]
@@ -93,17 +89,16 @@ def configuration_first(
 
 
 @property_at("entered", "R-11.2.1.3-04", at=("on_connect",))
-def connect_arguments(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Concluded:
+def connect_arguments(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_connect is given the port element's name and the reference that connect was given."""
+    event, _, ongoing, _ = callback
     if ongoing is None or not isinstance(ongoing.step, s.Connect):
         return ()
     member = ongoing.subject
     if (
         member is None
         or member.suspended
-        or outside_life(runtime, ongoing, event, history)
+        or outside_life(runtime, callback)
         or (member.component, member.instance) != (event.component, event.instance)
     ):
         return ()
@@ -124,14 +119,10 @@ def connect_arguments(
 
 
 @property_at("entered", "R-11.2.1.3-06", at=("on_disconnect",))
-def disconnect_arguments(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Concluded:
+def disconnect_arguments(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_disconnect is given the name of the port element whose connection is undone."""
-    if ongoing is None:
-        return ()
-    member = runtime.member_of(event.component, event.instance)
-    if member is None or member.suspended or outside_life(runtime, ongoing, event, history):
+    event, member, ongoing, _ = callback
+    if ongoing is None or member is None or member.suspended or outside_life(runtime, callback):
         return ()
     if ongoing.operation not in _UNDOING:  # that it came at all is then the fault
         return ()
@@ -152,10 +143,9 @@ def disconnect_arguments(
 
 
 @property_at("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"), feature="fragments")
-def container_interface(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Concluded:
+def container_interface(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """A fragment gets its container's interface exactly once, before on_startup."""
+    event, _, ongoing, history = callback
     declaration = runtime.scenario.components.get(event.component)
     if declaration is None or not declaration.fragment:
         return ()

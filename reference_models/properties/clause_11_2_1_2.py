@@ -5,9 +5,8 @@ from __future__ import annotations
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow
-from ucm_cts.reference_models.model.callback_history import CallbackHistory
+from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import Ongoing
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
 from ucm_cts.reference_models.properties.declaration import Property, property_at
@@ -22,11 +21,9 @@ def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
 
 
 @property_at("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
-def dependencies(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Concluded:
+def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_startup names each connected required port element and gives the reference it was connected to."""
-    member = runtime.member_of(event.component, event.instance)
+    event, member, ongoing, _ = callback
     if member is None or member.suspended or member.operational:
         return ()
     given = handed_over(event)
@@ -86,14 +83,10 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
 
 
 @property_at("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
-def no_dangling_reference(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+def no_dangling_reference(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
-    if ongoing is not None and ongoing.operation == "connect":
-        return
-    member = runtime.member_of(event.component, event.instance)
-    if member is None or member.operational:
+    event, member, ongoing, _ = callback
+    if member is None or member.operational or (ongoing is not None and ongoing.operation == "connect"):
         return
     given = handed_over(event)
     for port, references in given.items():

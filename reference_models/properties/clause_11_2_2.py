@@ -10,7 +10,7 @@ from ucm_cts.reference_models.conclusions import Broken, Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import DECLARED_ERRORS, OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import DECLARED_ERRORS, OperationInProgress
 from ucm_cts.reference_models.model.runtime import Container, Member
 from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
@@ -40,9 +40,9 @@ _FROM_TABLE = requirements("""
 
 
 @property_at("ended", *DECLARED.values())
-def declared_errors(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def declared_errors(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Nothing but the declared exceptions leaves an operation."""
-    requirement, declared = DECLARED[ongoing.operation], DECLARED_ERRORS[ongoing.operation]
+    requirement, declared, end = DECLARED[ongoing.operation], DECLARED_ERRORS[ongoing.operation], ongoing.end
     if isinstance(end, Return) or end.error in declared:
         return requirement
     name = end.error if end.error != "UNDECLARED" else f"an undeclared exception ({end.detail})"
@@ -50,24 +50,24 @@ def declared_errors(check: Property, runtime: ObservedRuntime, ongoing: Operatio
         f"{ongoing.operation} {end.error}",
         expected=f"{ongoing.operation} returns or raises {' or '.join(declared)}",
         observed=f"{ongoing.operation} raised {name}",
-        ended=(ongoing, end),
+        ended=ongoing,
         instead=(Arrow(ongoing.container.name, "test", f"return or {' or '.join(declared)}"),),
         requirement=requirement,
     )
 
 
 @property_at("ended", *_FROM_TABLE)
-def outcomes(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def outcomes(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """The operation ends in a way that the life-cycle table permits for every instance concerned."""
     outcome = ongoing.outcome
     if outcome.forbidding is None and len(outcome.permitting) == 1:  # the common case
         return outcome.permitting[0].requirement
     kept = [check.kept(row.requirement) for row in outcome.permitting]
-    return kept if outcome.forbidding is None else (*kept, *_forbidden(check, ongoing, outcome.forbidding, end))
+    return kept if outcome.forbidding is None else (*kept, *_forbidden(check, ongoing, outcome.forbidding))
 
 
 def _forbidden(
-    check: Property, ongoing: OperationInProgress, forbidding: tuple[Member | None, Row, frozenset[str]], end: Result
+    check: Property, ongoing: OperationInProgress, forbidding: tuple[Member | None, Row, frozenset[str]]
 ) -> Conclusions:
     member, row, permitted = forbidding
     answer = ongoing.outcome.answer
@@ -79,30 +79,30 @@ def _forbidden(
         f"{row.id} {answer}",
         expected=f"{ongoing.operation} ends with {expected}{f' ({situation})' if situation else ''}",
         observed=f"{ongoing.operation} {'returned' if answer == 'return' else f'raised {answer}'}",
-        ended=(ongoing, end),
+        ended=ongoing,
         instead=(Arrow(ongoing.container.name, "test", " or ".join(sorted(permitted))),),
         requirement=row.requirement,
     )
 
 
 @property_at("ended", "R-11.2.2.1-03", "R-12.10-02", at=("add_component",))
-def component_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def component_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Component ids are 32-bit, and distinct among the live members of a container."""
-    if isinstance(end, Return):
+    if isinstance(ongoing.end, Return):
         live = [m.id for m in ongoing.container.live_members() if not m.doubtful]
-        return _identifier(check, ongoing, end, live, "component", "R-11.2.2.1-03", "R-12.10-02")
+        return _identifier(check, ongoing, ongoing.end, live, "component", "R-11.2.2.1-03", "R-12.10-02")
     return ()
 
 
 @property_at("ended", "R-11.2.2.1-09", "R-12.10-03", at=("connect",))
-def connection_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def connection_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Connection ids are 32-bit, and distinct among the live connections of a container."""
-    if isinstance(end, Return) and ongoing.outcome.permitted:
+    if isinstance(ongoing.end, Return) and ongoing.outcome.permitted:
         assert isinstance(ongoing.step, s.Connect)
         replaced = (ongoing.subject, ongoing.step.port)  # what it takes the place of may lend it its id
         others = [c for c in runtime.all_connections() if c.live and (c.client, c.port) != replaced]
         live = [c.id for c in others if c.client.container is ongoing.container]
-        return _identifier(check, ongoing, end, live, "connection", "R-11.2.2.1-09", "R-12.10-03")
+        return _identifier(check, ongoing, ongoing.end, live, "connection", "R-11.2.2.1-09", "R-12.10-03")
     return ()
 
 
@@ -112,27 +112,20 @@ def _identifier(
     value = end.value
     if not isinstance(value, int) or not _SMALLEST <= value <= _LARGEST:
         text = f"{ongoing.operation} returned {value!r}"
-        return check.fail(
-            "range",
-            expected=f"a {kind} id that fits in 32 bits",
-            observed=text,
-            at=(end.n,),
-            step=ongoing.step_number,
-            requirement=in_range,
-        )
+        expected = f"a {kind} id that fits in 32 bits"
+        return check.fail("range", expected=expected, observed=text, event=end, requirement=in_range)
     if value in live:
         text = f"{ongoing.operation} returned {value}, the id of another live {kind}"
         return check.kept(in_range), check.fail(
-            "in use", expected=f"a {kind} id not in use", observed=text, ended=(ongoing, end), requirement=unique
+            "in use", expected=f"a {kind} id not in use", observed=text, ended=ongoing, requirement=unique
         )
     return (check.kept(in_range), check.kept(unique)) if live else check.kept(in_range)
 
 
 @property_at("ended", "R-11.2.2.1-06", at=("get_port_element",))
-def port_element_identity(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Concluded:
+def port_element_identity(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """get_port_element gives the object that the designated body made for that name."""
+    end = ongoing.end
     if not isinstance(ongoing.step, s.GetPortElement) or not isinstance(end, Return):
         return ()
     member, port = ongoing.subject, ongoing.step.port
@@ -147,18 +140,18 @@ def port_element_identity(
             "null" if end.value is None else "another object",
             expected=f"get_port_element returns {member.lane}'s own {port}",
             observed=f"get_port_element returned {got}",
-            ended=(ongoing, end),
+            ended=ongoing,
             instead=(Arrow(ongoing.container.name, "test", f"{member.lane}.{port}"),),
         )
     return ()
 
 
 @property_at("ended", "R-11.2.2.1-14", "R-12.10-22", at=("get_components",))
-def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """get_components lists exactly the live members; a failed add has left nothing among them."""
-    if not isinstance(end, Return) or not ongoing.outcome.permitted:
+    if not isinstance(ongoing.end, Return) or not ongoing.outcome.permitted:
         return ()
-    listed = end.value if isinstance(end.value, tuple) else ()
+    listed = ongoing.end.value if isinstance(ongoing.end.value, tuple) else ()
     problem = listing_problem(runtime, ongoing.container, listed)
     requirement = "R-11.2.2.1-14"
     if ongoing.container.failed_adds and (problem is None or problem.startswith("holds")):
@@ -170,7 +163,7 @@ def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
         problem.split()[0],
         expected=f"get_components lists the members: {members}",
         observed=f"get_components returned {list(listed)}: {problem}",
-        ended=(ongoing, end),
+        ended=ongoing,
         requirement=requirement,
     )
 
@@ -195,7 +188,7 @@ def listing_problem(runtime: ObservedRuntime, container: Container, listed: tupl
 
 
 @property_at("ended", "R-11.2.2.1-02", at=("add_component",))
-def right_body(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def right_body(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """The one body initialised by add_component is of the implementation asked for."""
     new = ongoing.outcome.initialised
     if not new or not isinstance(ongoing.step, s.AddComponent):
@@ -214,9 +207,9 @@ def right_body(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
 
 
 @property_at("ended", "R-11.2.2.1-13", at=("stop",))
-def stop_order(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def stop_order(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """stop shuts members down in the reverse of the order they were started in, where they were not started at a time."""
-    if not isinstance(end, Return) or runtime.ics.reading("start-order") == "at-once":
+    if not isinstance(ongoing.end, Return) or runtime.ics.reading("start-order") == "at-once":
         return ()
     started = [m for m in ongoing.container.startup_order if not m.gone and not m.suspended]
     when = {id(m): ongoing.received(m, "on_shutdown") for m in started}

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ucm_cts.adapters.contract.trace import Enter
 from ucm_cts.reference_models.conclusions import Broken, Concluded, Conclusions, Suspended
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model import operation as op
-from ucm_cts.reference_models.model.callback_history import CallbackHistory
+from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.expected_callbacks import CONNECTABLE_HOOKS, LIFE_CYCLE_HOOKS
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation_end import OF_ALL_MEMBERS
@@ -28,18 +27,16 @@ _FROM_TABLE = (
 
 
 @property_at("ended", *_FROM_TABLE)
-def callbacks(check: Property, runtime: ObservedRuntime, ongoing: op.OperationInProgress, end: op.Result) -> Concluded:
+def callbacks(check: Property, runtime: ObservedRuntime, ongoing: op.OperationInProgress) -> Concluded:
     """Each instance receives exactly the callbacks that the life-cycle table asks for, in its order."""
     outcome = ongoing.outcome
     if outcome.is_plain and len(outcome.fitted) == 1:  # the common case
         return outcome.fitted[0][2]
     fits = [fit for _, _, fit in outcome.fitted]
-    return fits if outcome.is_plain else (*fits, *_peculiarities(check, ongoing, outcome, end))
+    return fits if outcome.is_plain else (*fits, *_peculiarities(check, ongoing, outcome))
 
 
-def _peculiarities(
-    check: Property, ongoing: op.OperationInProgress, outcome: op.OperationEnd, end: op.Result
-) -> Conclusions:
+def _peculiarities(check: Property, ongoing: op.OperationInProgress, outcome: op.OperationEnd) -> Conclusions:
     for intrusion in outcome.intrusions:
         yield _intrudes(check, ongoing, intrusion)
         yield Suspended(intrusion.member)
@@ -48,21 +45,21 @@ def _peculiarities(
     if outcome.reached_own:
         yield check.kept(_OF_THE_MANAGER)
     elif outcome.not_reached:
-        yield _reaches_nobody(check, ongoing, outcome.not_reached, end.n)
+        yield _reaches_nobody(check, ongoing, outcome.not_reached)
         yield from map(Suspended, outcome.not_reached)
     for role in outcome.deviating:
         yield Broken(role.row)
-        yield _deviates(check, ongoing, role, end)
+        yield _deviates(check, ongoing, role)
         if role.member is not None:
             yield Suspended(role.member)
 
 
-def _deviates(check: Property, ongoing: op.OperationInProgress, role: op.Deviating, end: op.Result) -> Finding:
+def _deviates(check: Property, ongoing: op.OperationInProgress, role: op.Deviating) -> Finding:
     _, row, who, events, deviation = role
     hook, operation, container = deviation.hook, ongoing.operation, ongoing.container.name
     if deviation.missing:
         instead = [Arrow(container, who, hook)]
-        offending = [end.n]
+        offending = [ongoing.end.n]
         cause, observed = f"{row.operation} without {hook}", f"{operation} ended without {hook} on '{who}'"
     elif hook:
         instead = [Arrow(container, "test", f"return without {hook}")]
@@ -99,41 +96,40 @@ def _intrudes(check: Property, ongoing: op.OperationInProgress, intrusion: op.In
     )
 
 
-def _reaches_nobody(check: Property, ongoing: op.OperationInProgress, members: Sequence[Member], end: int) -> Finding:
+def _reaches_nobody(check: Property, ongoing: op.OperationInProgress, members: Sequence[Member]) -> Finding:
     """A successful start or stop of the manager reaches none of its own members (11.2.2.2)."""
     hook = OF_ALL_MEMBERS[ongoing.operation]
     return check.fail(
         f"manager without {hook}",
         expected=f"{ongoing.operation} of the manager calls {hook} on its own members",
         observed=f"{ongoing.operation} returned and none of {', '.join(m.lane for m in members)} received {hook}",
-        at=(ongoing.call, end),
-        step=ongoing.step_number,
+        ended=ongoing,
         instead=tuple(Arrow(ongoing.container.name, m.lane, hook) for m in members),
         requirement=_OF_THE_MANAGER,
     )
 
 
-def _is_stray(runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, member: Member) -> bool:
-    """Does a life-cycle callback come while no operation of the container is in progress?"""
-    if ongoing is not None or member.suspended or member.gone:
-        return False  # whoever is joined by a connector is connected, too
-    return not (event.hook in CONNECTABLE_HOOKS and runtime.interactions.is_joining)
+def _is_stray(runtime: ObservedRuntime, callback: Callback) -> bool:
+    """Does a life-cycle callback come to an instance while no operation of the container is in progress?"""
+    member = callback.member
+    if callback.ongoing is not None or member is None or member.suspended or member.gone:
+        return False
+    # An instance that is just being joined by a connector is connected, too.
+    return not (callback.event.hook in CONNECTABLE_HOOKS and runtime.interactions.is_joining)
 
 
 @property_at("entered", "R-11.1.1-01", "R-11.1.2-01", at=LIFE_CYCLE_HOOKS)
-def whole_life(
-    check: Property, runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory
-) -> Concluded:
+def whole_life(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """Life-cycle callbacks come during operations of the container; a whole life has them in order."""
+    event, member, ongoing, history = callback
     if ongoing is not None and event.hook != "on_remove":
         return ()
     of_component, of_fragment = check.stands_for
     declaration = runtime.scenario.components.get(event.component)
     requirement = of_fragment if declaration is not None and declaration.fragment else of_component
-    member = runtime.member_of(event.component, event.instance)
     if member is None:
         return ()
-    if _is_stray(runtime, ongoing, event, member):
+    if _is_stray(runtime, callback):
         finding = check.fail(
             f"stray {event.hook}",
             expected=f"{event.hook} comes during an operation of the container",
@@ -147,32 +143,30 @@ def whole_life(
     return ()
 
 
-def outside_life(runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory) -> str:
+def outside_life(runtime: ObservedRuntime, callback: Callback) -> str:
     """When a callback comes that is not to come before on_init or after on_remove; empty if it may come."""
+    event, member, ongoing, history = callback
     early, late = event.hook != "on_init" and not history.initialised, history.removed
     if not (early or late) or (early and ongoing is not None and not ongoing.judged):
         return ""
-    body = event.component, event.instance
-    removal = ongoing.by_body.get(body, ()) if late and ongoing is not None else ()
+    removal = ongoing.by_body.get((event.component, event.instance), ()) if late and ongoing is not None else ()
     if any(c.hook == "on_remove" for c in removal):
         return ""  # within the removal itself it is a matter of order
-    member = runtime.member_of(*body)
-    if member is not None and (member.suspended or _is_stray(runtime, ongoing, event, member)):
+    if member is not None and (member.suspended or _is_stray(runtime, callback)):
         return ""
     return "after on_remove" if late else "before on_init"
 
 
 @property_at("entered", "R-11.2.1.2-01", at=LIFE_CYCLE_HOOKS)
-def nothing_outside_life(
-    check: Property, runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory
-) -> Concluded:
+def nothing_outside_life(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """No callback before on_init or after on_remove."""
+    event, member, ongoing, history = callback
     if event.hook == "on_remove" and history.first == "on_init" and not history.removed:
         return check.kept()
-    when = outside_life(runtime, ongoing, event, history)
+    when = outside_life(runtime, callback)
     if not when:
         return ()
-    who, member = lane(event.component, event.instance), runtime.member_of(event.component, event.instance)
+    who = lane(event.component, event.instance)
     finding = check.fail(
         f"{event.hook} {when}",
         expected=f"{who} hears nothing {when}",
@@ -183,12 +177,10 @@ def nothing_outside_life(
 
 
 @property_at("unclear", "R-11.2.3-09", "R-11.2.1.2-10", at=("on_startup", "on_shutdown"))
-def alternation(
-    check: Property, runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory
-) -> Concluded:
+def alternation(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """No second on_startup without on_shutdown between, no on_shutdown without on_startup before: whatever else is unclear."""
+    event, member, ongoing, history = callback
     started_again, not_started = check.stands_for
-    member = runtime.member_of(event.component, event.instance)
     if ongoing is None or member is None or not member.suspended:
         return ()  # the table's matter, or whole_life's
     declaration = runtime.scenario.components.get(event.component)
@@ -206,15 +198,14 @@ def alternation(
 
 
 @property_at("entered", "R-12.10-22", at=LIFE_CYCLE_HOOKS)
-def discarded(
-    check: Property, runtime: ObservedRuntime, ongoing: op.Ongoing, event: Enter, history: CallbackHistory
-) -> Concluded:
+def discarded(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """What a failed add_component made hears nothing more but its on_remove."""
+    event = callback.event
     if (event.component, event.instance) not in runtime.discarded or event.hook == "on_remove":
         return ()
     return check.fail(
         event.hook,
         expected="a failed add_component leaves nothing behind",
         observed=f"its body received {event.hook} later",
-        during=(ongoing, event),
+        during=(callback.ongoing, event),
     )

@@ -184,7 +184,7 @@ def nothing_after_stop(
 
 
 @property_at("ended", "R-11.2.3-17", at=("get_components", "get_port_element"))
-def quiet_after_stop(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def quiet_after_stop(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Counts what nothing_after_stop watched: queries of a container stopped after it had served calls."""
     if ongoing.container.started is not False:
         return ()

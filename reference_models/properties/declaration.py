@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from ucm_cts.adapters.contract.trace import Enter
+from ucm_cts.adapters.contract.trace import Enter, Raise, StepEvent
 from ucm_cts.reference_models.conclusions import Concluded, Kept
 from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress
 
 Moment = Literal[
     "ended",
@@ -79,20 +79,30 @@ class Property:
         observed: str,
         at: tuple[int, ...] = (),
         step: int | None = None,
-        ended: tuple[OperationInProgress, Result] | None = None,
+        event: StepEvent | None = None,
+        ended: OperationInProgress | None = None,
         during: tuple[Ongoing, Enter] | None = None,
         instead: tuple[Arrow, ...] = (),
         requirement: str = "",
     ) -> Finding:
         """The requirement was violated; without ``requirement`` the first one. The others are the fields of ``Finding``:
-        ``ended`` (an operation with its end) and ``during`` (a callback in an operation, if there is one) stand for
-        ``at`` and ``step``.
+        ``event`` (one event about a step), ``ended`` (an operation with its end) and ``during`` (a callback in an operation,
+        if there is one) stand for ``at`` and ``step``.
         """
-        if ended is not None:
-            at, step = (ended[0].call, ended[1].n), ended[0].step_number
+        if event is not None:
+            at, step = (event.n,), event.step
+        elif ended is not None:
+            at, step = (ended.call, ended.end.n), ended.step_number
         elif during is not None:
             at, step = (during[1].n,), during[0].step_number if during[0] is not None else None
         return Finding(requirement or self.stands_for[0], self.name, cause, expected, observed, at, step, instead)
+
+    def refused(
+        self, operation: str, end: Raise, *, expected: str, cause: str = "refused", requirement: str = ""
+    ) -> Finding:
+        """The requirement was violated because ``operation`` ended with an exception."""
+        observed = f"{operation} raised {end.error} {end.detail}".rstrip()
+        return self.fail(cause, expected=expected, observed=observed, event=end, requirement=requirement)
 
 
 def requirements(text: str) -> tuple[str, ...]:

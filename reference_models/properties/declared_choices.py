@@ -7,14 +7,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Skip
+from ucm_cts.adapters.contract.trace import Raise, Return, Skip
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
-from ucm_cts.reference_models.model.callback_history import CallbackHistory
+from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.expected_callbacks import Fit
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
-from ucm_cts.reference_models.model.operation import Fitted, Ongoing, OperationInProgress, Result
+from ucm_cts.reference_models.model.operation import Fitted, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
@@ -28,18 +28,18 @@ _OF_ALL_AT_ONCE = ("double-start", "stop-when-stopped")
 
 
 @property_at("ended", *_WITH_CHOICES)
-def declared_choices(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Concluded:
+def declared_choices(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Where the life-cycle table permits several ways, an instance goes the one that the vendor declares."""
-    return _chosen(check, runtime, ongoing, end) if ongoing.outcome.has_choices else ()
+    return _chosen(check, runtime, ongoing) if ongoing.outcome.has_choices else ()
 
 
-def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     fitted = ongoing.outcome.fitted
-    telling = _choices(ongoing, end, fitted)
+    telling = _choices(ongoing, ongoing.end, fitted)
     for _, _, fit in telling:
         if len(fit.readings) == 1:
             yield Taken(*fit.readings[0].split("=", 1))
-    undeclared = undeclared_choice(runtime.ics, ongoing, end, telling)
+    undeclared = undeclared_choice(runtime.ics, ongoing, ongoing.end, telling)
     if undeclared is None:
         return
     member, row, fit = undeclared
@@ -49,7 +49,7 @@ def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgr
         f"{row.id} {taken}",
         expected=f"{ongoing.operation} goes as the vendor declares: {', '.join(declared)}",
         observed=f"it went the way of {taken}" + (f" ({member.lane}, {row.state})" if member is not None else ""),
-        ended=(ongoing, end),
+        ended=ongoing,
         requirement=row.requirement,
     )
 
@@ -100,30 +100,28 @@ def _options(fit: Fit) -> list[str]:
 
 
 @property_at("ended", "R-11.2.2.1-14", at=("get_components",))
-def declared_listing(
-    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result
-) -> Conclusions:
+def declared_listing(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """The manager lists members of its sub-containers if, and only if, the vendor declares so."""
-    if ongoing.container.name != s.MANAGER or not ongoing.judged or not isinstance(end, Return):
+    if ongoing.container.name != s.MANAGER or not ongoing.judged or not isinstance(ongoing.end, Return):
         return
     below = [m for c in runtime.containers.values() if c is not ongoing.container for m in c.live_members()]
     if not below or ongoing.container.of_doubt or any(m.doubtful for m in below):
         return
-    listed = end.value if isinstance(end.value, tuple) else ()
+    listed = ongoing.end.value if isinstance(ongoing.end.value, tuple) else ()
     reading = "recursive" if len(listed) > len(ongoing.container.live_members()) else "own"
     if not (yield from takes(runtime, "manager-get-components", reading)):
         yield check.fail(
             reading,
             expected=f"the vendor declares manager-get-components = {runtime.ics.reading('manager-get-components')}",
             observed=f"get_components of the manager returned {list(listed)}, which is {reading}",
-            ended=(ongoing, end),
+            ended=ongoing,
         )
 
 
 @property_at("ended", "R-11.2.3-17", at=("stop",))
-def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, end: Result) -> Conclusions:
+def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """stop waits for calls in progress if the vendor declares so."""
-    if not isinstance(end, Return) or not ongoing.judged:
+    if not isinstance(ongoing.end, Return) or not ongoing.judged:
         return
     inside = {body for bodies in runtime.inside.values() for body in bodies}
     for member in ongoing.container.live_members():
@@ -138,18 +136,16 @@ def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: Operation
                 "abandoned",
                 expected="the vendor declares stop-drain = wait: stop returns when the calls in progress have ended",
                 observed=f"stop returned while {member.lane} was still carrying out a call",
-                ended=(ongoing, end),
+                ended=ongoing,
             )
         return
 
 
 @property_at("entered", "R-11.2.2.1-13", at=("on_startup",))
-def declared_order(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+def declared_order(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """Who declares that members are started one by one does not start them at a time, by several threads."""
-    member = runtime.member_of(event.component, event.instance)
-    if member is None or ongoing is None or ongoing.operation != "start" or member.container is not ongoing.container:
+    event, member, ongoing, _ = callback
+    if member is None or not _is_started(callback):
         return
     beside = [body for body, thread in runtime.starting_up.items() if thread != event.thread]
     if beside and not (yield from takes(runtime, "start-order", "at-once")):
@@ -162,16 +158,14 @@ def declared_order(
 
 
 @property_at("entered", "R-11.2.2.1-13", at=("on_startup",), timed=True)
-def declared_meeting(
-    check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, history: CallbackHistory
-) -> Conclusions:
+def declared_meeting(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """Who declares that members are started at once does not let one wait until another one's on_startup has ended.
 
     Another one whose on_startup has ended, although the gate it held at was to open when both had come to it, was inside as
     long as there is patience.
     """
-    member = runtime.member_of(event.component, event.instance)
-    if member is None or ongoing is None or ongoing.operation != "start" or member.container is not ongoing.container:
+    event, member, ongoing, _ = callback
+    if member is None or not _is_started(callback):
         return
     meeting = _gates(member) - runtime.opened
     if not meeting:
@@ -185,6 +179,16 @@ def declared_meeting(
         expected="the vendor declares start-order = at-once: several members are inside on_startup at a time",
         observed=f"{member.lane} was not started within {runtime.scenario.patience} ms while {before.lane} was inside",
         during=(ongoing, event),
+    )
+
+
+def _is_started(callback: Callback) -> bool:
+    """Does the callback come from a start of the instance's own container?"""
+    member, ongoing = callback.member, callback.ongoing
+    return (
+        member is not None
+        and ongoing is not None
+        and (ongoing.operation, ongoing.container) == ("start", member.container)
     )
 
 
