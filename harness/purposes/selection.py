@@ -8,28 +8,26 @@ from collections.abc import Callable
 from ucm_cts.harness.catalogue.profiles import PARTS
 from ucm_cts.harness.catalogue.requirements import load_life_cycle, load_options, load_requirements
 from ucm_cts.harness.purposes.data.scenarios import data_purposes
-from ucm_cts.harness.purposes.derived.circles import circle_purposes
-from ucm_cts.harness.purposes.derived.container_services import container_service_purposes
 from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
+from ucm_cts.harness.purposes.derived.log_messages import log_message_purposes
 from ucm_cts.harness.purposes.derived.messages import message_purposes
 from ucm_cts.harness.purposes.derived.schedules import overlap_purposes
 from ucm_cts.harness.purposes.derived.services import service_purposes
-from ucm_cts.harness.purposes.derived.startups import startup_purposes
-from ucm_cts.harness.purposes.derived.stress import stress_purposes
 from ucm_cts.harness.purposes.derived.unforeseen import unforeseen_purposes
 from ucm_cts.harness.purposes.probes import load_probe_types
 from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario
 from ucm_cts.harness.purposes.systematic.purposes import systematic_purposes
+from ucm_cts.harness.purposes.tables import purposes_of
 
 _CORE: tuple[Callable[[], list[TestPurpose]], ...] = (
     overlap_purposes,
-    circle_purposes,
-    stress_purposes,
+    functools.partial(purposes_of, "execution_policies"),
     message_purposes,
     service_purposes,
-    container_service_purposes,
+    log_message_purposes,
+    functools.partial(purposes_of, "port_traces"),
 )
-"""Where the purposes of profile core come from, beside scripts and those of data_scenarios.py."""
+"""Where the purposes of profile core come from, beside scripts and those of data types."""
 
 
 @functools.cache
@@ -72,7 +70,7 @@ def _all_purposes(profile: str) -> tuple[TestPurpose, ...]:
         if script.exercises[0] in clauses
     ]
     combined = [purpose for source in _CORE for purpose in source()] if "core" in PARTS[profile] else []
-    return (*scripted, *generated_purposes(load_life_cycle()), *startup_purposes(), *unforeseen_purposes(), *combined)
+    return (*scripted, *generated_purposes(load_life_cycle()), *purposes_of("start"), *unforeseen_purposes(), *combined)
 
 
 def select(purposes: tuple[TestPurpose, ...], expression: str) -> tuple[TestPurpose, ...]:

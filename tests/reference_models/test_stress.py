@@ -20,9 +20,8 @@ from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.python.framework import Member
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.integrity import contradiction
-from ucm_cts.harness.purposes.derived.circles import circle_purposes
-from ucm_cts.harness.purposes.derived.stress import stress_purposes
 from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario
+from ucm_cts.harness.purposes.tables import purposes_of
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.monitor import Monitor
 from ucm_cts.reference_models.verdicts import Verdicts
@@ -72,15 +71,19 @@ class checks_and_then_enters(Base):
             member.__dict__["occupied"] = False
 
 
+def policy_purposes(prefix: str) -> list[TestPurpose]:
+    return [purpose for purpose in purposes_of("execution_policies") if purpose.id.startswith(prefix)]
+
+
 def test_reference_framework_withstands_stress() -> None:
-    by_case = judged(stress_purposes(), ReferenceAdapter)
+    by_case = judged(policy_purposes("stress/"), ReferenceAdapter)
     assert not [finding for verdicts in by_case.values() for finding in verdicts.findings]
 
 
 @pytest.mark.parametrize("mixin", [leaves_the_lock_out, checks_and_then_enters])
 def test_framework_with_a_tiny_hole_is_found_out(mixin: type) -> None:
     adapter = bind(mixin.__name__, mixin)
-    purposes = [p for p in stress_purposes() if p.id == "stress/protected passive, two ports"]
+    purposes = [p for p in policy_purposes("stress/") if p.id == "stress/protected passive, two ports"]
     found = [judged(purposes, adapter) for _ in range(20)]
     broken = {f.requirement for by_case in found for verdicts in by_case.values() for f in verdicts.findings}
     assert broken == {"R-10.1.3.2-16"}
@@ -88,7 +91,7 @@ def test_framework_with_a_tiny_hole_is_found_out(mixin: type) -> None:
 
 @functools.cache
 def stressed() -> tuple[Scenario, Trace]:
-    (purpose,) = [p for p in stress_purposes() if p.id == "stress/protected passive, one port"]
+    (purpose,) = [p for p in policy_purposes("stress/") if p.id == "stress/protected passive, one port"]
     ((_, asked),) = purpose.scenarios
     return asked, played(asked, ReferenceAdapter)
 
@@ -130,7 +133,7 @@ CIRCLES = {"enter": ReferenceAdapter} | {
 
 @pytest.mark.parametrize(("reading", "adapter"), CIRCLES.items())
 def test_circle_is_told_and_not_judged_unless_declared(reading: str, adapter: type[ReferenceAdapter]) -> None:
-    passive = [p for p in circle_purposes() if p.id == "circle/protected passive"]
+    passive = [p for p in policy_purposes("circle/") if p.id == "circle/protected passive"]
     for name, verdicts in judged(passive, adapter).items():
         assert verdicts.readings["protected-recursion"] == {reading}, name
         assert not verdicts.findings

@@ -103,15 +103,6 @@ def overlap_purposes() -> list[TestPurpose]:
     purposes += [_active_as_a_whole(), *_receivers(), *_after_something()]
     entered = (*_WAYS, *_SERVICE_WAYS, _MESSAGE_WAY)
     runs = tuple((f"self-executing/{way.name}", _meeting_with_run(way)) for way in entered)
-    purposes.append(
-        TestPurpose(
-            "two execution policies",
-            "10.1.3",
-            "A component has more than one execution policy.",
-            ("R-10.1.3-03",),
-            tuple((f"two policies/{one} and {other}", _contradictory(one, other)) for one, other in _PAIRS),
-        )
-    )
     text = "Callers of a self-executing component are sent while its run is held inside."
     purposes.append(TestPurpose("self-executing/run and ports", _CLAUSE, text, ("R-10.1.3.2-06",), runs))
     return purposes
@@ -206,15 +197,6 @@ def _meeting_with_run(way: _Way) -> Scenario:
     calls += [s.Pause(_MOMENT)] if is_message else []
     calls += [s.OpenGate("running"), s.Join("caller"), *([s.ReachGate("got")] if is_message else [])]
     return _scenario(server, (way,), calls)
-
-
-_PAIRS = tuple(itertools.combinations((s.SELF_EXECUTING, s.ACTIVE, s.PROTECTED_PASSIVE, s.UNPROTECTED_PASSIVE), 2))
-
-
-def _contradictory(one: str, other: str) -> Scenario:
-    policies = tuple(Policy(name, "in.api" if name == s.ACTIVE else None) for name in (one, other))
-    steps = (s.AddComponent("server"), s.Start(), s.Stop(), s.GetComponents())
-    return Scenario({"server": Declaration(_PORTS, policies=policies)}, steps)
 
 
 def _server(

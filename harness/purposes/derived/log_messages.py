@@ -1,0 +1,116 @@
+"""Scenarios of the trace (10.1.4.2): texts and severities of messages.
+
+A component writes when the test calls it; what was traced is read back afterwards, and once more after a pause, for records
+that come late.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.scenario import Declaration, Policy, Scenario, Step
+from ucm_cts.harness.purposes.scripts import TestPurpose
+
+_CLAUSE = "10.1.4.2"
+_TRACE = "trace.trace_api"
+_COMMON = ("debug", "info", "warning", "error")
+_UNPROTECTED = Policy(s.UNPROTECTED_PASSIVE)
+_LATER = 30
+"""Milliseconds until the log is read again."""
+
+_NARROW = (
+    "x",
+    "simple",
+    "sentence with several words, a comma; and (brackets).",
+    "percents %s %d %n %% {0} {name} $HOME \\n \\0 \\",
+    "markup <b>&amp;</b> 'single' \"double\" `back` #5 ~tilde ^ | @",
+    "spaces   between  ",
+    "manywords" + " 0123456789abcdef" * 14 + " 56789ab",
+)
+"""ASCII, the last one of 255 characters."""
+
+_WIDE = (
+    "",
+    "latinones äöüß éèê ñ ÿ",
+    "otherones λόγος журнал 日志 سجل ログ",
+    "beyondbmp \U0001d11e \U0001f600 \U00020000 \U0010fffd",
+    "oneoveredge" + "." * 245,
+    "halfamillionbits" + " lorem ipsum" * 5460,
+)
+"""Empty; beyond ASCII; beyond the BMP; of 256 and of 65,536 characters."""
+
+_MANY = 250
+_NARROW_LIMIT, _LONG = 255, 65_536
+assert len(_NARROW[-1]) == _NARROW_LIMIT
+assert len(_WIDE[-1]) == _LONG
+
+
+def log_message_purposes() -> list[TestPurpose]:
+    """All purposes; some are only for vendors with certain readings."""
+    texts = ("R-10.1.4.2-53", "R-10.1.4.2-26", "R-10.1.4.2-25", "R-10.1.4.2-51")
+    own = ("R-10.1.4.2-25", "R-10.1.4.2-26", "R-10.1.4.2-51")
+    return [
+        _purpose("log/narrow texts", "Messages of ASCII characters are written.", texts, _written("info", _NARROW)),
+        _purpose(
+            "log/wide texts",
+            "Messages are written that are empty, long, not ASCII or beyond the Basic Multilingual Plane.",
+            ("R-10.1.4.2-47", "R-10.1.4.2-26"),
+            _written("warning", _WIDE, more=1),
+            under=("log-message=wide-unbounded",),
+        ),
+        _purpose(
+            "log/many records",
+            "So many messages are written that a seldom loss shows.",
+            ("R-10.1.4.2-26", "R-10.1.4.2-25", "R-10.1.4.2-51"),
+            _writing([(_COMMON[number % 4], f"record {number}") for number in range(_MANY)], 0),
+        ),
+        _purpose(
+            "log/severities of the model",
+            "Messages are written with the severities that only the model has.",
+            own,
+            _with_severities("trace", "critical"),
+            under=("log-severity-set=model-6",),
+        ),
+        _purpose(
+            "log/severities of IDL",
+            "A message is written with the severity that only IDL has.",
+            own,
+            _with_severities("fatal"),
+            under=("log-severity-set=idl-5",),
+        ),
+    ]
+
+
+def _written(severity: str, texts: Sequence[str], more: int = 0) -> Scenario:
+    """Waits for ``more`` records than the component writes, so that a further record has time to come."""
+    return _writing([(severity, text) for text in texts], more)
+
+
+def _with_severities(*severities: str) -> Scenario:
+    return _writing([(severity, f"message of {severity}") for severity in (*severities, *_COMMON)], 0)
+
+
+def _writing(messages: Sequence[tuple[str, str]], more: int) -> Scenario:
+    calls = tuple(s.CallMethod(_TRACE, "log", message) for message in messages)
+    policies = (_UNPROTECTED, Policy(s.COMPONENT_TRACE, element=_TRACE))
+    writer = Declaration(("in.api",), plan={"exchange": calls}, policies=policies)
+    steps = (
+        s.AddComponent("writer"),
+        s.GetPortElement("writer", "in.api", "api"),
+        s.Start(),
+        s.Invoke("api", 1),
+        *(_read(len(messages)) if not more else (s.ReadLog(len(messages) + more),)),
+        s.Stop(),
+    )
+    return Scenario({"writer": writer}, steps)
+
+
+def _read(records: int) -> tuple[Step, ...]:
+    return s.ReadLog(records), s.Pause(_LATER), s.ReadLog(records)
+
+
+def _purpose(
+    name: str, text: str, requirements: tuple[str, ...], scenario: Scenario, under: tuple[str, ...] = ()
+) -> TestPurpose:
+    return TestPurpose(name, _CLAUSE, text, requirements, ((name, scenario),), under=under)
