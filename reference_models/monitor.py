@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
 from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
@@ -12,13 +13,14 @@ from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks, Fit
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
+from ucm_cts.reference_models.model.log_contents import contents_read
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.operation_effects import apply
 from ucm_cts.reference_models.model.operation_end import conclude
 from ucm_cts.reference_models.model.row_selection import RowSelection
 from ucm_cts.reference_models.model.runtime import Member
-from ucm_cts.reference_models.properties.declaration import Bound, Feature
+from ucm_cts.reference_models.properties.declaration import Bound, Feature, Moment
 from ucm_cts.reference_models.properties.table import PropertyTable, features_of
 from ucm_cts.reference_models.verdicts import Verdicts
 
@@ -60,16 +62,19 @@ class Monitor:
         return reader.verdicts
 
 
+@dataclass(slots=True)
 class _Thread:
-    """What one thread is doing: calls that have not come back, hooks that have not been left, whom it serves and where."""
+    """What one thread is doing.
 
-    __slots__ = ("calls", "hooks", "inside", "served")
+    ``inside``: the bodies that it executes; ``served``: the calls that led there.
+    ``calls``: its calls that have not come back; None while it has made none.
+    ``hooks``: the hooks that have not been left.
+    """
 
-    def __init__(self, inside: list[tuple[str, int]]) -> None:
-        self.calls: list[BusinessCall] | None = None
-        self.hooks: list[s.Hook] = []
-        self.served: list[BusinessCall | None] = []
-        self.inside = inside
+    inside: list[tuple[str, int]]
+    calls: list[BusinessCall] | None = None
+    hooks: list[s.Hook] = field(default_factory=list)
+    served: list[BusinessCall | None] = field(default_factory=list)
 
 
 class _TraceReader:
@@ -77,21 +82,6 @@ class _TraceReader:
 
     What takes an event in returns True where reading is to end, and else nothing.
     """
-
-    __slots__ = (
-        "calls",
-        "connecting",
-        "executions",
-        "histories",
-        "interactions",
-        "monitor",
-        "ongoing",
-        "runtime",
-        "steps",
-        "table",
-        "threads",
-        "verdicts",
-    )
 
     def __init__(
         self, monitor: Monitor, table: PropertyTable, scenario: s.Scenario, features: frozenset[Feature]
@@ -112,10 +102,14 @@ class _TraceReader:
     def close(self) -> None:
         """The trace is over."""
         self.runtime.is_over, self.runtime.service_calls = True, None
-        self.check(self.table.closed)
+        self.check("closed")
         self.verdicts.close()
 
-    def check(self, properties: tuple[Bound, ...], *details: object) -> None:
+    def check(self, moment: Moment, *details: object) -> None:
+        """Add what the properties of ``moment`` conclude from ``details``."""
+        self.evaluate(self.table.at[moment], *details)
+
+    def evaluate(self, properties: tuple[Bound, ...], *details: object) -> None:
         """Add what the properties conclude from ``details``."""
         runtime, add = self.runtime, self.verdicts.add
         for evaluate, one in properties:
@@ -182,29 +176,35 @@ class _TraceReader:
         calls = thread.calls if thread is not None else None
         if calls and type(step) is s.Invoke:
             call = calls.pop()
-            self.check(self.table.answered, call, event)
+            self.check("answered", call, event)
             self.come_back(call, event.n)
 
     def end_connecting(self, step: s.Step, begin: t.Call, event: t.Return | t.Raise) -> None:
         if type(step) in _CONNECTOR_CALLS:
             link = self.interactions.linked(step, begin, event)  # type: ignore[arg-type]
             self.runtime.changed()
-            self.check(self.table.linked, link, step, event)
-        elif isinstance(event, t.Return):
-            self.tell(event)
+            self.check("linked", link, step, event)
+        elif isinstance(event, t.Return) and event.records is not None:
+            contents = contents_read(self.runtime, event)
+            if contents is not None:
+                self.check("read", contents)
 
     def skip(self, event: t.Skip) -> None:
         if self.connecting.pop(event.step, None) is not None:
             self.runtime.not_offered.append(event)
 
-    def tell(self, event: t.Return | t.Pushed | t.Counted | t.Paused | t.Stressed) -> None:
-        if isinstance(event, t.Pushed):
-            self.interactions.push(event)
-        self.check(self.table.told, event)
+    def pushed(self, event: t.Pushed) -> None:
+        self.interactions.push(event)
+        self.check("pushed", event)
+
+    def counted(self, event: t.Counted) -> None:
+        self.check("counted", event)
+
+    def stressed(self, event: t.Stressed) -> None:
+        self.check("stressed", event)
 
     def paused(self, event: t.Paused) -> None:
         self.interactions.pause(event)
-        self.tell(event)
 
     def create(self, event: t.Create) -> None:
         if self.ongoing is not None:
@@ -224,12 +224,12 @@ class _TraceReader:
         ongoing, runtime = self.ongoing, self.runtime
         member = runtime.bodies.get(body)
         callback = Callback(event, member, ongoing, history)
-        self.check(self.table.entered[hook], callback)
+        self.evaluate(self.table.entered[hook], callback)
         if self.verdicts.suspended:
             self.suspend()
         unclear = self.table.unclear[hook]
         if unclear and not self.verdicts.findings:
-            self.check(unclear, callback)
+            self.evaluate(unclear, callback)
         history.add(hook, event.n)
         if hook == "on_startup":
             runtime.startups[body] = event.n, event.thread
@@ -269,16 +269,16 @@ class _TraceReader:
         body = event.component, event.instance
         thread.inside.append(body)
         runtime = self.runtime
-        self.check(self.table.began, *self.executions.begin(event, call))
+        self.check("began", *self.executions.begin(event, call))
         if hook == "run":
             runtime.last_run[body] = event.n
             return
         if call is not None:
             call.entries.append((event, None))
         if delivery is not None:
-            self.check(self.table.delivered, delivery)
+            self.check("delivered", delivery)
         else:
-            self.check(self.table.called[call.by if call is not None else "nobody"], self.ongoing, event, call)
+            self.evaluate(self.table.called[call.by if call is not None else "nobody"], self.ongoing, event, call)
         member = runtime.bodies.get(body)
         if member is not None and member.operational:
             member.served = True
@@ -301,7 +301,7 @@ class _TraceReader:
             call.close(event)
         execution = self.executions.end(event)
         if execution is not None:
-            self.check(self.table.over, execution, event.n)
+            self.check("over", execution, event.n)
 
     def call_behind(self, event: t.Enter, own: BusinessCall | None) -> BusinessCall | None:
         """The call of another thread that seems to have led to this entry, else this thread's ``own``."""
@@ -331,17 +331,17 @@ class _TraceReader:
             return
         call = calls.pop()
         if call.request is None or call.request.method is None:
-            self.check(self.table.replied, call, event)
+            self.check("replied", call, event)
         else:
             completed = self.interactions.reply(event)
             if completed is not None:
-                self.check(self.table.completed, completed)
+                self.check("completed", completed)
         self.come_back(call, event.n)
 
     def come_back(self, call: BusinessCall, end: int) -> None:
         waited = self.executions.answered(call)
         if waited is not None:
-            self.check(self.table.served, call, waited, end)
+            self.check("served", call, waited, end)
 
     def held(self, event: t.Held) -> None:
         self.executions.hold(event)
@@ -362,13 +362,13 @@ class _TraceReader:
         if isinstance(step, s.ReachGate):
             self.runtime.in_vain.add(step.gate)
         self.interactions.wait(event)
-        self.check(self.table.waited, event)
+        self.check("waited", event)
         if isinstance(step, s.Join):
             for call, waited in self.executions.lost():
-                self.check(self.table.served, call, waited, 0)
+                self.check("served", call, waited, 0)
 
     def siblings(self, event: t.Siblings) -> None:
-        self.check(self.table.noted, self.ongoing, event)
+        self.check("noted", self.ongoing, event)
 
 
 _TAKE: dict[type[Any], Callable[[_TraceReader, Any], bool | None]] = {
@@ -386,9 +386,9 @@ _TAKE: dict[type[Any], Callable[[_TraceReader, Any], bool | None]] = {
     t.Opened: _TraceReader.opened,
     t.Settled: _TraceReader.settled,
     t.Timeout: _TraceReader.timeout,
-    t.Pushed: _TraceReader.tell,
-    t.Counted: _TraceReader.tell,
+    t.Pushed: _TraceReader.pushed,
+    t.Counted: _TraceReader.counted,
     t.Paused: _TraceReader.paused,
-    t.Stressed: _TraceReader.tell,
+    t.Stressed: _TraceReader.stressed,
 }
 """What to do with each kind of event."""

@@ -16,6 +16,7 @@ from ucm_cts.adapters.contract.scenario import Declaration, Policy
 from ucm_cts.adapters.contract.trace import Call, LogRecord, Return
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.interactions import Interactions, MethodCall
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.service_policies import policy_elements, port_traces
 
 COMMON_SEVERITIES = ("debug", "info", "warning", "error")
@@ -48,7 +49,7 @@ class Threshold:
 
 @dataclass(frozen=True, slots=True)
 class LogReading:
-    """The log was read from ``begin`` to ``end``; ``in_vain`` says that somebody waited for more records than came."""
+    """The log was read from ``begin`` to ``end``; ``in_vain`` says that the step waited for more records than came."""
 
     begin: Call
     end: Return
@@ -117,8 +118,10 @@ class Tracing:
 
 @dataclass(slots=True, eq=False)
 class Contents:
-    """Everything about one reading of the log. ``surplus`` are records of messages that have theirs already, ``strays``
-    those that nobody can explain.
+    """Everything about one reading of the log.
+
+    ``surplus``: records of messages that have theirs already.
+    ``strays``: records of no known message or call.
     """
 
     reading: LogReading
@@ -128,8 +131,22 @@ class Contents:
     strays: list[LogRecord] = field(default_factory=list)
 
     @property
+    def step(self) -> int:
+        """The step that read the log."""
+        return self.reading.end.step
+
+    @property
+    def events(self) -> tuple[int, int]:
+        """Begin and end of the reading."""
+        return self.reading.begin.n, self.reading.end.n
+
+    def events_of(self, message: Message) -> tuple[int, int]:
+        """Where ``message`` was written, and the end of the reading."""
+        return message.call.request.n, self.reading.end.n
+
+    @property
     def missing(self) -> list[Message]:
-        """Messages whose record somebody waited for in vain."""
+        """Messages whose record a step waited for in vain."""
         if not self.reading.in_vain:
             return []
         return [m for m in self.messages if m.due and m.record is None and m.altered is None]
@@ -142,6 +159,14 @@ def log_readings(interactions: Interactions) -> list[LogReading]:
         for o in interactions.operations
         if isinstance(o.step, s.ReadLog) and isinstance(o.end, Return) and o.end.records is not None
     ]
+
+
+def contents_read(runtime: ObservedRuntime, event: Return) -> Contents | None:
+    """What was read of the log by the step that ``event`` ends; None if that step does not read it."""
+    reading = next((reading for reading in log_readings(runtime.interactions) if reading.end is event), None)
+    if reading is None:
+        return None
+    return contents_of(reading, runtime.interactions, runtime.scenario.components, runtime.ics)
 
 
 def contents_of(

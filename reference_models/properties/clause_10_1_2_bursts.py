@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Counted, Event, Pushed
+from ucm_cts.adapters.contract.trace import Counted, Pushed
 from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.interactions import PushedBurst
@@ -16,11 +16,9 @@ from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 
-@property_at("told", "R-10.1.2-02", "R-10.1.2-09")
-def burst_answered(check: Property, runtime: ObservedRuntime, event: Event) -> Conclusions:
+@property_at("pushed", "R-10.1.2-02", "R-10.1.2-09")
+def burst_answered(check: Property, runtime: ObservedRuntime, event: Pushed) -> Conclusions:
     """Each message of a burst is answered one of the three codes; ok, where the vendor has declared that push waits."""
-    if not isinstance(event, Pushed):
-        return
     burst = runtime.interactions.bursts[-1]
     emitter = runtime.member_of(event.component, event.instance)
     if emitter is None or not emitter.serving or burst.link is None:
@@ -41,11 +39,9 @@ def burst_answered(check: Property, runtime: ObservedRuntime, event: Event) -> C
         yield _violate(check, "R-10.1.2-09", expected, f"the answers were {event.answers}", event)
 
 
-@property_at("told", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07", timed=True)
-def burst_counted(check: Property, runtime: ObservedRuntime, event: Event) -> Conclusions:
+@property_at("counted", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07", timed=True)
+def burst_counted(check: Property, runtime: ObservedRuntime, event: Counted) -> Conclusions:
     """What was pushed in bursts and got ok is counted, each message once, and nothing else is."""
-    if not isinstance(event, Counted):
-        return
     receiver = runtime.member_of(event.component, event.instance)
     link = runtime.interactions.link_to(receiver) if receiver is not None else None
     bursts = [burst for burst in runtime.interactions.bursts if burst.link is link]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
-from ucm_cts.adapters.contract.trace import Counted, Paused, Pushed, Raise, Return, Stressed, Timeout
+from ucm_cts.adapters.contract.trace import Raise, Return, Stressed, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measured, takes
 from ucm_cts.reference_models.model import executions as ex
 from ucm_cts.reference_models.model.interactions import MethodCall
@@ -193,13 +193,9 @@ def _came_round(
         )
 
 
-@property_at("told", *ex.CALL_EXCLUSIONS)
-def no_overlap_under_stress(
-    check: Property, runtime: ObservedRuntime, event: Return | Pushed | Counted | Paused | Stressed
-) -> Conclusions:
+@property_at("stressed", *ex.CALL_EXCLUSIONS)
+def no_overlap_under_stress(check: Property, runtime: ObservedRuntime, event: Stressed) -> Conclusions:
     """Callers that stress a protected component never meet inside."""
-    if not isinstance(event, Stressed):
-        return
     step = runtime.scenario.steps[event.step]
     assert isinstance(step, s.Stress)
     members = {runtime.reference(ref)[1] for ref in step.refs}
@@ -218,8 +214,7 @@ def no_overlap_under_stress(
             "tiny hole",
             expected=f"callers of {' and '.join(dict.fromkeys(ports))} are never in '{member.lane}' at a time",
             observed=f"they met there {event.overlaps} times in {event.calls} calls",
-            at=(event.n,),
-            step=event.step,
+            event=event,
             requirement=requirement,
         )
     elif event.control_overlaps and event.calls:

@@ -284,8 +284,7 @@ def run_triggered(check: Property, runtime: ObservedRuntime, event: Timeout) -> 
                     "never",
                     expected=f"run of '{member.lane}', which is ready, is called",
                     observed=f"it was not within {runtime.scenario.patience} ms",
-                    at=(event.n,),
-                    step=event.step,
+                    event=event,
                     requirement=requirement,
                 )
             return

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.trace import Counted, Paused, Pushed, Raise, Return, Stressed
+from ucm_cts.adapters.contract.trace import Raise
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import log_contents as logs
@@ -87,15 +87,9 @@ def traces_supported(check: Property, runtime: ObservedRuntime, ongoing: Operati
     return ()
 
 
-Told = Return | Pushed | Counted | Paused | Stressed
-
-
-@property_at("told", "R-10.1.4.2-26", "R-10.1.4.2-47", _SEVERAL, timed=True)
-def log_recorded(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
+@property_at("read", "R-10.1.4.2-26", "R-10.1.4.2-47", _SEVERAL, timed=True)
+def log_recorded(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """Each call of log leaves one record, from the declared threshold on and none below it."""
-    contents = _contents(runtime, event)
-    if contents is None:
-        return
     for message in contents.missing:
         requirement = "R-10.1.4.2-26" if message.is_narrow else "R-10.1.4.2-47"
         expected = f"a record of log({message.severity}, {_shown(message.text)})"
@@ -105,45 +99,41 @@ def log_recorded(check: Property, runtime: ObservedRuntime, event: Told) -> Conc
         expected = f"one record of log({message.severity}, {_shown(message.text)})"
         yield _violated(check, runtime, contents, message, "R-10.1.4.2-26", "more than one", expected, observed)
     for message in (m for m in contents.messages if m.barred and m.record is not None):
-        expected = f"no record below the threshold {runtime.ics.reading('log-threshold')}"
-        observed = f"there was one of log({message.severity}, {_shown(message.text)})"
         yield check.fail(
             "threshold",
-            expected=expected,
-            observed=observed,
-            at=(message.call.request.n, contents.reading.end.n),
-            step=contents.reading.end.step,
+            expected=f"no record below the threshold {runtime.ics.reading('log-threshold')}",
+            observed=f"there was one of log({message.severity}, {_shown(message.text)})",
+            at=contents.events_of(message),
+            step=contents.step,
         )
     if any(m.due and m.record for m in contents.messages) and not (contents.missing or contents.surplus):
         yield check.kept()
 
 
-@property_at("told", "R-10.1.4.2-47", "R-10.1.4.2-53")
-def log_text(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
+@property_at("read", "R-10.1.4.2-47", "R-10.1.4.2-53")
+def log_text(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """A record has the text that log was called with."""
-    contents = _contents(runtime, event)
-    for message in (m for m in contents.messages if m.due) if contents is not None else ():
+    for message in (m for m in contents.messages if m.due):
         requirement = "R-10.1.4.2-53" if message.is_narrow else "R-10.1.4.2-47"
         if message.record is not None:
             yield check.kept(requirement)
-        elif message.altered is not None and contents is not None:
+        elif message.altered is not None:
             yield check.fail(
                 "altered",
                 expected=f"a record with the text {_shown(message.text)}, {len(message.text)} characters",
                 observed=f"its text is {_shown(message.altered.message)}, {len(message.altered.message)} characters",
-                at=(message.call.request.n, contents.reading.end.n),
-                step=contents.reading.end.step,
+                at=contents.events_of(message),
+                step=contents.step,
                 requirement=requirement,
             )
 
 
-@property_at("told", "R-10.1.4.2-51")
-def log_severity_kept(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
+@property_at("read", "R-10.1.4.2-51")
+def log_severity_kept(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """A record has the severity that log was called with."""
-    contents = _contents(runtime, event)
-    for message in (m for m in contents.messages if m.due) if contents is not None else ():
+    for message in (m for m in contents.messages if m.due):
         record = message.record or message.altered
-        if record is None or contents is None:
+        if record is None:
             continue
         if record.severity == message.severity:
             yield check.kept()
@@ -152,17 +142,16 @@ def log_severity_kept(check: Property, runtime: ObservedRuntime, event: Told) ->
             message.severity,
             expected=f"the record of log({message.severity}, {_shown(message.text)}) has this severity",
             observed=f"it has severity {record.severity}",
-            at=(message.call.request.n, contents.reading.end.n),
-            step=contents.reading.end.step,
+            at=contents.events_of(message),
+            step=contents.step,
         )
 
 
-@property_at("told", "R-10.1.4.2-04", "R-10.1.4.2-32", timed=True)
-def port_trace_recorded(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
+@property_at("read", "R-10.1.4.2-04", "R-10.1.4.2-32", timed=True)
+def port_trace_recorded(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """Each call of a method that methods_to_trace names has one record with the method's name, or one for each way."""
-    contents = _contents(runtime, event)
-    for tracing in contents.tracings.values() if contents is not None else ():
-        if contents is None or not tracing.is_traced:
+    for tracing in contents.tracings.values():
+        if not tracing.is_traced:
             continue
         problem = yield from _number_problem(runtime, contents, tracing)
         if problem == _TOO_MANY and _may_be_of_others(tracing):
@@ -222,18 +211,15 @@ def _wrong_number(check: Property, contents: logs.Contents, tracing: logs.Tracin
         problem,
         expected=f"one record for each of {tracing.due} traced calls of {tracing.method}, or two",
         observed=f"{len(tracing.records)} records contain its name",
-        at=(contents.reading.begin.n, contents.reading.end.n),
-        step=contents.reading.end.step,
+        at=contents.events,
+        step=contents.step,
         requirement="R-10.1.4.2-04" if nothing else "R-10.1.4.2-32",
     )
 
 
-@property_at("told", "R-10.1.4.2-33")
-def port_trace_selective(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
+@property_at("read", "R-10.1.4.2-33")
+def port_trace_selective(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """Methods that are not named, and ports without port_trace, leave no record."""
-    contents = _contents(runtime, event)
-    if contents is None:
-        return
     works = any(t.is_traced and t.records for t in contents.tracings.values())
     for tracing in (t for t in contents.tracings.values() if _may_be_of_others(t)):
         if not _has_too_many(runtime, contents, tracing):
@@ -245,8 +231,8 @@ def port_trace_selective(check: Property, runtime: ObservedRuntime, event: Told)
             "port" if tracing.is_traced else "method",
             expected=f"records of the {tracing.most} traced calls of {tracing.method}, and of none of the {tracing.others} others",
             observed=f"{len(tracing.records)} records contain its name",
-            at=(contents.reading.begin.n, contents.reading.end.n),
-            step=contents.reading.end.step,
+            at=contents.events,
+            step=contents.step,
         )
     unexplained = _unexplained(runtime, contents)
     if unexplained:
@@ -254,13 +240,13 @@ def port_trace_selective(check: Property, runtime: ObservedRuntime, event: Told)
             "unexplained",
             expected="no record, as only methods were called that are not traced",
             observed=f"{unexplained} new records",
-            at=(contents.reading.begin.n, contents.reading.end.n),
-            step=contents.reading.end.step,
+            at=contents.events,
+            step=contents.step,
         )
 
 
 def _unexplained(runtime: ObservedRuntime, contents: logs.Contents) -> int:
-    """How many records have come that nobody can explain, while nothing happened but calls that are not traced."""
+    """The number of unexplained records that came while only calls were made that are not traced."""
     interactions = runtime.interactions
     readings = logs.log_readings(interactions)
     if len(readings) < 2:
@@ -278,15 +264,14 @@ def _unexplained(runtime: ObservedRuntime, contents: logs.Contents) -> int:
     return max(len(contents.strays) - len(earlier.strays), 0)
 
 
-@property_at("told", "R-10.1.4.2-35")
-def port_trace_severity(check: Property, runtime: ObservedRuntime, event: Told) -> Conclusions:
+@property_at("read", "R-10.1.4.2-35")
+def port_trace_severity(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """What a port trace records has the severity of its log_severity."""
-    contents = _contents(runtime, event)
-    for tracing in contents.tracings.values() if contents is not None else ():
-        if contents is None or not tracing.is_traced or not tracing.records:
+    for tracing in contents.tracings.values():
+        if not tracing.is_traced or not tracing.records:
             continue
         if _has_too_many(runtime, contents, tracing):
-            continue  # nobody knows which of them are of traced calls
+            continue  # it is not known which of them are of traced calls
         if {record.severity for record in tracing.records} <= tracing.severities:
             yield check.kept()
             continue
@@ -294,16 +279,15 @@ def port_trace_severity(check: Property, runtime: ObservedRuntime, event: Told) 
             " or ".join(sorted(tracing.severities)),
             expected=f"records of calls of {tracing.method} with severity {' or '.join(sorted(tracing.severities))}",
             observed=f"records: {logs.severities_shown(tracing.records)}",
-            at=(contents.reading.begin.n, contents.reading.end.n),
-            step=contents.reading.end.step,
+            at=contents.events,
+            step=contents.step,
         )
 
 
-@property_at("told", _SEVERAL)
-def several_traces(check: Property, runtime: ObservedRuntime, event: Told) -> Concluded:
+@property_at("read", _SEVERAL)
+def several_traces(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Concluded:
     """Counts components of which more than one trace policy has been seen to work."""
-    contents = _contents(runtime, event)
-    if contents is None or contents.surplus:
+    if contents.surplus:
         return ()
     working: dict[str, set[str]] = {}
     for message in (m for m in contents.messages if m.due and m.record is not None):
@@ -314,17 +298,6 @@ def several_traces(check: Property, runtime: ObservedRuntime, event: Told) -> Co
     if any(len(ways) > 1 for ways in working.values()):
         return check.kept()
     return ()
-
-
-def _contents(runtime: ObservedRuntime, event: Told) -> logs.Contents | None:
-    """What was read of the log, if that is what the event tells."""
-    if not isinstance(event, Return) or event.records is None:
-        return None
-    readings = logs.log_readings(runtime.interactions)
-    last = next((reading for reading in readings if reading.end is event), None)
-    if last is None:
-        return None
-    return logs.contents_of(last, runtime.interactions, runtime.scenario.components, runtime.ics)
 
 
 def _violated(
@@ -345,8 +318,8 @@ def _violated(
         f"{cause}, several traces" if several else cause,
         expected=f"{expected} of '{lane(request.component, request.instance)}'",
         observed=observed,
-        at=(request.n, contents.reading.begin.n, contents.reading.end.n),
-        step=contents.reading.end.step,
+        at=(request.n, *contents.events),
+        step=contents.step,
         requirement=_SEVERAL if several else requirement,
     )
 

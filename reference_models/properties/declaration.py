@@ -4,21 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from ucm_cts.adapters.contract.trace import Enter, Raise, StepEvent
 from ucm_cts.reference_models.conclusions import Concluded, Kept
 from ucm_cts.reference_models.findings import Arrow, Finding
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress
 
-Moment = Literal[
-    "ended",
-    "entered",
-    "unclear",
-    "called",
-    "answered",
-    "replied",
-    "noted",
+_Always = Literal["ended", "entered", "unclear", "called", "answered", "replied", "noted"]
+_WithInteractions = Literal[
     "began",
     "over",
     "served",
@@ -26,16 +20,27 @@ Moment = Literal[
     "linked",
     "delivered",
     "completed",
-    "told",
+    "pushed",
+    "counted",
+    "stressed",
+    "read",
     "closed",
 ]
-"""When a property is checked: an operation ended; a body was entered by a callback (``entered``; ``unclear`` if
-no property was violated so far), or by a business call; a stimulus of the test
-came back; a body's own call came back; a fragment's query came back. Where components have policies: an execution began,
-or was over; a call that had to wait came back, or never did; a wait of the scenario ran out of patience. Where port
-elements have interfaces or policies (interactions.py): a step for connectors ended; a method of a body was entered; a
-body's call of a method came back; something was counted, measured or read back; the trace is over."""
+Moment = Literal[_Always, _WithInteractions]
+"""When a property is checked.
 
+``ended``: an operation ended.
+``entered``: a body was entered by a callback; ``unclear``: the same, if no property was violated so far.
+``called``: a body was entered by a business call.
+``answered``: a stimulus of the test came back; ``replied``: a body's own call did; ``noted``: a fragment's query did.
+``began``, ``over``: an execution began or ended.
+``served``: a call that had to wait came back, or never did.
+``waited``: a wait of the scenario ran out of patience.
+``linked``: a step for connectors ended.
+``delivered``: a method of a body was entered; ``completed``: a body's call of a method came back.
+``pushed``, ``counted``, ``stressed``, ``read``: a burst was pushed, messages were counted, callers met, the log was read.
+``closed``: the trace is over.
+"""
 
 Feature = Literal["", "policies", "interactions", "fragments", "attributes"]
 """What a scenario has to use for a property to apply: nothing; where components have policies; where interactions are
@@ -122,7 +127,8 @@ def property_at(
     def register(evaluate: Evaluate) -> Evaluate:
         name = evaluate.__name__
         assert name not in PROPERTIES, f"two properties are called {name}"
-        PROPERTIES[name] = Property(name, moment, stands_for, at, evaluate, timed, feature)
+        needs = feature or ("interactions" if moment in get_args(_WithInteractions) else "")
+        PROPERTIES[name] = Property(name, moment, stands_for, at, evaluate, timed, needs)
         return evaluate
 
     return register
@@ -132,8 +138,8 @@ Bound = tuple[Evaluate, Property]
 """A property with its function at hand."""
 
 
-def checked_at(moment: Moment, at: str = "", features: frozenset[Feature] = frozenset()) -> tuple[Bound, ...]:
-    """The properties that are checked for this operation, hook or caller at ``moment``, in scenarios that use ``features``."""
+def checked_at(moment: Moment, features: frozenset[Feature], at: str = "") -> tuple[Bound, ...]:
+    """The properties checked at ``moment`` in scenarios that use ``features``, for operation, hook or caller ``at``."""
     return tuple(
         (p.evaluate, p)
         for p in PROPERTIES.values()

@@ -25,34 +25,26 @@ from ucm_cts.reference_models.properties import (  # noqa: F401 - importing thes
     clause_11_2_3_calls,
     declared_choices,
 )
-from ucm_cts.reference_models.properties.declaration import PROPERTIES, Bound, Feature, checked_at
+from ucm_cts.reference_models.properties.declaration import PROPERTIES, Bound, Feature, Moment, checked_at
 
 __all__ = ["PROPERTIES", "PropertyTable", "features_of"]
 
 
 class PropertyTable:
-    """The properties that apply to scenarios with these ``features``, by moment."""
+    """The properties that apply to scenarios with these ``features``.
+
+    ``at``: by moment.
+    ``ended``: by operation; ``entered``, ``unclear``: by hook; ``called``: by caller.
+    """
 
     def __init__(self, features: frozenset[Feature]) -> None:
-        interacting = "interactions" in features
-        self.ended = {op: checked_at("ended", op, features) for op in DECLARED_ERRORS}
-        self.entered = {hook: checked_at("entered", hook, features) for hook in get_args(s.Hook)}
-        self.unclear = {hook: checked_at("unclear", hook, features) for hook in get_args(s.Hook)}
-        self.called: dict[Caller, tuple[Bound, ...]] = {
-            who: checked_at("called", who, features) for who in get_args(Caller)
-        }
-        self.answered = checked_at("answered", "exchange", features)
-        self.replied = checked_at("replied", "exchange", features)
-        self.noted = checked_at("noted", "siblings", features)
-        self.began = checked_at("began") if interacting else ()
-        self.over = checked_at("over") if interacting else ()
-        self.served = checked_at("served") if interacting else ()
-        self.waited = checked_at("waited") if interacting else ()
-        self.linked = checked_at("linked") if interacting else ()
-        self.delivered = checked_at("delivered") if interacting else ()
-        self.completed = checked_at("completed") if interacting else ()
-        self.told = checked_at("told") if interacting else ()
-        self.closed = checked_at("closed") if interacting else ()
+        hooks: tuple[s.Hook, ...] = get_args(s.Hook)
+        callers: tuple[Caller, ...] = get_args(Caller)
+        self.at: dict[Moment, tuple[Bound, ...]] = {m: checked_at(m, features) for m in get_args(Moment)}
+        self.ended = {op: checked_at("ended", features, op) for op in DECLARED_ERRORS}
+        self.entered = {hook: checked_at("entered", features, hook) for hook in hooks}
+        self.unclear = {hook: checked_at("unclear", features, hook) for hook in hooks}
+        self.called = {who: checked_at("called", features, who) for who in callers}
 
 
 def features_of(scenario: s.Scenario) -> frozenset[Feature]:
