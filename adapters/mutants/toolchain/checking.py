@@ -34,12 +34,13 @@ def overhearing(program: Program, kind: str, tag: str, attribute: str) -> Progra
     """``program``, but problems of ``kind`` with ``attribute`` of elements of ``tag`` do not count when models are read."""
 
     def overheard(problem: Problem, _: Model) -> bool:
-        return (problem.kind, problem.element) == (kind, tag) and tells_of(attribute, problem.message)
+        return (problem.kind, problem.element) == (kind, tag) and mentions(problem.message, attribute)
 
     return deaf(program, overheard)
 
 
-def tells_of(attribute: str, message: str) -> bool:
+def mentions(message: str, attribute: str) -> bool:
+    """Whether ``attribute`` is one of the words of ``message``."""
     return attribute in re.findall(r"\w+", message)
 
 

@@ -1,7 +1,7 @@
 """Mutants and conformant variants of the reference tool chain, by name.
 
 A derived tool chain is a function of the reference program. The mutants that leave out one rule are made here, one for each
-rule; all others are registered by the modules of the folders ``models``, ``mappings`` and ``variants``.
+rule; all others are registered by the modules of the folders ``models``, ``mappings`` and ``variants``, many of them from tables.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import functools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 from ucm_cts.adapters.contract.metamodel.names import Scope
@@ -105,30 +106,10 @@ def complaining_where(program: Program, name: str, holds: Holds) -> Program:
     return replacing_rule(program, name, half)
 
 
-_MODULES = {
-    "models": (
-        "aspects",
-        "components",
-        "half_rules",
-        "interactions",
-        "interfaces",
-        "modules",
-        "near_misses",
-        "reading",
-        "types",
-        "values",
-    ),
-    "mappings": ("cpp", "idl", "parameters"),
-    "variants": ("components", "cpp", "data", "idl", "interactions", "ports"),
-}
-"""By the folder: the modules that register mutants or variants."""
-
-
 @functools.cache
 def _load() -> None:
-    for folder, modules in _MODULES.items():
-        for module in modules:
-            import_module(f"ucm_cts.adapters.mutants.toolchain.{folder}.{module}")
+    for path in sorted(Path(__file__).parent.glob("*/[!_]*.py")):
+        import_module(f"ucm_cts.adapters.mutants.toolchain.{path.parent.name}.{path.stem}")
 
 
 @functools.cache

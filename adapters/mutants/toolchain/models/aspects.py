@@ -9,10 +9,8 @@ from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.common import children
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
-from ucm_cts.adapters.mutants.toolchain.checking import refuses, refusing_text, replaces_rule
-from ucm_cts.adapters.mutants.toolchain.registry import breaks
+from ucm_cts.adapters.mutants.toolchain.checking import refuses, replaces_rule
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
-from ucm_cts.adapters.reference.toolchain.program import Program
 from ucm_cts.adapters.reference.toolchain.rules.components.policy_use import aspect_of, uses
 
 
@@ -90,26 +88,11 @@ def port_elements_are_not_inherited(policy: mc.ComponentTechnicalPolicy, scope: 
     return bool(policy.bindings) and not getattr(definition and definition.element, "port_elements", ())
 
 
-@breaks("R-9.4.3.4-01", also=("R-9-01", "R-9.1.2-05", "R-9.1.4.1-01", "R-9.1.4.1-03", "R-9.2.2.15-05", "R-9.2.2.14-01"))
-def names_of_definitions_come_first(program: Program) -> Program:
-    """Takes a policy definition that begins with its applicability for an error."""
-    return refusing_text(program, rb"<TechnicalPolicyDefinition\s+applicability")
-
-
 @refuses("R-9.4.3.4-02", also=("R-9.4.2.1-02", "R-9.4.2.1-03"))
 def languages_do_not_come_first(module: ma.NonfunctionalAspectModule, _: Scope) -> bool:
     """Takes a list of languages before all else in its module for an error."""
     lines = [child.line for child in children(module) if not isinstance(child, ma.ProgrammingLanguages)]
     return any(languages.line < min(lines, default=0) for languages in module.supported_languages)
-
-
-@breaks(
-    "R-9.4.3.4-03",
-    also=("R-9-01", "R-9.1.2-05", "R-9.1.4.1-01", "R-9.1.4.1-03", "R-9.2.2.15-05", "R-9.4.3.4-01", "R-9.2.2.14-01"),
-)
-def names_of_aspects_come_first(program: Program) -> Program:
-    """Takes an aspect that begins with its multiplicity for an error."""
-    return refusing_text(program, rb"<TechnicalAspect\s+multiplicity")
 
 
 @refuses("R-9.4.3.4-04")
@@ -122,12 +105,6 @@ def parameters_come_first(definition: ma.TechnicalPolicyDefinition, _: Scope) ->
 def languages_are_not_alone(module: ma.NonfunctionalAspectModule, scope: Scope) -> bool:
     """Takes a module that has a list of languages and nothing else and is in another module for an error."""
     return scope.around is not None and [type(child) for child in children(module)] == [ma.ProgrammingLanguages]
-
-
-@refuses("R-9.4.4.2-02", also=("R-9.5.4.1-02", "R-9.2.9.2-03", "R-9.5.1-06"))
-def languages_are_identifiers(one: mc.AtomicComponentImplementation, _: Scope) -> object:
-    """Takes an implementation in a language with a plus in its name for an error."""
-    return "+" in one.language
 
 
 @replaces_rule("has_the_one_policy_only", "R-9.4.1-04", declares=("policies-on-ports-counted=with-the-component",))

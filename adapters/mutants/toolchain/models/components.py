@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.metamodel.common import children
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, member_of
-from ucm_cts.adapters.mutants.toolchain.checking import forgiving, overhearing, refuses, refusing_text
+from ucm_cts.adapters.mutants.toolchain.checking import forgiving, overhearing, refuses
 from ucm_cts.adapters.mutants.toolchain.registry import breaks
 from ucm_cts.adapters.reference.toolchain.program import Program
 from ucm_cts.adapters.reference.toolchain.rules.components.part_ports import component_type, part_called
@@ -54,23 +54,11 @@ def ports_are_refined_once(component: mc.ComponentType, _: Scope) -> bool:
     return max(refined.values(), default=0) > 1
 
 
-@refuses("R-9.5.3.9-01")
-def one_binding_a_port(spec: mc.PortTypeSpec, _: Scope) -> object:
-    """Takes the second binding of a port for an error."""
-    return len(spec.bindings) > 1
-
-
 @breaks("R-9.5.4.1-01", also=("R-9.5.4.1-02",))
 def language_left_out(program: Program) -> Program:
     """Does without the language of an atomic implementation."""
     reading = overhearing(program, "missing attribute", "AtomicComponentImplementation", "language")
     return forgiving(reading, "languages_are_listed", lambda implementation: not implementation.language)
-
-
-@breaks("R-9.5.4.5-01", also=("R-9-01", "R-9.1.2-10", "R-9.2.2.14-01"))
-def names_of_implementations_come_first(program: Program) -> Program:
-    """Takes an atomic implementation that begins with its language for an error."""
-    return refusing_text(program, rb"<AtomicComponentImplementation\s+language")
 
 
 @refuses("R-9.5.4.2-05", also=("R-9.5.1-06",))
@@ -137,12 +125,6 @@ def no_part_of_the_own_type(composite: Composite, scope: Scope) -> bool:
     )
 
 
-@refuses("R-9.5.5.4-03")
-def three_ends_a_connection(connection: mc.Connection, _: Scope) -> object:
-    """Takes the fourth end of a connection for an error."""
-    return len(connection.ends) > 3
-
-
 @refuses("R-9.5.5.6-05")
 def bindings_in_one_order(composite: Composite, scope: Scope) -> bool:
     """Takes a delegation between ports that bind the same in another order for an error."""
@@ -162,15 +144,3 @@ def _actual_types(owner: Declared | None, port_name: str) -> list[str]:
     port = member_of(owner, "ports", port_name) if owner is not None else None
     specs = getattr(port.element, "specs", ()) if port is not None else ()
     return [binding.actual_type for spec in specs for binding in spec.bindings]
-
-
-@refuses("R-9.5.5.6-06")
-def delegations_beside_connections(composite: Composite, _: Scope) -> object:
-    """Takes a composite with delegations and without connections for an error."""
-    return composite.delegations and not composite.connections
-
-
-@breaks("R-9.5.5.8-01", also=("R-9.1.2-10", "R-9.1.4.1-01", "R-9.1.4.1-03"))
-def names_of_parts_come_first(program: Program) -> Program:
-    """Takes a part that does not begin with its name for an error."""
-    return refusing_text(program, rb"<Part\s+instanceOf")

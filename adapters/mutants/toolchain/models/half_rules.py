@@ -20,21 +20,9 @@ def _is_declared(scope: Scope, reference: str) -> bool:
 
 
 @complains_only_where("inherits_from_interfaces", "R-9.2.7.1-02")
-def inherits_from_anything(one: Any, _: Any, scope: Scope) -> bool:
-    """Asks only whether what is inherited is declared, not as what."""
-    return not _is_declared(scope, one.interface)
-
-
-@complains_only_where("inherits_from_interfaces", "R-9.2.7.1-02")
 def inherits_from_nowhere(one: Any, _: Any, scope: Scope) -> bool:
     """Does not mind what is declared nowhere."""
     return _is_declared(scope, one.interface)
-
-
-@complains_only_where("raises_exceptions", "R-9.2.7.2-03")
-def raises_anything(one: Any, _: Any, scope: Scope) -> bool:
-    """Asks only whether what is raised is declared, not as what."""
-    return not _is_declared(scope, one.exception)
 
 
 @complains_only_where("interfaces_do_not_inherit_from_themselves", "R-9.2.7.1-05")
@@ -54,12 +42,6 @@ def counts_only_neighbouring_returns(wrong: Any, method: c.Method, _: Scope) -> 
     """Sees a second return value only right after the first one."""
     where = next(n for n, one in enumerate(method.parameters) if one is wrong)
     return method.parameters[where - 1].direction == "RETURN"
-
-
-@complains_only_where("has_a_definition", "R-9.2.9.4-01")
-def annotations_of_anything(wrong: c.Annotation, _: c.Annotation, scope: Scope) -> bool:
-    """Asks only whether the definition of an annotation is declared, not as what."""
-    return not _is_declared(scope, wrong.annotation_definition)
 
 
 @complains_only_where("values_name_parameters", "R-9.2.9.2-01")
@@ -126,30 +108,6 @@ def binds_items_of_any_pattern(wrong: Any, _: mi.ConnectorDefinition, scope: Sco
     return scope.member(wrong.interaction_item, mi.InteractionPattern, "items") is None
 
 
-@complains_only_where("refines_a_pattern", "R-9.3.4-01")
-def refines_anything(wrong: mi.ConnectorDefinition, _: mi.ConnectorDefinition, scope: Scope) -> bool:
-    """Asks only whether what a connector refines is declared, not as what."""
-    return not _is_declared(scope, wrong.pattern)
-
-
-@complains_only_where("apis_are_port_types", "R-9.3.4.4-01")
-def anything_is_an_api(wrong: Any, _: Any, scope: Scope) -> bool:
-    """Asks only whether the API of a connector port is declared, not as what."""
-    return not _is_declared(scope, wrong.api)
-
-
-@complains_only_where("items_are_bound_to_types", "R-9.3.4.6-03")
-def binds_items_to_anything(wrong: Any, _: Any, scope: Scope) -> bool:
-    """Asks only whether what an item is bound to is declared, not as what."""
-    return not _is_declared(scope, wrong.connector_item)
-
-
-@complains_only_where("port_elements_have_interfaces", "R-9.3.5.2-02")
-def port_elements_have_anything(wrong: Any, _: mi.PortType, scope: Scope) -> bool:
-    """Asks only whether the interface of a port element is declared, not as what."""
-    return not _is_declared(scope, wrong.interface)
-
-
 @complains_only_where("ports_of_an_item_handle_its_type", "R-9.3.3.4-07")
 def only_the_first_port_handles_items(wrong: Any, connector: mi.ConnectorDefinition, _: Scope) -> bool:
     """Does not mind a later port that does not handle the type of an item."""
@@ -162,26 +120,6 @@ def _seldom(name: str, lie: str, requirement: str, rule: str, holds: Holds, *als
     breaks(requirement, also=also)(derive)
 
 
-_CIRCLES = (
-    ("aliases_lead_to_other_types", "names", "R-9.2.4.2-03"),
-    ("structures_are_finite", "contains", "R-9.2.4.3-06"),
-    ("arrays_are_finite", "contains", "R-9.2.4.9-01"),
-    ("interfaces_do_not_inherit_from_themselves", "inherits from", "R-9.2.7.1-05"),
-    ("patterns_do_not_extend_themselves", "extends", "R-9.3.3.2-06"),
-    ("definitions_do_not_extend_themselves", "extends", "R-9.4.3.2-14"),
-    ("types_do_not_refine_themselves", "refines", "R-9.5.3.1-11"),
-    ("composites_do_not_contain_themselves", "contains", "R-9.5.5.3-04"),
-)
-
-
-def _is_short(verb: str) -> Holds:
-    return lambda _wrong, _element, _scope, message: message.count(f" {verb} ") < 4
-
-
-for _rule, _verb, _requirement in _CIRCLES:
-    _seldom(f"short_circles_{_rule}", "Sees circles of up to three.", _requirement, _rule, _is_short(_verb))
-
-
 def _is_not_of(kind: str) -> Holds:
     def holds(wrong: Any, _element: Element, scope: Scope, _message: str) -> bool:
         found = actual_type(wrong.type, scope)
@@ -190,27 +128,14 @@ def _is_not_of(kind: str) -> Holds:
     return holds
 
 
-def _says_nothing_of(words: str) -> Holds:
-    return lambda _wrong, _element, _scope, message: words not in message
-
-
 for _kind in c.INTEGER_RANGES:
-    _lie = f"Minds defaults of all types but {_kind}."
     _seldom(
         f"any_default_of_{_kind.lower()}",
-        _lie,
+        f"Minds defaults of all types but {_kind}.",
         "R-9.2.2.7-01",
         "defaults_are_values_of_their_types",
         _is_not_of(_kind),
         "R-9.2.2.6-02",
-    )
-    _lie = f"Minds values of parameters of all types but {_kind}."
-    _seldom(
-        f"any_value_of_{_kind.lower()}",
-        _lie,
-        "R-9.2.9.2-03",
-        "values_fit_their_parameters",
-        _says_nothing_of(f"{_kind} holds"),
     )
 
 
@@ -239,35 +164,6 @@ _seldom(
     lambda _wrong, _element, scope, _message: not scope.path.startswith("::comp"),
 )
 _seldom(
-    "booleans_have_any_value",
-    "Takes any literal for a truth value.",
-    "R-9.2.9.2-03",
-    "values_fit_their_parameters",
-    _says_nothing_of("neither TRUE"),
-)
-
-
-def _is_among_the_first(members: str) -> Holds:
-    return lambda wrong, element, _scope, _message: wrong in getattr(element, members)[:2]
-
-
-_FIRST_TWO = (
-    ("ports_differ", "ports", "R-9.1.4.1-02"),
-    ("parts_differ", "parts", "R-9.1.4.1-02"),
-    ("index_values_are_in_range", "enumerators", "R-9.2.4.8-03"),
-    ("sizes_are_in_range", "dimensions", "R-9.2.4.11-03"),
-)
-
-for _rule, _members, _requirement in _FIRST_TWO:
-    _seldom(
-        f"first_two_{_members}",
-        f"Looks at the first two {_members} only.",
-        _requirement,
-        _rule,
-        _is_among_the_first(_members),
-    )
-
-_seldom(
     "neighbouring_defaults",
     "Sees a second default case right after the first case only.",
     "R-9.2.4.6-08",
@@ -280,13 +176,6 @@ _seldom(
     "R-9.1.4.1-02",
     "attributes_differ",
     lambda _wrong, owner, _scope, _message: not isinstance(owner, ComponentType),
-)
-_seldom(
-    "first_exception_only",
-    "Looks at the first exception that a method raises.",
-    "R-9.2.7.2-03",
-    "raises_exceptions",
-    lambda wrong, method, _scope, _message: wrong is method.raised_exceptions[0],
 )
 
 

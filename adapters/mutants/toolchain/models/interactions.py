@@ -9,9 +9,7 @@ from ucm_cts.adapters.contract.metamodel.components import CompositeComponentImp
 from ucm_cts.adapters.contract.metamodel.contracts import AbstractDataType
 from ucm_cts.adapters.contract.metamodel.modules import Model, PlatformModule
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.mutants.toolchain.checking import refuses, refusing_text
-from ucm_cts.adapters.mutants.toolchain.registry import breaks
-from ucm_cts.adapters.reference.toolchain.program import Program
+from ucm_cts.adapters.mutants.toolchain.checking import refuses
 
 
 @refuses("R-9.3.1-04", also=("R-9.3.3.4-05",))
@@ -28,24 +26,6 @@ def _is_shared(pattern: mi.InteractionPattern) -> bool:
 def a_connector_has_ports_of_one_role(connector: mi.ConnectorDefinition, _: Scope) -> bool:
     """Takes the port of a second role of a connector for an error if there are no items."""
     return len({port.port_role for port in connector.ports}) > 1 and not connector.item_bindings
-
-
-@refuses("R-9.3.1-06", also=("R-9.2.2.7-01",))
-def connectors_with_ports_are_hardly_configured(one: mi.ConnectorDefinition, _: Scope) -> object:
-    """Takes the second configuration parameter of a connector that has several ports for an error."""
-    return len(one.ports) > 1 < len(one.configuration_parameters)
-
-
-@refuses("R-9.3.1-07", also=("R-9.5.5.4-07",))
-def three_are_not_exactly_so_many(role: mi.InteractionRole, _: Scope) -> object:
-    """Takes a role for exactly three for an error."""
-    return role.lower_multiplicity == 3 == role.upper_multiplicity
-
-
-@refuses("R-9.3.1-11")
-def defaults_are_not_enumerators(connector: mi.ConnectorDefinition, _: Scope) -> object:
-    """Takes a configuration parameter beside item bindings for an error."""
-    return connector.item_bindings and connector.configuration_parameters
 
 
 @refuses("R-9.3.1-12", also=("R-9.5.5.6-04",))
@@ -84,29 +64,11 @@ def modules_are_not_empty(model: Model, _: Scope) -> bool:
     return model.modules == (mi.InteractionModule(line=1, name=model.modules[0].name),)
 
 
-@breaks("R-9.3.2.2-02", also=("R-9-01",))
-def names_of_bound_items_come_first(program: Program) -> Program:
-    """Takes an item binding that begins with its connector item for an error."""
-    return refusing_text(program, rb"<ItemBinding\s+connectorItem")
-
-
-@refuses("R-9.3.3-02")
-def two_roles_a_pattern(pattern: mi.InteractionPattern, _: Scope) -> object:
-    """Takes the third role of a pattern for an error."""
-    return len(pattern.roles) > 2
-
-
 @refuses("R-9.3.3.1-01")
 def connections_are_of_one_kind(composite: CompositeComponentImplementation, scope: Scope) -> bool:
     """Takes a composite with connections both by a pattern and by a connector for an error."""
     by_pattern = [scope.find(c.definition, mi.InteractionPattern) is not None for c in composite.connections]
     return any(by_pattern) and not all(by_pattern)
-
-
-@refuses("R-9.3.3.1-02", also=("R-9.3.3.2-04",))
-def patterns_without_hyphens(pattern: mi.InteractionPattern, _: Scope) -> object:
-    """Takes a hyphen in the name of a pattern without items for an error."""
-    return "-" in pattern.name and not pattern.items
 
 
 @refuses("R-9.3.3.2-01")
@@ -116,12 +78,6 @@ def roles_are_unlimited_or_single(pattern: mi.InteractionPattern, _: Scope) -> b
     return len(singles) == 2 == len(pattern.roles) and not pattern.items
 
 
-@refuses("R-9.3.3.2-02")
-def one_item_a_pattern(pattern: mi.InteractionPattern, _: Scope) -> object:
-    """Takes the second item of a pattern for an error."""
-    return len(pattern.items) > 1
-
-
 @refuses("R-9.3.3.3-01", also=("R-9.3.3.4-05",))
 def items_are_involved(pattern: mi.InteractionPattern, _: Scope) -> bool:
     """Takes an item that no role of its pattern involves for an error where there are roles."""
@@ -129,28 +85,10 @@ def items_are_involved(pattern: mi.InteractionPattern, _: Scope) -> bool:
     return bool(involved) and any(item.name not in involved for item in pattern.items)
 
 
-@refuses("R-9.3.3.4-01")
-def roles_without_hyphens(role: mi.InteractionRole, _: Scope) -> object:
-    """Takes a hyphen in the name of a role for an error."""
-    return "-" in role.name
-
-
-@refuses("R-9.3.3.4-05")
-def one_item_a_role(role: mi.InteractionRole, _: Scope) -> object:
-    """Takes the second item that a role involves for an error."""
-    return len(role.involved_items) > 1
-
-
 @refuses("R-9.3.3.6-01")
 def roles_come_first(pattern: mi.InteractionPattern, _: Scope) -> bool:
     """Takes an item before a role for an error."""
     return any(item.line < role.line for item in pattern.items for role in pattern.roles)
-
-
-@refuses("R-9.3.4.6-01")
-def one_binding_a_connector(connector: mi.ConnectorDefinition, _: Scope) -> object:
-    """Takes the second item binding of a connector for an error."""
-    return len(connector.item_bindings) > 1
 
 
 @refuses("R-9.3.5.1-01", also=("R-9.3.5.2-04", "R-9.5.3.6-02"))
@@ -163,12 +101,3 @@ def one_element_a_port_type(port_type: mi.PortType, _: Scope) -> object:
 def an_interface_is_provided_once(port_type: mi.PortType, _: Scope) -> bool:
     """Takes two port elements of one interface for an error."""
     return max(Counter((e.interface, e.kind) for e in port_type.port_elements).values(), default=0) > 1
-
-
-@breaks(
-    "R-9.3.5.4-01",
-    also=("R-9-01", "R-9.1.4.1-01", "R-9.1.4.1-03", "R-9.2.2.15-05", "R-9.3.2.2-02", "R-9.4.3.4-01", "R-9.5.3.9-01"),
-)
-def names_of_port_elements_come_first(program: Program) -> Program:
-    """Takes a port element whose first attribute is not its name for an error."""
-    return refusing_text(program, rb"<PortElement\s+(?!name)")

@@ -23,28 +23,10 @@ def one_interface_a_module(model: Model, _: Scope) -> bool:
     return [type(one) for one in inside] == [mk.Interface, mk.Interface] and not any(map(tuple, map(children, inside)))
 
 
-@refuses("R-9.2.7-03")
-def one_attribute_an_interface(interface: mk.Interface, _: Scope) -> object:
-    """Takes the second attribute of an interface for an error."""
-    return len(interface.attributes) > 1
-
-
-@refuses("R-9.2.7-08")
-def one_method_an_interface(interface: mk.Interface, _: Scope) -> object:
-    """Takes the second method of an interface for an error."""
-    return len(interface.methods) > 1
-
-
 @refuses("R-9.2.7-09", also=("R-9.4.3.2-02",))
 def methods_have_parameters(method: mk.Method, _: Scope) -> bool:
     """Takes a method of several IN parameters for an error."""
     return len([p for p in method.parameters if p.direction == "IN"]) > 2
-
-
-@refuses("R-9.2.7-14")
-def single_inheritance(interface: mk.Interface, _: Scope) -> object:
-    """Takes a second ancestor of an interface for an error, diamond or not."""
-    return len(interface.inherited_interfaces) > 1
 
 
 @refuses("R-9.2.7-14")
@@ -59,12 +41,6 @@ def _lineage(name: str, scope: Scope, depth: int = 20) -> Iterator[str]:
     found = _named(name, scope) if depth else None
     for inherited in found.inherited_interfaces if found is not None else ():
         yield from _lineage(inherited.interface, scope, depth - 1)
-
-
-@refuses("R-9.2.7-17")
-def exceptions_say_something(exception: mk.Exception_, _: Scope) -> object:
-    """Takes an exception of several fields for an error."""
-    return len(exception.fields) > 1
 
 
 @refuses("R-9.2.7.1-01")
@@ -83,12 +59,6 @@ def _named(name: str, scope: Scope) -> mk.Interface | None:
     return found.element if found is not None and isinstance(found.element, mk.Interface) else None
 
 
-@refuses("R-9.2.7.2-01")
-def one_annotation_a_method(method: mk.Method, _: Scope) -> object:
-    """Takes the second annotation of a method for an error."""
-    return len(method.annotations) > 1
-
-
 @refuses("R-9.2.7.3-01", also=("R-9.2.2.5-02",))
 def parameters_do_something(parameter: mk.Parameter, scope: Scope) -> bool:
     """Takes a parameter that is an interface without methods for an error."""
@@ -96,41 +66,11 @@ def parameters_do_something(parameter: mk.Parameter, scope: Scope) -> bool:
     return found is not None and not any(children(found.element))
 
 
-@refuses("R-9.2.7.4-01")
-def attributes_are_simple(attribute: mk.Attribute, scope: Scope) -> bool:
-    """Takes an attribute of a structure or enumeration for an error."""
-    return scope.find(attribute.type, mk.Structure, mk.Enumeration) is not None and not attribute.default_value
-
-
-@refuses("R-9.2.7.5-01")
-def exceptions_without_hyphens(exception: mk.Exception_, _: Scope) -> object:
-    """Takes a hyphen in the name of an exception for an error."""
-    return "-" in exception.name
-
-
-@refuses("R-9.2.7.6-01", also=("R-9.2.2.4-04",))
-def exceptions_are_flat(field: mk.ExceptionField, scope: Scope) -> object:
-    """Takes a field of an exception that is a structure for an error."""
-    return scope.find(field.type, mk.Structure) is not None
-
-
 @refuses("R-9.2.8-01")
 def abstract_types_are_used(module: mk.ContractModule, _: Scope) -> bool:
     """Takes a module of more than two abstract types and nothing else for an error."""
     inside = tuple(children(module))
     return len(inside) > 2 and all(isinstance(one, mk.AbstractDataType | mk.AbstractInterface) for one in inside)
-
-
-@refuses("R-9.2.8-02")
-def abstract_types_are_not_returned(p: mk.Parameter, scope: Scope) -> object:
-    """Takes a RETURN parameter of an abstract data type for an error."""
-    return p.direction == "RETURN" and scope.find(p.type, mk.AbstractDataType)
-
-
-@refuses("R-9.2.8.1-01")
-def abstract_types_go_one_way(p: mk.Parameter, scope: Scope) -> object:
-    """Takes an INOUT parameter of an abstract data type for an error."""
-    return p.direction == "INOUT" and scope.find(p.type, mk.AbstractDataType)
 
 
 @refuses("R-9.2.8.2-01", also=("R-9-01", "R-9.3.5.2-02"))
@@ -158,21 +98,3 @@ def components_and_their_interfaces_are_not_both_annotated(module: ComponentModu
     """Takes the annotation of a component type for an error if an interface beside it has one, too."""
     interfaces = [i for c in module.contract_modules for i in c.interfaces if isinstance(i, mk.Interface)]
     return any(i.annotations for i in interfaces) and any(t.annotations for t in module.component_types)
-
-
-@refuses("R-9.2.9.1-01", also=("R-9.2.2.7-01",))
-def parameters_are_numbers(parameter: mk.ConfigurationParameter, scope: Scope) -> object:
-    """Takes a boolean configuration parameter with a default value for an error."""
-    return parameter.default_value and scope.find(parameter.type, mk.PrimitiveBoolean)
-
-
-@refuses("R-9.2.9.3-01")
-def annotations_say_something(one: mk.AnnotationDefinition, _: Scope) -> object:
-    """Takes an annotation definition of several parameters for an error."""
-    return len(one.configuration_parameters) > 1
-
-
-@refuses("R-9.2.9.4-01")
-def annotations_of_the_same_module(annotation: mk.Annotation, _: Scope) -> object:
-    """Takes a definition of another module for an error."""
-    return "::" in annotation.annotation_definition

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ucm_cts.adapters.contract.metamodel.aspects import NonfunctionalAspectModule
-from ucm_cts.adapters.contract.metamodel.common import Named, SimpleComment, walk
-from ucm_cts.adapters.contract.metamodel.components import CompositeComponentImplementation
+from ucm_cts.adapters.contract.metamodel.common import Named, walk
 from ucm_cts.adapters.contract.metamodel.contracts import ContractModule
 from ucm_cts.adapters.contract.metamodel.modules import ApplicationModule, Model, PlatformModule
 from ucm_cts.adapters.contract.metamodel.names import SEPARATOR, Scope
@@ -27,12 +26,6 @@ def one_kind_of_module_a_file(model: Model, _scope: Scope) -> bool:
 
 def _gathering(model: Model) -> Iterator[ApplicationModule | PlatformModule]:
     return (module for module in model.modules if isinstance(module, ApplicationModule | PlatformModule))
-
-
-@refuses("R-9.1.2-10", also=("R-9.5.2.2-02",))
-def composites_without_annotations(composite: CompositeComponentImplementation, _: Scope) -> object:
-    """Knows no annotations of composites."""
-    return composite.annotations
 
 
 @breaks("R-9.1.4.1-01", "R-9.1.4.4-01", "R-9.2.2.1-02", "R-9.2.4.3-03", "R-9.2.4.6-01", "R-9.2.6.1-01")
@@ -61,18 +54,6 @@ def comments_of_types_only(module: ContractModule, _scope: Scope) -> bool:
     return any(method.comments for interface in module.interfaces for method in getattr(interface, "methods", ()))
 
 
-@refuses("R-9.1.4.3-02", declares=("comment-elements=simple",))
-def comments_are_plain(comment: SimpleComment, _: Scope) -> object:
-    """Takes comments that look like markup for errors."""
-    return "<" in comment.text
-
-
-@refuses("R-9.1.4.4-02", declares=("comment-elements=simple",))
-def modules_without_comments(module: PlatformModule, _: Scope) -> object:
-    """Knows no comments of platform modules."""
-    return module.comments
-
-
 @breaks("R-9.1.4.4-03")
 def anything_outermost(program: Program) -> Program:
     """Takes files whose outermost element is no module."""
@@ -95,18 +76,6 @@ def last_names_count(typed: Typed, scope: Scope) -> Iterator[Complaint]:
         waiting += [inner for modules in around.modules.values() for inner in modules]
     if typed.type:
         yield typed, f"{last} is not declared"
-
-
-@refuses("R-9.1.4.7-01")
-def applications_have_parts(module: ApplicationModule, _: Scope) -> object:
-    """Takes an application module without modules for an error."""
-    return not module.submodules
-
-
-@refuses("R-9.1.4.8-01")
-def platforms_have_parts(module: PlatformModule, _: Scope) -> object:
-    """Takes a platform module without modules for an error."""
-    return not module.submodules
 
 
 @breaks("R-9.1.4.7-02")

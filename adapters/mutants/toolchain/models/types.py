@@ -24,18 +24,6 @@ def types_may_be_missing(program: Program) -> Program:
     return without(deaf(program, lambda problem, _: lacks(problem, "type", *typed)), "data_types_are_named")
 
 
-@refuses("R-9.2.2.7-02")
-def attributes_have_defaults(attribute: c.Attribute, _: Scope) -> object:
-    """Takes an attribute without default value for an error."""
-    return attribute.default_value is None
-
-
-@refuses("R-9.2.2.8-01")
-def one_annotation_a_type(structure: c.Structure, _: Scope) -> object:
-    """Takes the second annotation of a structure for an error."""
-    return len(structure.annotations) > 1
-
-
 @refuses("R-9.2.2.15-01")
 def contract_modules_declare_something(module: c.ContractModule, scope: Scope) -> bool:
     """Takes an empty contract module at the root for an error."""
@@ -50,30 +38,6 @@ def platforms_without_contracts(module: PlatformModule, _: Scope) -> object:
 
 def _holds_contracts(module: PlatformModule) -> bool:
     return any(isinstance(inner, c.ContractModule) and inner.interfaces for inner in module.submodules)
-
-
-@refuses("R-9.2.3.2-01")
-def no_unsigned_integers_of_64_bits(integer: c.PrimitiveInteger, _: Scope) -> object:
-    """Does not know the kind ULONGLONG."""
-    return integer.kind == "ULONGLONG"
-
-
-@refuses("R-9.2.3.3-01")
-def no_long_doubles(number: c.PrimitiveFloat, _: Scope) -> object:
-    """Does not know the kind LONGDOUBLE."""
-    return number.kind == "LONGDOUBLE"
-
-
-@refuses("R-9.2.3.4-01")
-def no_wide_characters(character: c.PrimitiveChar, _: Scope) -> object:
-    """Does not know the kind CHAR32 of characters."""
-    return character.kind == "CHAR32"
-
-
-@refuses("R-9.2.5.2-01")
-def no_wide_strings(string: c.StringType, _: Scope) -> object:
-    """Does not know strings of CHAR32."""
-    return string.char_base == "CHAR32"
 
 
 @breaks("R-9.2.4.1-01", "R-9.2.4.7-03", also=("R-9.2.4.1-02",))
@@ -146,24 +110,6 @@ def default_cases_come_last(union: c.Union, _: Scope) -> object:
 def enumerations_do_not_count(e: c.Enumeration, _: Scope) -> object:
     """Takes an enumeration of the values 4, 5 and 6 for an error."""
     return [one.value for one in e.enumerators] == [4, 5, 6]
-
-
-@refuses("R-9.2.5.2-03")
-def strings_of_255_characters(string: c.StringType, _: Scope) -> object:
-    """Takes a string longer than 255 for an error."""
-    return (string.max_size or 0) > 255
-
-
-@refuses("R-9.2.5.4-03")
-def sequences_are_bounded(sequence: c.Sequence, _: Scope) -> object:
-    """Takes a sequence without bound for an error."""
-    return sequence.max_size == -1
-
-
-@refuses("R-9.2.5.3-01", declares=("native-types=supported",))
-def native_types_unknown(_: c.NativeType, _scope: Scope) -> object:
-    """Refuses native types, although it says that it knows them."""
-    return True
 
 
 @breaks("R-9.2.5.3-02", declares=("native-types=supported",))

@@ -78,18 +78,6 @@ def octal_is_decimal(program: Program) -> Program:
     return _reading(program, r"^(-?)0+([1-9]\d*)$", r"\1\2")
 
 
-@refuses("R-9.2.6.1-03", "R-9.2.2.6-02")
-def hexadecimal_unknown(constant: Constant, _: Scope) -> object:
-    """Takes hexadecimal numbers for errors."""
-    return re.fullmatch(r"-?0[xX]\w+", constant.value)
-
-
-@refuses("R-9.2.6.1-03", also=("R-9.2.2.6-02",))
-def points_have_digits(constant: Constant, _: Scope) -> object:
-    """Takes a number for an error that has no digits on one side of its point."""
-    return re.search(r"(?<!\d)\.|\.(?!\d)", constant.value)
-
-
 @breaks("R-9.2.3.3-04")
 def fixed_point_values(program: Program) -> Program:
     """Knows numbers with a fixed point."""
@@ -99,12 +87,6 @@ def fixed_point_values(program: Program) -> Program:
             yield from program.rules["constants_follow_the_grammar"].look(constant, scope)
 
     return replacing_rule(program, "constants_follow_the_grammar", look)
-
-
-@refuses("R-9.2.3.5-01")
-def nothing_is_false(constant: Constant, _: Scope) -> object:
-    """Takes a model with both truth values for an error."""
-    return constant.value == "FALSE" and constant.name == "no"
 
 
 @breaks("R-9.2.4.2-02")
@@ -144,9 +126,3 @@ def strings_of_any_length(program: Program) -> Program:
                 raise
 
     return _fitting(program, fits)
-
-
-@refuses("R-9.2.6.1-03", declares=("value-syntax=expressions",))
-def sums_bind_like_products(constant: Constant, _: Scope) -> object:
-    """Calculates strictly from left to right."""
-    return constant.value == "1 + 2 * 127"

@@ -7,79 +7,17 @@ from collections.abc import Iterator
 from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.mutants.toolchain.checking import deaf, lacks, refusing, without
+from ucm_cts.adapters.mutants.toolchain.checking import deaf, refusing
 from ucm_cts.adapters.mutants.toolchain.registry import replacing_rule, variant
 from ucm_cts.adapters.reference.toolchain.checking import Complaint
 from ucm_cts.adapters.reference.toolchain.program import Program
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import actual_type
 
 
-@variant(
-    declares=(
-        "modules-given-twice=merged",
-        "relative-names=outward",
-        "comment-elements=simple",
-        "pattern-parameters=refused",
-        "value-syntax=expressions",
-        "text-values=quoted",
-        "index-types=kinds-and-types",
-        "index-values=any",
-        "equal-index-values=refused",
-        "empty-arrays=refused",
-        "zero-max-size=refused",
-        "negative-max-size=refused",
-        "sequence-sizes=checked",
-        "native-types=supported",
-        "default-case-values=optional",
-        "selectors-without-case=accepted",
-        "repeated-selector-values=refused",
-        "selector-aliases=refused",
-        "recursive-types=refused",
-    )
-)
-def says_how_it_reads_data(program: Program) -> Program:
-    """Reads what is open as the reference tool chain does, and says so."""
-    return program
-
-
-@variant(
-    declares=(
-        "equal-index-values=accepted",
-        "empty-arrays=accepted",
-        "zero-max-size=accepted",
-        "negative-max-size=accepted",
-        "absent-max-size=accepted",
-        "sequence-sizes=unchecked",
-        "selector-aliases=accepted",
-        "recursive-types=accepted",
-    )
-)
-def data_may_be_anything(program: Program) -> Program:
-    """Accepts types that others find empty, unbounded or without end."""
-    program = deaf(program, lambda problem, _: lacks(problem, "maxSize", "Sequence"))
-    return without(
-        program,
-        "index_values_differ",
-        "arrays_are_not_empty",
-        "greatest_sizes_are_not_zero",
-        "greatest_sizes_are_not_negative",
-        "sequences_fit_their_index",
-        "selectors_are_no_aliases",
-        "sequences_and_unions_are_finite",
-    )
-
-
 @variant(declares=("declarations-elsewhere=extension", "pattern-parameters=accepted"))
 def declarations_anywhere(program: Program) -> Program:
     """Extends the meta-model so that any declaration may stand in any module."""
     return deaf(program, lambda problem, model: problem.kind == "misplaced element" and model.modules)
-
-
-@variant(declares=("absent-max-size=refused",))
-@refusing
-def strings_say_how_long_they_are(string: c.StringType, _: Scope) -> object:
-    """Refuses strings without a greatest size."""
-    return string.max_size is None
 
 
 @variant(declares=("modules-given-twice=refused",))
@@ -105,13 +43,6 @@ def all_selector_values_have_cases(union: c.Union, scope: Scope) -> bool:
     named = {value.enumerator for case in union.cases for value in case.selector_values}
     known = {enumerator.name for enumerator in getattr(selector and selector.element, "enumerators", ())}
     return bool(known - named) and not any(case.default_case for case in union.cases)
-
-
-@variant(declares=("native-types=unsupported",))
-@refusing
-def no_native_types(_: c.NativeType, _scope: Scope) -> object:
-    """Knows no native types."""
-    return True
 
 
 @variant(declares=("index-values=32-bit",))
@@ -152,18 +83,3 @@ def bare_text(program: Program) -> Program:
             yield from program.rules["constants_follow_the_grammar"].look(constant, scope)
 
     return replacing_rule(replacing_rule(program, name, look), "constants_follow_the_grammar", follows)
-
-
-_SETS_ONCE = ("selector_values_have_one_case", "sets_parameters_once", "parameters_receive_one_value")
-
-
-@variant()
-def one_of_several_counts(program: Program) -> Program:
-    """Takes the first case of a selector value and the last value of a parameter, and says nothing of it."""
-    return without(program, *_SETS_ONCE)
-
-
-@variant(declares=("repeated-selector-values=accepted", "repeated-parameter-values=accepted"))
-def one_of_several_is_said_to_count(program: Program) -> Program:
-    """The same, and says so."""
-    return without(program, *_SETS_ONCE)

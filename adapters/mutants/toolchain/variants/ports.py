@@ -102,12 +102,6 @@ def port_types_are_what_they_hold(program: Program) -> Program:
     return without(program, "delegated_ports_bind_alike")
 
 
-@variant(declares=("delegation-bindings=any",))
-def delegations_compare_port_types_only(program: Program) -> Program:
-    """Lets delegated ports bind what they like, and says so."""
-    return without(program, "delegated_ports_bind_alike")
-
-
 def _shape(port_type: Element) -> list[tuple[str, str, str]]:
     elements = getattr(port_type, "port_elements", ())
     return sorted((e.name, e.interface.rpartition("::")[2], str(e.kind)) for e in elements)
