@@ -1,21 +1,24 @@
-"""Mutants whose one defect is in one method of the container, each a function: what the method returns instead, or when it
-does nothing, or when it refuses.
+"""Mutants and variants that differ from the reference framework in one method, each a function of the place where it belongs:
+the type of its first parameter is the class whose method it changes (the container, a ``Link`` or a ``Proxy``).
+
+With requirements the function becomes a mutant that breaks them, without any a conformant variant.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, get_type_hints
 
 from ucm_cts.adapters.contract.programming_model import UcmError
-from ucm_cts.adapters.mutants.python.registry import CONTAINER, Base, breaks
+from ucm_cts.adapters.mutants.python.registry import CONTAINER, Base, breaks, variant_of
+from ucm_cts.adapters.reference.python.framework import ContainerManager
 
 Own = Callable[..., Any]
-"""What the container's own method does, bound to the container."""
+"""What the class' own method does, bound to the object."""
 
 
-class _Defect:
-    """Makes mutants: ``instead`` is called with the function, the container, its own method and the arguments."""
+class _Change:
+    """Makes mutants and variants: ``instead`` is called with the function, the object, its own method and the arguments."""
 
     def __init__(self, instead: Callable[..., Any]) -> None:
         self.instead = instead
@@ -29,31 +32,42 @@ class _Defect:
         readings: Mapping[str, str] = {},
     ) -> Callable[[Callable[..., Any]], type]:
         def register(function: Callable[..., Any]) -> type:
-            def wrong(container: Base, *arguments: Any) -> Any:
-                return self.instead(function, container, getattr(super(mixin, container), method), *arguments)
+            changed = next(iter(get_type_hints(function).values()))
+            assert hasattr(ContainerManager if changed is Base else changed, method), (function.__name__, method)
 
-            mixin = type(function.__name__, (Base,), {method: wrong, "__doc__": function.__doc__})
-            return breaks(*requirements, also=also, clauses=clauses, readings=readings)(mixin)
+            def altered(part: Any, *arguments: Any) -> Any:
+                return self.instead(function, part, getattr(super(mixin, part), method), *arguments)
+
+            mixin = type(function.__name__, (changed,), {method: altered, "__doc__": function.__doc__})
+            if requirements:
+                return breaks(*requirements, also=also, clauses=clauses, readings=readings)(mixin)
+            return variant_of(*clauses, readings=readings)(mixin)
 
         return register
 
 
-@_Defect
-def alters(change: Callable[..., Any], container: Base, own: Own, *arguments: Any) -> Any:
-    """The function makes another result of the container, the method's result and its arguments."""
-    return change(container, own(*arguments), *arguments)
+@_Change
+def replaces(substitute: Callable[..., Any], part: object, _own: Own, *arguments: Any) -> Any:
+    """The function is the method; as ``Base.method(self, ...)`` it can call the class' own."""
+    return substitute(part, *arguments)
 
 
-@_Defect
-def does_only_if(condition: Callable[..., bool], container: Base, own: Own, *arguments: Any) -> None:
-    """The method does something only if the function says so of the container and the arguments."""
-    if condition(container, *arguments):
+@_Change
+def alters(change: Callable[..., Any], part: object, own: Own, *arguments: Any) -> Any:
+    """The function makes another result of the object, the method's result and its arguments."""
+    return change(part, own(*arguments), *arguments)
+
+
+@_Change
+def does_only_if(condition: Callable[..., bool], part: object, own: Own, *arguments: Any) -> None:
+    """The method does something only if the function says so of the object and the arguments."""
+    if condition(part, *arguments):
         own(*arguments)
 
 
-@_Defect
-def refuses_if(condition: Callable[..., bool], container: Base, own: Own, *arguments: Any) -> Any:
-    """The method raises ``UCM_ERROR`` if the function says so of the container and the arguments."""
-    if condition(container, *arguments):
+@_Change
+def refuses_if(condition: Callable[..., bool], part: object, own: Own, *arguments: Any) -> Any:
+    """The method raises ``UCM_ERROR`` if the function says so of the object and the arguments."""
+    if condition(part, *arguments):
         raise UcmError("refused")
     return own(*arguments)

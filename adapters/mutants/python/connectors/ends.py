@@ -11,6 +11,7 @@ from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.programming_model import DeclaredException, UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNECTOR
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import OK, Link, Taker
 from ucm_cts.adapters.reference.python.framework import Member
@@ -38,40 +39,28 @@ class _KnowsWhatIsGoingOn(Link):
         super()._deliver(taker, method)
 
 
-@breaks(_CALLS, clauses=("10.1.5",), also=("R-10.1.5.1-03",))
-class refuses_calls_of_servers(_KnowsWhatIsGoingOn):
+@refuses_if("_request", _CALLS, clauses=("10.1.5",), also=("R-10.1.5.1-03",))
+def refuses_calls_of_servers(self: _KnowsWhatIsGoingOn, *_: object) -> bool:
     """A server that is handling a call can call no server."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        if getattr(self.here, "served", 0):
-            raise UcmError("not while you serve")
-        return super()._request(method, arguments)
+    return bool(getattr(self.here, "served", 0))
 
 
-@breaks(_CALLS, clauses=("10.1.5",))
-class refuses_calls_of_receivers(_KnowsWhatIsGoingOn):
+@refuses_if("_request", _CALLS, clauses=("10.1.5",))
+def refuses_calls_of_receivers(self: _KnowsWhatIsGoingOn, *_: object) -> bool:
     """A receiver that is handling a message can call no server."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        if getattr(self.here, "receives", False):
-            raise UcmError("not while you receive")
-        return super()._request(method, arguments)
+    return getattr(self.here, "receives", False)
 
 
-@breaks(_ARRIVES, clauses=("10.1.2",))
-class loses_what_servers_push(_KnowsWhatIsGoingOn):
+@replaces("_emit", _ARRIVES, clauses=("10.1.2",))
+def loses_what_servers_push(self: _KnowsWhatIsGoingOn, method: str, arguments: Sequence[Datum]) -> str:
     """What is pushed while a call is served is answered ok, and lost."""
-
-    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-        return OK if getattr(self.here, "served", 0) else super()._emit(method, arguments)
+    return OK if getattr(self.here, "served", 0) else _KnowsWhatIsGoingOn._emit(self, method, arguments)
 
 
-@breaks(_ARRIVES, clauses=("10.1.2",))
-class loses_what_receivers_push(_KnowsWhatIsGoingOn):
+@replaces("_emit", _ARRIVES, clauses=("10.1.2",))
+def loses_what_receivers_push(self: _KnowsWhatIsGoingOn, method: str, arguments: Sequence[Datum]) -> str:
     """What is pushed while a message is received is answered ok, and lost."""
-
-    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-        return OK if getattr(self.here, "receives", False) else super()._emit(method, arguments)
+    return OK if getattr(self.here, "receives", False) else _KnowsWhatIsGoingOn._emit(self, method, arguments)
 
 
 # restarts
@@ -107,29 +96,25 @@ class knows_servers_until_they_are_restarted(Base):
 # exceptions
 
 
-@breaks(_EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
-class loses_exceptions_of_inherited_methods(Link):
+@replaces("_request", _EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
+def loses_exceptions_of_inherited_methods(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """An exception that an inherited method declares arrives as one of the framework's own."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        try:
-            return super()._request(method, arguments)
-        except DeclaredException:
-            if method in self.interface.inherited:
-                raise UcmError("something went wrong") from None
-            raise
+    try:
+        return Link._request(self, method, arguments)
+    except DeclaredException:
+        if method in self.interface.inherited:
+            raise UcmError("something went wrong") from None
+        raise
 
 
-@breaks(_EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
-class loses_the_second_field_of_exceptions(Link):
+@replaces("_request", _EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
+def loses_the_second_field_of_exceptions(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """Of an exception the first field arrives, and the others are empty."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        try:
-            return super()._request(method, arguments)
-        except DeclaredException as error:
-            fields = [*error.fields[:1], *(0 if isinstance(f, int) else f for f in error.fields[1:])]
-            raise DeclaredException(error.name, fields) from None
+    try:
+        return Link._request(self, method, arguments)
+    except DeclaredException as error:
+        fields = [*error.fields[:1], *(0 if isinstance(f, int) else f for f in error.fields[1:])]
+        raise DeclaredException(error.name, fields) from None
 
 
 _CALLS, _ORIGIN = "R-10.1.5.1-01", "R-10.1.6.1-06"
@@ -153,63 +138,50 @@ class _Haunted(Link):
                 element.call(method, self._copied(arguments))  # type: ignore[union-attr]
 
 
-@breaks(_ORIGIN, clauses=("10.1.6",))
-class delivers_to_those_who_are_gone(_Haunted):
+@alters("_emit", _ORIGIN, clauses=("10.1.6",))
+def delivers_to_those_who_are_gone(self: _Haunted, code: str, method: str, arguments: Sequence[Datum]) -> str:
     """Receivers go on getting messages when they have been detached, or removed."""
-
-    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-        code = super()._emit(method, arguments)
-        self._haunt(method, arguments)
-        return code
+    self._haunt(method, arguments)
+    return code
 
 
-@breaks(_CALLS, clauses=("10.1.5",))
-class is_served_by_those_who_are_gone(_Haunted):
+@replaces("_request", _CALLS, clauses=("10.1.5",))
+def is_served_by_those_who_are_gone(self: _Haunted, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """A server goes on serving when it has been detached, unless there is another one."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        if self.connector == SERVICE_CONNECTOR and not self.takers and self.ghosts:
-            element = self.ghosts[-1].member.body.get_portElement(self.ghosts[-1].port)
-            return self._copied(element.call(method, self._copied(arguments)))  # type: ignore[union-attr]
-        return super()._request(method, arguments)
+    if self.connector == SERVICE_CONNECTOR and not self.takers and self.ghosts:
+        element = self.ghosts[-1].member.body.get_portElement(self.ghosts[-1].port)
+        return self._copied(element.call(method, self._copied(arguments)))  # type: ignore[union-attr]
+    return _Haunted._request(self, method, arguments)
 
 
 _CORE = "R-10.1-01"
 
 
-@breaks(_CORE, clauses=("10.1.5",))
-class has_no_services(Base):
+@replaces("link", _CORE, clauses=("10.1.5",))
+def has_no_services(self: Base, connector: str, interface: Interface) -> Link:
     """The service connector is left out."""
-
-    def link(self, connector: str, interface: Interface) -> Link:
-        if connector == SERVICE_CONNECTOR:
-            raise NotOffered
-        return super().link(connector, interface)
-
-
-@breaks(_CORE, clauses=("10.1.6",))
-class has_no_messages(Base):
-    """The message connector is left out."""
-
-    def link(self, connector: str, interface: Interface) -> Link:
-        if connector == MESSAGE_CONNECTOR:
-            raise NotOffered
-        return super().link(connector, interface)
-
-
-@breaks(_CORE, clauses=("10.1.2",), readings={"transport-fault": "hook", "connector-fault": "hook"})
-class never_breaks_a_transport(Link):
-    """It is claimed that the transport can be broken, and it cannot."""
-
-    def break_link(self, where: str) -> None:
-        if where == "transport":
-            raise NotOffered
-        super().break_link(where)
-
-
-@breaks(_CORE, clauses=("10.1.4",), readings={"trace-sink": "hook"})
-class keeps_its_log(Base):
-    """It is claimed that the trace can be read back, and it cannot."""
-
-    def read_log(self) -> list[tuple[str, str]]:
+    if connector == SERVICE_CONNECTOR:
         raise NotOffered
+    return Base.link(self, connector, interface)
+
+
+@replaces("link", _CORE, clauses=("10.1.6",))
+def has_no_messages(self: Base, connector: str, interface: Interface) -> Link:
+    """The message connector is left out."""
+    if connector == MESSAGE_CONNECTOR:
+        raise NotOffered
+    return Base.link(self, connector, interface)
+
+
+@replaces("break_link", _CORE, clauses=("10.1.2",), readings={"transport-fault": "hook", "connector-fault": "hook"})
+def never_breaks_a_transport(self: Link, where: str) -> None:
+    """It is claimed that the transport can be broken, and it cannot."""
+    if where == "transport":
+        raise NotOffered
+    Link.break_link(self, where)
+
+
+@replaces("read_log", _CORE, clauses=("10.1.4",), readings={"trace-sink": "hook"})
+def keeps_its_log(_self: Base) -> list[tuple[str, str]]:
+    """It is claimed that the trace can be read back, and it cannot."""
+    raise NotOffered

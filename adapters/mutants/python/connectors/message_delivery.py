@@ -14,6 +14,7 @@ from ucm_cts.adapters.contract.data_types import Datum, Interface, Structure
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
 from ucm_cts.adapters.mutants.python.connectors.message_receivers import Synchronous
+from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import OK, Link, Taker
 from ucm_cts.adapters.reference.python.framework import Member
@@ -49,48 +50,39 @@ class hears_one_thread_only(Link):
         return super()._emit(method, arguments) if thread == self.first else OK
 
 
-@breaks("R-10.1.6.1-04", clauses=_MESSAGES)
-class refuses_a_second_receiver(Link):
+@replaces("_check_room", "R-10.1.6.1-04", clauses=_MESSAGES)
+def refuses_a_second_receiver(self: Link) -> None:
     """A connection has one receiver."""
-
-    def _check_room(self) -> None:
-        if self.takers:
-            raise UcmError("there is somebody already")
+    if self.takers:
+        raise UcmError("there is somebody already")
 
 
-@breaks("R-10.1.6.1-04", clauses=_MESSAGES, also=("R-10.1.6.1-08", "R-10.1.2-10"))
-class takes_receivers_in_turn(Link):
+@replaces("_emit", "R-10.1.6.1-04", clauses=_MESSAGES, also=("R-10.1.6.1-08", "R-10.1.2-10"))
+def takes_receivers_in_turn(self: Link, method: str, arguments: Sequence[Datum]) -> str:
     """A message comes to one of the receivers, the next one to the next."""
-
-    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-        if self.broken:
-            return super()._emit(method, arguments)
-        turns = self.__dict__.setdefault("turns", itertools.count())
-        ready = [taker for taker in self.takers if taker.entrance.is_open]
-        if ready:
-            self._post(ready[next(turns) % len(ready)], method, self._copied(arguments))
-        return OK
+    if self.broken:
+        return Link._emit(self, method, arguments)
+    turns = self.__dict__.setdefault("turns", itertools.count())
+    ready = [taker for taker in self.takers if taker.entrance.is_open]
+    if ready:
+        self._post(ready[next(turns) % len(ready)], method, self._copied(arguments))
+    return OK
 
 
-@breaks("R-10.1.6.1-04", clauses=_MESSAGES, also=("R-10.1.6.1-08", "R-10.1.2-10", "R-10.1.6.1-03"))
-class reaches_one_container_only(Link):
+@does_only_if("_post", "R-10.1.6.1-04", clauses=_MESSAGES, also=("R-10.1.6.1-08", "R-10.1.2-10", "R-10.1.6.1-03"))
+def reaches_one_container_only(self: Link, taker: Taker, *_: object) -> bool:
     """Receivers in other containers than the first one get nothing."""
-
-    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        if taker.member.container is self.takers[0].member.container:
-            super()._post(taker, method, arguments)
+    return taker.member.container is self.takers[0].member.container
 
 
 # how often, and whose
 
 
-@breaks("R-10.1.6.1-05", clauses=_MESSAGES, also=("R-10.1.6.1-06",))  # no emitter pushed the second one
-class delivers_twice(Link):
+@replaces("_post", "R-10.1.6.1-05", clauses=_MESSAGES, also=("R-10.1.6.1-06",))  # no emitter pushed the second one
+def delivers_twice(self: Link, taker: Taker, method: str, arguments: list[Datum]) -> None:
     """Every message comes twice."""
-
-    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        super()._post(taker, method, arguments)
-        super()._post(taker, method, self._copied(arguments))
+    Link._post(self, taker, method, arguments)
+    Link._post(self, taker, method, self._copied(arguments))
 
 
 @breaks("R-10.1.6.1-05", clauses=_MESSAGES)
@@ -129,12 +121,10 @@ class mixes_connections_of_one_type(_Mixing):
     """Messages come to the receivers of all connections of their type."""
 
 
-@breaks("R-10.1.6.1-06", clauses=_MESSAGES)
-class mixes_connections_of_different_types(_Mixing):
+@replaces("is_mixed_with", "R-10.1.6.1-06", clauses=_MESSAGES)
+def mixes_connections_of_different_types(self: _Mixing, other: Link) -> bool:
     """Messages come to the receivers of all connections of other types."""
-
-    def is_mixed_with(self, other: Link) -> bool:
-        return other.interface != self.interface
+    return other.interface != self.interface
 
 
 @breaks("R-10.1.6.1-06", clauses=_MESSAGES, also=("R-10.1.1-07",))  # it may be another one that arrived changed
@@ -155,22 +145,20 @@ def _other(value: Datum) -> Datum:
 # in which order
 
 
-@breaks("R-10.1.6.1-07", clauses=_MESSAGES, readings={"message-order": "fifo"})
-class delivers_in_pairs_the_wrong_way_round(Link):
+@replaces("_deliver", "R-10.1.6.1-07", clauses=_MESSAGES, readings={"message-order": "fifo"})
+def delivers_in_pairs_the_wrong_way_round(_self: Link, taker: Taker, method: str) -> None:
     """Of two messages that are pushed within a moment the second one is delivered first, and fifo was declared."""
-
-    def _deliver(self, taker: Taker, method: str) -> None:
-        while (message := taker.messages.get()) is not None:
-            waiting = [message]
-            with suppress(queue.Empty):
-                following = taker.messages.get(timeout=0.01)
-                if following is None:
-                    taker.messages.put(None)  # the end is not lost
-                else:
-                    waiting.insert(0, following)
-            for one in dict.fromkeys(map(str, waiting)):
-                with suppress(Exception):
-                    taker.enter(method, [next(m for m in waiting if str(m) == one)])
+    while (message := taker.messages.get()) is not None:
+        waiting = [message]
+        with suppress(queue.Empty):
+            following = taker.messages.get(timeout=0.01)
+            if following is None:
+                taker.messages.put(None)  # the end is not lost
+            else:
+                waiting.insert(0, following)
+        for one in dict.fromkeys(map(str, waiting)):
+            with suppress(Exception):
+                taker.enter(method, [next(m for m in waiting if str(m) == one)])
 
 
 # what the connector is
@@ -186,26 +174,20 @@ class has_no_message_connector(Link):
         super().__init__(manager, connector, interface)
 
 
-@breaks("R-10.1.6.1-10", clauses=_MESSAGES)
-class joins_within_one_container_only(Link):
+@refuses_if("_attach_sender", "R-10.1.6.1-10", clauses=_MESSAGES)
+def joins_within_one_container_only(self: Link, member: Member, *_: object) -> bool:
     """Emitters must be in the container of the receivers."""
-
-    def _attach_sender(self, member: Member, port: str) -> None:
-        if any(taker.member.container is not member.container for taker in self.takers):
-            raise UcmError("too far away")
-        super()._attach_sender(member, port)
+    return any(taker.member.container is not member.container for taker in self.takers)
 
 
-@breaks("R-10.1.6.1-10", clauses=_MESSAGES, also=("R-11.2.3-06", "R-11.2.3-10"))
-class cannot_start_emitters(Base):
+@replaces("_check_startable", "R-10.1.6.1-10", clauses=_MESSAGES, also=("R-11.2.3-06", "R-11.2.3-10"))
+def cannot_start_emitters(self: Base) -> None:
     """start takes the port element of an emitter for unconnected."""
-
-    def _check_startable(self) -> None:
-        super()._check_startable()
-        links = [link for link in self.manager.links if link.connector == MESSAGE_CONNECTOR]
-        for member in self.members.values():
-            if any(link._is_behind(c.target) for c in self._connections_from(member) for link in links):
-                raise UcmError(f"component {member.id} is not connected")
+    Base._check_startable(self)
+    links = [link for link in self.manager.links if link.connector == MESSAGE_CONNECTOR]
+    for member in self.members.values():
+        if any(link._is_behind(c.target) for c in self._connections_from(member) for link in links):
+            raise UcmError(f"component {member.id} is not connected")
 
 
 @breaks("R-10.1.6.1-20", clauses=_MESSAGES, also=("R-10.1.1-18",))
@@ -219,13 +201,11 @@ class knows_one_type_of_messages(Link):
         super().__init__(manager, connector, interface)
 
 
-@breaks("R-10.1.6.1-20", "R-10.1.2-10", clauses=_MESSAGES)
-class loses_structures(Link):
+@replaces("_emit", "R-10.1.6.1-20", "R-10.1.2-10", clauses=_MESSAGES)
+def loses_structures(self: Link, method: str, arguments: Sequence[Datum]) -> str:
     """Messages that are structures are answered ok and lost."""
-
-    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-        is_structure = isinstance(self.interface.methods[method].parameters[0].of, Structure)
-        return OK if is_structure else super()._emit(method, arguments)
+    is_structure = isinstance(self.interface.methods[method].parameters[0].of, Structure)
+    return OK if is_structure else Link._emit(self, method, arguments)
 
 
 # values
@@ -249,54 +229,46 @@ class delivers_the_emitters_buffer(Link):
                 taker.enter(method, [message])
 
 
-@breaks("R-10.1.6.1-19", clauses=_MESSAGES, also=("R-10.1.1-13",))
-class makes_one_copy_for_all_receivers(Synchronous):
+@replaces("_emit", "R-10.1.6.1-19", clauses=_MESSAGES, also=("R-10.1.1-13",))
+def makes_one_copy_for_all_receivers(self: Synchronous, method: str, arguments: Sequence[Datum]) -> str:
     """Receivers share one copy of each message."""
-
-    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-        if self.broken:
-            return super()._emit(method, arguments)
-        copy = self._copied(arguments)
-        for taker in self.takers:
-            if taker.entrance.is_open:
-                self._hand_over(taker, method, copy)
-        return OK
+    if self.broken:
+        return Synchronous._emit(self, method, arguments)
+    copy = self._copied(arguments)
+    for taker in self.takers:
+        if taker.entrance.is_open:
+            self._hand_over(taker, method, copy)
+    return OK
 
 
 # bursts
 
 
-@breaks("R-10.1.6.1-05", clauses=("10.1.2",))
-class repeats_every_thousandth_message(Link):
+@replaces("_post", "R-10.1.6.1-05", clauses=("10.1.2",))
+def repeats_every_thousandth_message(self: Link, taker: Taker, method: str, arguments: list[Datum]) -> None:
     """Every thousandth message of a receiver comes twice."""
-
-    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        super()._post(taker, method, arguments)
-        taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
-        if taker.__dict__["posted"] % 1000 == 0:
-            super()._post(taker, method, arguments)
+    Link._post(self, taker, method, arguments)
+    taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
+    if taker.__dict__["posted"] % 1000 == 0:
+        Link._post(self, taker, method, arguments)
 
 
-@breaks("R-10.1.6.1-06", clauses=("10.1.2",))
-class counts_on_after_bursts(Link):
+@replaces("_post", "R-10.1.6.1-06", clauses=("10.1.2",))
+def counts_on_after_bursts(self: Link, taker: Taker, method: str, arguments: list[Datum]) -> None:
     """Every ten-thousandth message of a receiver is followed by one that no emitter pushed."""
-
-    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        super()._post(taker, method, arguments)
-        taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
-        if taker.__dict__["posted"] % 10_000 == 0:
-            super()._post(taker, method, [2**30 + taker.__dict__["posted"]])
+    Link._post(self, taker, method, arguments)
+    taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
+    if taker.__dict__["posted"] % 10_000 == 0:
+        Link._post(self, taker, method, [2**30 + taker.__dict__["posted"]])
 
 
-@breaks("R-10.1.6.1-07", clauses=("10.1.2",), readings={"message-order": "fifo"})
-class shuffles_bursts(Link):
+@replaces("_post", "R-10.1.6.1-07", clauses=("10.1.2",), readings={"message-order": "fifo"})
+def shuffles_bursts(self: Link, taker: Taker, method: str, arguments: list[Datum]) -> None:
     """Every hundredth message of a receiver lets the next one pass, and fifo was declared."""
-
-    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
-        if taker.__dict__["posted"] % 100 == 50:
-            taker.__dict__["aside"] = arguments
-            return
-        super()._post(taker, method, arguments)
-        if "aside" in taker.__dict__:
-            super()._post(taker, method, taker.__dict__.pop("aside"))
+    taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
+    if taker.__dict__["posted"] % 100 == 50:
+        taker.__dict__["aside"] = arguments
+        return
+    Link._post(self, taker, method, arguments)
+    if "aside" in taker.__dict__:
+        Link._post(self, taker, method, taker.__dict__.pop("aside"))

@@ -11,7 +11,7 @@ from typing import Any
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
-from ucm_cts.adapters.mutants.python.methods import does_only_if
+from ucm_cts.adapters.mutants.python.methods import does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK, Entrance, Link, Taker
 from ucm_cts.adapters.reference.python.framework import Failures, Member
@@ -98,14 +98,12 @@ class gives_up_when_a_receiver_fails(_SharedThread):
             taker.enter(method, arguments)
 
 
-@breaks("R-10.1.6.1-08", clauses=_MESSAGES)
-class does_not_wait_for_slow_receivers(Link):
+@replaces("_post", "R-10.1.6.1-08", clauses=_MESSAGES)
+def does_not_wait_for_slow_receivers(self: Link, taker: Taker, method: str, arguments: list[Datum]) -> None:
     """What is pushed while a receiver is busy never comes to it."""
-
-    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        time.sleep(0.001)
-        if not taker.entrance._inside:
-            super()._post(taker, method, arguments)
+    time.sleep(0.001)
+    if not taker.entrance._inside:
+        Link._post(self, taker, method, arguments)
 
 
 @breaks("R-10.1.6.1-08", clauses=_MESSAGES, readings={"slow-receiver": "independent"})
@@ -126,14 +124,12 @@ class _AlwaysOpen(Entrance):
         return super().visit(work)
 
 
-@breaks("R-10.1.6.1-09", clauses=_MESSAGES)
-class delivers_in_every_phase(Link):
+@replaces("_attach_taker", "R-10.1.6.1-09", clauses=_MESSAGES)
+def delivers_in_every_phase(self: Link, member: Member, port: str) -> None:
     """Receivers get messages before they are started and after they are stopped."""
-
-    def _attach_taker(self, member: Member, port: str) -> None:
-        super()._attach_taker(member, port)
-        if self.connector == MESSAGE_CONNECTOR:
-            self.takers[-1].entrance = _AlwaysOpen()
+    Link._attach_taker(self, member, port)
+    if self.connector == MESSAGE_CONNECTOR:
+        self.takers[-1].entrance = _AlwaysOpen()
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES)
@@ -156,13 +152,11 @@ def stop_closes_the_first_member_only(self: Base, member: Member) -> bool:
     return member is self.started[0]
 
 
-@breaks("R-10.1.6.1-09", clauses=_MESSAGES)
-class stop_closes_the_first_end_only(Base):
+@replaces("_close_entrances", "R-10.1.6.1-09", clauses=_MESSAGES)
+def stop_closes_the_first_end_only(self: Base, member: Member) -> None:
     """A stopped component gets no more messages of the connection it was attached to first, but those of others."""
-
-    def _close_entrances(self, member: Member) -> None:
-        for _, taker in self._takers_of(member)[:1]:
-            taker.close()
+    for _, taker in self._takers_of(member)[:1]:
+        taker.close()
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES, readings={"receiver-not-ready": "hold"})

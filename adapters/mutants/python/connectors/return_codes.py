@@ -10,9 +10,9 @@ from contextlib import suppress
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, INTERNAL_ERROR, OK, Link, LinkElement, Taker
-from ucm_cts.adapters.reference.python.framework import Member
 
 _CODES = ("10.1.2",)
 _MESSAGES = ("10.1.6",)
@@ -36,29 +36,22 @@ class _Answering(Link):
 # codes
 
 
-@breaks("R-10.1.2-02", clauses=_MESSAGES, also=("R-10.1.2-09",))
-class answers_something_else(_Answering):
+@replaces("answer", "R-10.1.2-02", clauses=_MESSAGES, also=("R-10.1.2-09",))
+def answers_something_else(_self: _Answering, *_: object) -> str:
     """Push is answered with a code of the framework's own."""
-
-    def answer(self, code: str) -> str:
-        return "queued"
+    return "queued"
 
 
-@breaks("R-10.1.2-02", clauses=_MESSAGES, also=("R-10.1.2-09",))
-class answers_nothing(Link):
+@alters("send", "R-10.1.2-02", clauses=_MESSAGES, also=("R-10.1.2-09",))
+def answers_nothing(_self: Link, results: Sequence[Datum], method: str, *_: object) -> Sequence[Datum]:
     """Push has no result."""
-
-    def send(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        results = super().send(method, arguments)
-        return [] if method == "push" else results
+    return [] if method == "push" else results
 
 
-@breaks("R-10.1.2-02", clauses=_CODES)
-class passes_exceptions_on(Link):
+@replaces("_post", "R-10.1.2-02", clauses=_CODES)
+def passes_exceptions_on(_self: Link, taker: Taker, method: str, arguments: list[Datum]) -> None:
     """A receiver's exception comes back to the emitter."""
-
-    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        taker.enter(method, arguments)
+    taker.enter(method, arguments)
 
 
 @breaks("R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "comm_error"})
@@ -66,26 +59,20 @@ class does_not_tell_that_nobody_is_there(Base):
     """Push without receivers was declared to be answered comm_error, and is answered ok."""
 
 
-@breaks("R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "ok"})
-class refuses_connections_without_receivers(Base):
+@replaces("_check_startable", "R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "ok"})
+def refuses_connections_without_receivers(self: Base) -> None:
     """Push without receivers was declared to be answered ok; who would do it is not even started."""
-
-    def _check_startable(self) -> None:
-        super()._check_startable()
-        for member in self.members.values():
-            for connection in self._connections_from(member):
-                if isinstance(connection.target, LinkElement) and not connection.target.link.takers:
-                    raise UcmError("there is no receiver")
+    Base._check_startable(self)
+    for member in self.members.values():
+        for connection in self._connections_from(member):
+            if isinstance(connection.target, LinkElement) and not connection.target.link.takers:
+                raise UcmError("there is no receiver")
 
 
-@breaks("R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "ok"})
-class refuses_emitters_that_come_first(Link):
+@refuses_if("_attach_sender", "R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "ok"})
+def refuses_emitters_that_come_first(self: Link, *_: object) -> bool:
     """Push without receivers was declared to be answered ok; who would do it cannot even be attached."""
-
-    def _attach_sender(self, member: Member, port: str) -> None:
-        if self.connector == MESSAGE_CONNECTOR and not self.takers:
-            raise UcmError("there is no receiver")
-        super()._attach_sender(member, port)
+    return self.connector == MESSAGE_CONNECTOR and not self.takers
 
 
 @breaks("R-10.1.2-09", clauses=_MESSAGES)
@@ -128,14 +115,11 @@ class _Passing(Link):
         return worst
 
 
-@breaks("R-10.1.2-09", clauses=_CODES)
-class confuses_the_receivers_code(_Passing):
+@alters("_emit", "R-10.1.2-09", clauses=_CODES)
+def confuses_the_receivers_code(self: _Passing, code: str, *_: object) -> str:
     """What a receiver answers is passed on as another code."""
-
-    def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-        code = super()._emit(method, arguments)
-        swapped = {INTERNAL_ERROR: COMM_ERROR, COMM_ERROR: INTERNAL_ERROR}
-        return code if self.broken else swapped.get(code, code)
+    swapped = {INTERNAL_ERROR: COMM_ERROR, COMM_ERROR: INTERNAL_ERROR}
+    return code if self.broken else swapped.get(code, code)
 
 
 @breaks("R-10.1.2-09", clauses=_CODES, readings={"receiver-code": "passed"})
@@ -184,13 +168,10 @@ class loses_the_last_of_many(_Losing):
     each = 50_000
 
 
-@breaks("R-10.1.2-10", clauses=_CODES)
-class drops_what_it_has_no_room_for(Link):
+@does_only_if("_post", "R-10.1.2-10", clauses=_CODES)
+def drops_what_it_has_no_room_for(_self: Link, taker: Taker, *_: object) -> bool:
     """An emitter that pushes faster than messages are delivered is answered ok, and its messages are dropped."""
-
-    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        if taker.messages.qsize() < 1000:
-            super()._post(taker, method, arguments)
+    return taker.messages.qsize() < 1000
 
 
 @breaks("R-10.1.2-10", clauses=_MESSAGES, readings={"message-delivery": "synchronous"}, also=("R-10.1.6.1-04",))
@@ -205,20 +186,16 @@ class delivers_later_than_it_said(Link):
 # what is broken
 
 
-@breaks("R-10.1.2-01", "R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
-class does_not_notice_what_is_broken(_Answering):
+@replaces("broken_answer", "R-10.1.2-01", "R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
+def does_not_notice_what_is_broken(_self: _Answering, *_: object) -> str:
     """Push is answered ok, whatever is broken."""
-
-    def broken_answer(self, where: str, code: str) -> str:
-        return OK
+    return OK
 
 
-@breaks("R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
-class confuses_what_is_broken(_Answering):
+@replaces("broken_answer", "R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
+def confuses_what_is_broken(_self: _Answering, where: str, *_: object) -> str:
     """Errors of the transport are told as those of the connector, and the other way round."""
-
-    def broken_answer(self, where: str, code: str) -> str:
-        return INTERNAL_ERROR if where == "transport" else COMM_ERROR
+    return INTERNAL_ERROR if where == "transport" else COMM_ERROR
 
 
 @breaks("R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
@@ -246,14 +223,12 @@ class notices_later_than_it_said(_Answering):
         return OK if self.met == 1 and where == "transport" else code
 
 
-@breaks("R-10.1.2-01", clauses=_CODES)
-class answers_for_servers_out_of_reach(Link):
+@replaces("_request", "R-10.1.2-01", clauses=_CODES)
+def answers_for_servers_out_of_reach(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """A client whose connection is broken gets zeros, as if its server had answered."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        return (
-            [0 for _ in self.interface.methods[method].results] if self.broken else super()._request(method, arguments)
-        )
+    return (
+        [0 for _ in self.interface.methods[method].results] if self.broken else Link._request(self, method, arguments)
+    )
 
 
 @breaks("R-10.1.2-01", clauses=_CODES)

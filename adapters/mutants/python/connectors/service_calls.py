@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from ucm_cts.adapters.contract.data_types import Datum, Interface, Parameter
 from ucm_cts.adapters.contract.programming_model import NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SERVICE_CONNECTOR
-from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
 from ucm_cts.adapters.reference.python.framework import Container, Member
@@ -54,33 +54,25 @@ class answers_from_memory(Services):
         return self.answers[key]
 
 
-@breaks(_CALLS, clauses=_CLAUSES)
-class calls_the_server_twice(Services):
+@replaces("_request", _CALLS, clauses=_CLAUSES)
+def calls_the_server_twice(self: Services, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """Every request is sent again, to be sure."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        super()._request(method, arguments)
-        return super()._request(method, arguments)
+    Services._request(self, method, arguments)
+    return Services._request(self, method, arguments)
 
 
-@breaks(_CALLS, _INHERITED, _TEMPLATE, clauses=_CLAUSES, also=(_DIRECTIONS, _EXCEPTIONS))
-class mistakes_methods_of_one_shape(Services):
+@replaces("_request", _CALLS, _INHERITED, _TEMPLATE, clauses=_CLAUSES, also=(_DIRECTIONS, _EXCEPTIONS))
+def mistakes_methods_of_one_shape(self: Services, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """Of methods with the same types of parameters the last one is called."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        shapes = {name: [p.of for p in m.parameters] for name, m in self.interface.methods.items()}
-        same = [name for name in shapes if shapes[name] == shapes[method]]
-        return super()._request(same[-1], arguments)
+    shapes = {name: [p.of for p in m.parameters] for name, m in self.interface.methods.items()}
+    same = [name for name in shapes if shapes[name] == shapes[method]]
+    return Services._request(self, same[-1], arguments)
 
 
-@breaks(_INHERITED, clauses=_CLAUSES)
-class knows_no_inherited_methods(Services):
+@refuses_if("_request", _INHERITED, clauses=_CLAUSES)
+def knows_no_inherited_methods(self: Services, method: str, *_: object) -> bool:
     """Only the methods that an interface itself declares are known."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        if method in self.interface.inherited:
-            raise UcmError(f"no method {method!r}")
-        return super()._request(method, arguments)
+    return method in self.interface.inherited
 
 
 @breaks(_TEMPLATE, clauses=_CLAUSES, also=(_CALLS,))  # one of another interface may take the values as they are
@@ -126,14 +118,10 @@ class attaches_one_client(Services):
             connection.target.link = Link(self.manager, self.connector, self.interface)
 
 
-@breaks(_CLIENTS, clauses=_CLAUSES, also=(_CALLS,))
-class takes_one_client(Services):
+@refuses_if("_attach_sender", _CLIENTS, clauses=_CLAUSES, also=(_CALLS,))
+def takes_one_client(self: Services, *_: object) -> bool:
     """A second client is refused."""
-
-    def _attach_sender(self, member: Member, port: str) -> None:
-        if self.connector == SERVICE_CONNECTOR and self.manager.connections:
-            raise UcmError("the connection has a client")
-        super()._attach_sender(member, port)
+    return self.connector == SERVICE_CONNECTOR and bool(self.manager.connections)
 
 
 @breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
@@ -186,50 +174,37 @@ class keeps_results_in_one_slot(Services):
 # servers
 
 
-@breaks(_ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
-class replaces_the_server(Services):
+@replaces("_check_room", _ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
+def replaces_the_server(self: Services) -> None:
     """A second server takes the place of the first."""
-
-    def _check_room(self) -> None:
-        if self.connector == SERVICE_CONNECTOR:
-            self.takers.clear()
+    if self.connector == SERVICE_CONNECTOR:
+        self.takers.clear()
 
 
-@breaks(_CALLS, clauses=_CLAUSES)
-class takes_servers_of_the_root_container(Services):
+@refuses_if("_attach_taker", _CALLS, clauses=_CLAUSES)
+def takes_servers_of_the_root_container(self: Services, member: Member, *_: object) -> bool:
     """A server in a sub-container is refused."""
-
-    def _attach_taker(self, member: Member, port: str) -> None:
-        if self.connector == SERVICE_CONNECTOR and is_below(member.container):
-            raise UcmError("servers are in the root container")
-        super()._attach_taker(member, port)
+    return self.connector == SERVICE_CONNECTOR and is_below(member.container)
 
 
-@breaks(_ONE_SERVER, clauses=_CLAUSES)
-class takes_servers_in_reserve(Services):
+@replaces("_check_room", _ONE_SERVER, clauses=_CLAUSES)
+def takes_servers_in_reserve(_self: Services) -> None:
     """There may be several servers; the first is called."""
 
-    def _check_room(self) -> None:
-        pass
 
-
-@breaks(_ONE_SERVER, clauses=_CLAUSES)
-class finds_no_place_for_a_server(Services):
+@replaces("_check_room", _ONE_SERVER, clauses=_CLAUSES)
+def finds_no_place_for_a_server(self: Services) -> None:
     """A second server is NOT_FOUND."""
-
-    def _check_room(self) -> None:
-        if self.connector == SERVICE_CONNECTOR and self.takers:
-            raise NotFound("no port for another server")
+    if self.connector == SERVICE_CONNECTOR and self.takers:
+        raise NotFound("no port for another server")
 
 
-@breaks(_ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
-class loses_the_server_to_a_second_one(Services):
+@replaces("_check_room", _ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
+def loses_the_server_to_a_second_one(self: Services) -> None:
     """A second server is refused, and the first serves no more."""
-
-    def _check_room(self) -> None:
-        if self.connector == SERVICE_CONNECTOR and self.takers:
-            self.takers[0].port = "nothing"
-            raise UcmError("the connection has a server already")
+    if self.connector == SERVICE_CONNECTOR and self.takers:
+        self.takers[0].port = "nothing"
+        raise UcmError("the connection has a server already")
 
 
 @breaks(_ONE_SERVER, clauses=_CLAUSES, readings={"second-server": "at-start"})
@@ -241,26 +216,24 @@ _CALLS, _CLIENTS, _OWN, _BLOCKING = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.
 _IN_FLIGHT = "R-10.1.5.1-12"
 
 
-@breaks(_BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN, _CALLS, "R-10.1.3.2-17"))
-class does_not_wait_long(Services):
+@replaces("_request", _BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN, _CALLS, "R-10.1.3.2-17"))
+def does_not_wait_long(self: Services, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """A client that waits too long for a server gets zeros."""
+    outcome: list[Sequence[Datum]] = []
+    raised: list[Exception] = []
 
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        outcome: list[Sequence[Datum]] = []
-        raised: list[Exception] = []
+    def ask() -> None:
+        try:
+            outcome.append(Link._request(self, method, arguments))
+        except Exception as error:  # noqa: BLE001 - whatever it is, the caller gets it
+            raised.append(error)
 
-        def ask() -> None:
-            try:
-                outcome.append(Link._request(self, method, arguments))
-            except Exception as error:  # noqa: BLE001 - whatever it is, the caller gets it
-                raised.append(error)
-
-        asking = threading.Thread(target=ask, daemon=True)
-        asking.start()
-        asking.join(0.005)
-        if raised:
-            raise raised[0]
-        return outcome[0] if outcome else self.nothing(method)
+    asking = threading.Thread(target=ask, daemon=True)
+    asking.start()
+    asking.join(0.005)
+    if raised:
+        raise raised[0]
+    return outcome[0] if outcome else self.nothing(method)
 
 
 @breaks(_IN_FLIGHT, clauses=_CLAUSES)
@@ -279,26 +252,22 @@ class forgets_clients_of_stopped_servers(Services):
         return len(self.manager.connections) > 1 and not server.member.execution.definition
 
 
-@breaks(_IN_FLIGHT, clauses=_CLAUSES)
-class invents_results_of_stopped_servers(Services):
+@replaces("_request", _IN_FLIGHT, clauses=_CLAUSES)
+def invents_results_of_stopped_servers(self: Services, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """When a server is being stopped, clients get zeros."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        server = self.server if self.takers else None
-        results = super()._request(method, arguments)
-        return results if server is None or server.entrance.is_open else self.nothing(method)
+    server = self.server if self.takers else None
+    results = Services._request(self, method, arguments)
+    return results if server is None or server.entrance.is_open else self.nothing(method)
 
 
-@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=("R-12.10-10",))
-class never_stops_what_was_called(Base):
+@replaces("_close_entrances", _IN_FLIGHT, clauses=_CLAUSES, also=("R-12.10-10",))
+def never_stops_what_was_called(self: Base, member: Member) -> None:
     """stop does not end if a server was executing several calls when it came."""
-
-    def _close_entrances(self, member: Member) -> None:
-        for _, taker in self._takers_of(member):
-            several = taker.entrance._inside > 1
-            taker.entrance.close()
-            if several and not member.execution.definition:
-                threading.Event().wait()
+    for _, taker in self._takers_of(member):
+        several = taker.entrance._inside > 1
+        taker.entrance.close()
+        if several and not member.execution.definition:
+            threading.Event().wait()
 
 
 class _Undone(Services):
@@ -322,13 +291,11 @@ class _Undone(Services):
         raise NotImplementedError
 
 
-@breaks(_IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS))
-class forgets_clients_of_undone_connections(_Undone):
+@replaces("answer_undone", _IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS))
+def forgets_clients_of_undone_connections(self: _Undone) -> None:
     """A connection may be undone at any time, and who is just calling waits for ever."""
-
-    def answer_undone(self) -> None:
-        if not self.server.member.execution.definition and len(self.manager.connections) > 1:
-            threading.Event().wait()
+    if not self.server.member.execution.definition and len(self.manager.connections) > 1:
+        threading.Event().wait()
 
 
 @breaks(_IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS), readings={"call-in-flight": "finishes"})

@@ -7,7 +7,7 @@ import time
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, UcmError
 from ucm_cts.adapters.contract.scenario import CLOCK, Policy
-from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference.python.framework import Failures, Member
 
@@ -18,12 +18,9 @@ BEGINNING = time.time_ns()
 # clocks
 
 
-@breaks("R-10.1.4.1-02", clauses=HERE)
-class accepts_several_clocks(Base):
+@replaces("_check_clocks", "R-10.1.4.1-02", clauses=HERE)
+def accepts_several_clocks(_self: Base, *_: object) -> None:
     """A second clock is one more reference."""
-
-    def _check_clocks(self, implementation: Implementation) -> None:
-        pass
 
 
 @refuses_if("_check_service", "R-10.1.4.1-02", clauses=HERE)
@@ -70,21 +67,17 @@ class hands_over_the_clock_once(Withholds):
         member.__dict__["has been stopped"] = True
 
 
-@breaks("R-11.2.1.2-09", clauses=HERE, also=("R-11.2.3-10",))
-class hands_over_clocks_to_everybody(Base):
+@replaces("_dependencies_of", "R-11.2.1.2-09", clauses=HERE, also=("R-11.2.3-10",))
+def hands_over_clocks_to_everybody(self: Base, member: Member) -> list[PortConnection]:
     """on_startup tells of a clock that was not asked for."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        clock = self._service_element(member, Policy(CLOCK, element="clock_clock_api"))
-        return [*super()._dependencies_of(member), clock]
+    clock = self._service_element(member, Policy(CLOCK, element="clock_clock_api"))
+    return [*Base._dependencies_of(self, member), clock]
 
 
-@breaks("R-10.1.4.1-06", clauses=HERE)
-class has_no_synchronized_time(Base):
+@replaces("_synchronized_time", "R-10.1.4.1-06", clauses=HERE)
+def has_no_synchronized_time(_self: Base, *_: object) -> int:
     """The clock's second method fails."""
-
-    def _synchronized_time(self, member: Member) -> int:
-        raise UcmError("there is nothing to synchronize with")
+    raise UcmError("there is nothing to synchronize with")
 
 
 @refuses_if("_local_time", "R-10.1.4.1-06", clauses=HERE)
@@ -111,28 +104,21 @@ def every_component_has_its_own_time(_self: Base, given: int, member: Member) ->
     return given + member.id * 100 * SECOND
 
 
-@breaks("R-10.1.4.1-09", clauses=HERE)
-class clock_stands_still(Base):
+@replaces("_local_time", "R-10.1.4.1-09", clauses=HERE)
+def clock_stands_still(_self: Base, *_: object) -> int:
     """Local time is when the framework was loaded."""
-
-    def _local_time(self, member: Member) -> int:
-        return BEGINNING
+    return BEGINNING
 
 
-@breaks("R-10.1.4.1-09", clauses=HERE, also=("R-10.1.4.1-10",), readings={"virtual-time": "hook"})
-class clock_ignores_virtual_time(Base):
+@replaces("advance", "R-10.1.4.1-09", clauses=HERE, also=("R-10.1.4.1-10",), readings={"virtual-time": "hook"})
+def clock_ignores_virtual_time(_self: Base, *_: object) -> None:
     """Local and synchronized time go on in real time alone."""
 
-    def advance(self, milliseconds: int) -> None:
-        pass
 
-
-@breaks("R-10.1.4.1-09", clauses=HERE, readings={"virtual-time": "hook"})
-class virtual_time_passes_twice(Base):
+@replaces("advance", "R-10.1.4.1-09", clauses=HERE, readings={"virtual-time": "hook"})
+def virtual_time_passes_twice(self: Base, milliseconds: int) -> None:
     """Clocks go on by two seconds when one second of virtual time passes."""
-
-    def advance(self, milliseconds: int) -> None:
-        super().advance(2 * milliseconds)
+    Base.advance(self, 2 * milliseconds)
 
 
 class _Paced(Base):
@@ -168,12 +154,10 @@ def synchronized_clock_loses_whole_seconds(_self: Base, given: int, _member: Mem
     return given % SECOND
 
 
-@breaks("R-10.1.4.1-09", clauses=HERE, readings={"clock-epoch": "unix"})
-class clock_has_another_epoch_than_declared(Base):
+@replaces("_local_time", "R-10.1.4.1-09", clauses=HERE, readings={"clock-epoch": "unix"})
+def clock_has_another_epoch_than_declared(_self: Base, *_: object) -> int:
     """Local time is monotonic time; the vendor declares Unix time."""
-
-    def _local_time(self, member: Member) -> int:
-        return time.monotonic_ns()
+    return time.monotonic_ns()
 
 
 @alters("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
@@ -188,55 +172,43 @@ def synchronizes_in_containers_only(self: Base, given: int, _member: Member) -> 
     return given + (not is_below(self)) * SECOND
 
 
-@breaks("R-10.1.4.1-10", clauses=HERE)
-class synchronized_time_begins_with_the_first_reading(Base):
+@replaces("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
+def synchronized_time_begins_with_the_first_reading(_self: Base, member: Member) -> int:
     """Every component's synchronized time is the time since it first asked."""
-
-    def _synchronized_time(self, member: Member) -> int:
-        now = time.monotonic_ns()
-        return now - int(member.__dict__.setdefault("first asked", now))
+    now = time.monotonic_ns()
+    return now - int(member.__dict__.setdefault("first asked", now))
 
 
-@breaks("R-10.1.4.1-10", clauses=HERE)
-class synchronized_time_stands_still(Base):
+@replaces("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
+def synchronized_time_stands_still(_self: Base, *_: object) -> int:
     """Synchronized time is when the framework was loaded."""
-
-    def _synchronized_time(self, member: Member) -> int:
-        return BEGINNING
+    return BEGINNING
 
 
-@breaks("R-10.1.4.2-14", clauses=HERE)
-class tells_too_many_microseconds(Base):
+@replaces("_time_value", "R-10.1.4.2-14", clauses=HERE)
+def tells_too_many_microseconds(self: Base, nanoseconds: int) -> list[Datum]:
     """A second is told as microseconds."""
-
-    def _time_value(self, nanoseconds: int) -> list[Datum]:
-        seconds, microseconds = super()._time_value(nanoseconds)
-        return [int(seconds) - 1, int(microseconds) + 1_000_000]  # type: ignore[arg-type]
+    seconds, microseconds = Base._time_value(self, nanoseconds)
+    return [int(seconds) - 1, int(microseconds) + 1_000_000]  # type: ignore[arg-type]
 
 
-@breaks("R-10.1.4.2-14", clauses=HERE)
-class tells_seconds_beyond_their_type(Base):
+@replaces("_time_value", "R-10.1.4.2-14", clauses=HERE)
+def tells_seconds_beyond_their_type(self: Base, nanoseconds: int) -> list[Datum]:
     """Seconds are counted from a time so long ago that they need 33 bits."""
-
-    def _time_value(self, nanoseconds: int) -> list[Datum]:
-        seconds, microseconds = super()._time_value(nanoseconds)
-        return [int(seconds) + 2**32, microseconds]  # type: ignore[arg-type]
+    seconds, microseconds = Base._time_value(self, nanoseconds)
+    return [int(seconds) + 2**32, microseconds]  # type: ignore[arg-type]
 
 
-@breaks("R-10.1.4.2-14", clauses=HERE)
-class tells_negative_microseconds(Base):
+@replaces("_time_value", "R-10.1.4.2-14", clauses=HERE)
+def tells_negative_microseconds(self: Base, nanoseconds: int) -> list[Datum]:
     """Microseconds count down to the next second."""
-
-    def _time_value(self, nanoseconds: int) -> list[Datum]:
-        seconds, microseconds = super()._time_value(nanoseconds)
-        return [int(seconds) + 1, int(microseconds) - 1_000_000]  # type: ignore[arg-type]
+    seconds, microseconds = Base._time_value(self, nanoseconds)
+    return [int(seconds) + 1, int(microseconds) - 1_000_000]  # type: ignore[arg-type]
 
 
-@breaks(
-    "R-10.1.4.2-14", clauses=HERE, also=("R-10.1.4.1-08", "R-10.1.4.1-09", "R-10.1.4.1-10")
+@replaces(
+    "_time_value", "R-10.1.4.2-14", clauses=HERE, also=("R-10.1.4.1-08", "R-10.1.4.1-09", "R-10.1.4.1-10")
 )  # what is told passes a thousand times too fast, and falls back each second
-class tells_nanoseconds(Base):
+def tells_nanoseconds(_self: Base, nanoseconds: int) -> list[Datum]:
     """Nanoseconds are told as microseconds."""
-
-    def _time_value(self, nanoseconds: int) -> list[Datum]:
-        return [nanoseconds // SECOND, nanoseconds % SECOND]
+    return [nanoseconds // SECOND, nanoseconds % SECOND]

@@ -8,7 +8,7 @@ from typing import TypeVar
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
 from ucm_cts.adapters.contract.scenario import COMPONENT_TRACE, PORT_TRACE, Policy
 from ucm_cts.adapters.mutants.python.container_services.clocks import HERE, Withholds
-from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if
+from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.framework import Member
 
@@ -27,14 +27,12 @@ class hands_over_no_trace(Withholds):
         return sum(p.definition == COMPONENT_TRACE for p in member.implementation.policies) == 1
 
 
-@breaks("R-10.1.4.2-02", clauses=HERE)
-class hands_over_the_first_trace_only(Base):
+@replaces("_service_element", "R-10.1.4.2-02", clauses=HERE)
+def hands_over_the_first_trace_only(self: Base, member: Member, policy: Policy) -> PortConnection:
     """Nothing is behind the name of a second trace."""
-
-    def _service_element(self, member: Member, policy: Policy) -> PortConnection:
-        first = next(p for p in member.implementation.policies if p.definition == policy.definition)
-        given = super()._service_element(member, policy)
-        return given if policy is first else PortConnection(given.from_port, ())
+    first = next(p for p in member.implementation.policies if p.definition == policy.definition)
+    given = Base._service_element(self, member, policy)
+    return given if policy is first else PortConnection(given.from_port, ())
 
 
 @refuses_if("_check_service", "R-10.1.4.2-02", clauses=HERE)
@@ -43,14 +41,12 @@ def refuses_a_second_trace(_self: Base, implementation: Implementation, _policy:
     return sum(p.definition in (COMPONENT_TRACE, PORT_TRACE) for p in implementation.policies) > 1
 
 
-@breaks("R-10.1.4.2-02", clauses=HERE)
-class writes_to_every_trace_of_a_component(Base):
+@replaces("_log", "R-10.1.4.2-02", clauses=HERE)
+def writes_to_every_trace_of_a_component(self: Base, member: Member, severity: str, message: str) -> None:
     """A call of log makes a record for each trace policy of the component."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        for policy in member.implementation.policies:
-            if policy.definition == COMPONENT_TRACE:
-                super()._log(member, severity, message)
+    for policy in member.implementation.policies:
+        if policy.definition == COMPONENT_TRACE:
+            Base._log(self, member, severity, message)
 
 
 # messages
@@ -85,33 +81,27 @@ def log_loses_what_comes_from_sub_containers(self: Base, member: Member, _severi
     return member.container is self.manager
 
 
-@breaks("R-10.1.4.2-26", clauses=HERE)
-class log_loses_every_hundredth(Base):
+@replaces("_log", "R-10.1.4.2-26", clauses=HERE)
+def log_loses_every_hundredth(self: Base, member: Member, severity: str, message: str) -> None:
     """One record of a hundred is lost."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        runtime = self.manager.__dict__
-        runtime["logged"] = runtime.get("logged", 0) + 1
-        if runtime["logged"] % 100:
-            super()._log(member, severity, message)
+    runtime = self.manager.__dict__
+    runtime["logged"] = runtime.get("logged", 0) + 1
+    if runtime["logged"] % 100:
+        Base._log(self, member, severity, message)
 
 
-@breaks("R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-02",))
-class log_records_twice(Base):
+@replaces("_log", "R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-02",))
+def log_records_twice(self: Base, member: Member, severity: str, message: str) -> None:
     """Each call of log leaves two records."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        super()._log(member, severity, message)
-        super()._log(member, severity, message)
+    Base._log(self, member, severity, message)
+    Base._log(self, member, severity, message)
 
 
-@breaks("R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-02",))
-class log_records_an_echo(Base):
+@replaces("_log", "R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-02",))
+def log_records_an_echo(self: Base, member: Member, severity: str, message: str) -> None:
     """Each call of log leaves a second record that speaks of it."""
-
-    def _log(self, member: Member, severity: str, message: str) -> None:
-        super()._log(member, severity, message)
-        super()._log(member, "debug", f"logged: {message}")
+    Base._log(self, member, severity, message)
+    Base._log(self, member, "debug", f"logged: {message}")
 
 
 @does_only_if("_log", "R-10.1.4.2-26", clauses=HERE)
@@ -128,60 +118,46 @@ class _Alters(Base):
         super()._log(member, severity, self._altered(message))
 
 
-@breaks("R-10.1.4.2-53", clauses=HERE, also=("R-10.1.4.2-47",))
-class log_truncates_soon(_Alters):
+@replaces("_altered", "R-10.1.4.2-53", clauses=HERE, also=("R-10.1.4.2-47",))
+def log_truncates_soon(_self: _Alters, message: str) -> str:
     """Texts end after 100 characters."""
-
-    def _altered(self, message: str) -> str:
-        return message[:100]
+    return message[:100]
 
 
-@breaks("R-10.1.4.2-53", clauses=HERE, also=("R-10.1.4.2-47",))
-class log_adds_a_time_stamp(_Alters):
+@replaces("_altered", "R-10.1.4.2-53", clauses=HERE, also=("R-10.1.4.2-47",))
+def log_adds_a_time_stamp(_self: _Alters, message: str) -> str:
     """Texts begin with the time."""
-
-    def _altered(self, message: str) -> str:
-        return f"{time.ctime()} {message}"
+    return f"{time.ctime()} {message}"
 
 
-@breaks("R-10.1.4.2-53", clauses=HERE)
-class log_formats_texts(_Alters):
+@replaces("_altered", "R-10.1.4.2-53", clauses=HERE)
+def log_formats_texts(_self: _Alters, message: str) -> str:
     """Texts are taken for format strings."""
-
-    def _altered(self, message: str) -> str:
-        return message.replace("%%", "%").replace("{0}", "").replace("\\n", "\n")
+    return message.replace("%%", "%").replace("{0}", "").replace("\\n", "\n")
 
 
-@breaks("R-10.1.4.2-53", clauses=HERE)
-class log_folds_spaces(_Alters):
+@replaces("_altered", "R-10.1.4.2-53", clauses=HERE)
+def log_folds_spaces(_self: _Alters, message: str) -> str:
     """Several spaces become one."""
-
-    def _altered(self, message: str) -> str:
-        return " ".join(message.split())
+    return " ".join(message.split())
 
 
-@breaks("R-10.1.4.2-47", clauses=HERE)
-class log_truncates_late(_Alters):
+@replaces("_altered", "R-10.1.4.2-47", clauses=HERE)
+def log_truncates_late(_self: _Alters, message: str) -> str:
     """Texts end after 1,024 characters."""
-
-    def _altered(self, message: str) -> str:
-        return message[:1024]
+    return message[:1024]
 
 
-@breaks("R-10.1.4.2-47", clauses=HERE)
-class log_is_narrow(_Alters):
+@replaces("_altered", "R-10.1.4.2-47", clauses=HERE)
+def log_is_narrow(_self: _Alters, message: str) -> str:
     """What is not ASCII becomes question marks."""
-
-    def _altered(self, message: str) -> str:
-        return message.encode("ascii", "replace").decode()
+    return message.encode("ascii", "replace").decode()
 
 
-@breaks("R-10.1.4.2-47", clauses=HERE)
-class log_has_sixteen_bits(_Alters):
+@replaces("_altered", "R-10.1.4.2-47", clauses=HERE)
+def log_has_sixteen_bits(_self: _Alters, message: str) -> str:
     """What is beyond the Basic Multilingual Plane loses its upper bits."""
-
-    def _altered(self, message: str) -> str:
-        return "".join(chr(ord(c) & 0xFFFF) for c in message)
+    return "".join(chr(ord(c) & 0xFFFF) for c in message)
 
 
 @does_only_if("_log", "R-10.1.4.2-47", clauses=HERE)
@@ -190,12 +166,10 @@ def log_drops_empty_texts(_self: Base, _member: Member, _severity: str, message:
     return bool(message)
 
 
-@breaks("R-10.1.4.2-47", clauses=HERE)
-class log_says_something_for_nothing(_Alters):
+@replaces("_altered", "R-10.1.4.2-47", clauses=HERE)
+def log_says_something_for_nothing(_self: _Alters, message: str) -> str:
     """An empty text becomes another one."""
-
-    def _altered(self, message: str) -> str:
-        return message or "(none)"
+    return message or "(none)"
 
 
 class _Ranks(Base):

@@ -9,7 +9,7 @@ from typing import TypeVar
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.scenario import METHODS_TO_TRACE, PORT_TRACE, Policy
 from ucm_cts.adapters.mutants.python.container_services.clocks import HERE
-from ucm_cts.adapters.mutants.python.methods import alters, does_only_if
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import Link
 from ucm_cts.adapters.reference.python.container_services import Record
@@ -18,12 +18,10 @@ from ucm_cts.adapters.reference.python.framework import Member
 T = TypeVar("T")
 
 
-@breaks("R-10.1.4.2-04", clauses=HERE)
-class traces_no_ports(Base):
+@replaces("_port_traces", "R-10.1.4.2-04", clauses=HERE)
+def traces_no_ports(_self: Base, *_: object) -> list[Policy]:
     """port_trace is accepted and forgotten."""
-
-    def _port_traces(self, member: Member, port: str) -> list[Policy]:
-        return []
+    return []
 
 
 @alters("_port_traces", "R-10.1.4.2-04", clauses=HERE, also=("R-10.1.4.2-32",))  # of both ends, one is traced
@@ -32,13 +30,11 @@ def traces_provided_ports_only(_self: Base, given: list[Policy], member: Member,
     return given if port in member.implementation.provides else []
 
 
-@breaks("R-10.1.4.2-04", clauses=HERE)
-class traces_one_port_of_a_component(Base):
+@replaces("_port_traces", "R-10.1.4.2-04", clauses=HERE)
+def traces_one_port_of_a_component(self: Base, member: Member, port: str) -> list[Policy]:
     """The last of several port traces of a component counts."""
-
-    def _port_traces(self, member: Member, port: str) -> list[Policy]:
-        last = [p for p in member.implementation.policies if p.port is not None][-1:]
-        return [p for p in super()._port_traces(member, port) if p in last]
+    last = [p for p in member.implementation.policies if p.port is not None][-1:]
+    return [p for p in Base._port_traces(self, member, port) if p in last]
 
 
 @breaks("R-10.1.4.2-32", clauses=HERE)
@@ -86,22 +82,18 @@ def _is_of_a_call(container: Base, record: Record) -> bool:
     return record[1].startswith(tuple(container.manager.implementations))
 
 
-@breaks("R-10.1.4.2-32", clauses=HERE, also=("R-10.1.4.2-33",))  # others might have made them
-class traces_calls_again_and_again(Base):
+@replaces("_trace_call", "R-10.1.4.2-32", clauses=HERE, also=("R-10.1.4.2-33",))  # others might have made them
+def traces_calls_again_and_again(self: Base, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
     """Each traced call has five records."""
-
-    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
-        for _ in range(4):
-            super()._trace_call(member, port, method, lambda: None)
-        return super()._trace_call(member, port, method, work)
+    for _ in range(4):
+        Base._trace_call(self, member, port, method, lambda: None)
+    return Base._trace_call(self, member, port, method, work)
 
 
-@breaks("R-10.1.4.2-04", clauses=HERE)
-class traces_calls_without_their_names(Base):
+@replaces("_call_message", "R-10.1.4.2-04", clauses=HERE)
+def traces_calls_without_their_names(_self: Base, member: Member, port: str, *_: object) -> str:
     """Records of calls do not tell which method was called."""
-
-    def _call_message(self, member: Member, port: str, method: str) -> str:
-        return f"{member.implementation.name} {port} called"
+    return f"{member.implementation.name} {port} called"
 
 
 @breaks("R-10.1.4.2-32", clauses=HERE, readings={"port-trace-records": "call-and-return"})
@@ -109,38 +101,30 @@ class traces_calls_and_no_returns(Base):
     """A call has one record; the vendor declares two."""
 
 
-@breaks("R-10.1.4.2-32", clauses=HERE, readings={"port-trace-records": "call"})
-class traces_calls_and_returns(Base):
+@replaces("_trace_call", "R-10.1.4.2-32", clauses=HERE, readings={"port-trace-records": "call"})
+def traces_calls_and_returns(self: Base, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
     """A call has two records; the vendor declares one."""
-
-    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
-        result = super()._trace_call(member, port, method, work)
-        super()._trace_call(member, port, method, lambda: None)
-        return result
+    result = Base._trace_call(self, member, port, method, work)
+    Base._trace_call(self, member, port, method, lambda: None)
+    return result
 
 
-@breaks("R-10.1.4.2-33", clauses=HERE)
-class traces_all_methods(Base):
+@replaces("_is_traced", "R-10.1.4.2-33", clauses=HERE)
+def traces_all_methods(_self: Base, *_: object) -> bool:
     """methods_to_trace does not select."""
-
-    def _is_traced(self, policy: Policy, method: str) -> bool:
-        return True
+    return True
 
 
-@breaks("R-10.1.4.2-33", clauses=HERE)
-class traces_methods_that_begin_alike(Base):
+@replaces("_is_traced", "R-10.1.4.2-33", clauses=HERE)
+def traces_methods_that_begin_alike(_self: Base, policy: Policy, method: str) -> bool:
     """Methods are traced whose names begin with what methods_to_trace says."""
-
-    def _is_traced(self, policy: Policy, method: str) -> bool:
-        return method.startswith(policy.parameters[METHODS_TO_TRACE])
+    return method.startswith(policy.parameters[METHODS_TO_TRACE])
 
 
-@breaks("R-10.1.4.2-33", clauses=HERE)
-class traces_methods_found_somewhere_in_names(Base):
+@replaces("_is_traced", "R-10.1.4.2-33", clauses=HERE)
+def traces_methods_found_somewhere_in_names(_self: Base, policy: Policy, method: str) -> bool:
     """Methods are traced whose names are anywhere in methods_to_trace."""
-
-    def _is_traced(self, policy: Policy, method: str) -> bool:
-        return method in policy.parameters[METHODS_TO_TRACE]
+    return method in policy.parameters[METHODS_TO_TRACE]
 
 
 @alters("_port_traces", "R-10.1.4.2-33", clauses=HERE)
@@ -150,49 +134,39 @@ def traces_all_ports(self: Base, own: list[Policy], _member: Member, _port: str)
     return own or [p for p in policies if p.definition == PORT_TRACE][:1]
 
 
-@breaks("R-10.1.4.2-33", clauses=HERE)
-class traces_ports_with_later_names(Base):
+@replaces("_port_traces", "R-10.1.4.2-33", clauses=HERE)
+def traces_ports_with_later_names(_self: Base, member: Member, port: str) -> list[Policy]:
     """The policy of one port is applied to all ports of its component whose names sort after it."""
-
-    def _port_traces(self, member: Member, port: str) -> list[Policy]:
-        return [p for p in member.implementation.policies if p.definition == PORT_TRACE and (p.port or "") <= port]
+    return [p for p in member.implementation.policies if p.definition == PORT_TRACE and (p.port or "") <= port]
 
 
-@breaks("R-10.1.4.2-33", clauses=HERE)
-class traces_ports_with_earlier_names(Base):
+@replaces("_port_traces", "R-10.1.4.2-33", clauses=HERE)
+def traces_ports_with_earlier_names(_self: Base, member: Member, port: str) -> list[Policy]:
     """The policy of one port is applied to all ports of its component whose names sort before it."""
-
-    def _port_traces(self, member: Member, port: str) -> list[Policy]:
-        return [p for p in member.implementation.policies if p.definition == PORT_TRACE and (p.port or "") >= port]
+    return [p for p in member.implementation.policies if p.definition == PORT_TRACE and (p.port or "") >= port]
 
 
-@breaks("R-10.1.4.2-33", clauses=HERE)
-class notes_every_call(Base):
+@replaces("_trace_call", "R-10.1.4.2-33", clauses=HERE)
+def notes_every_call(self: Base, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
     """Calls of methods that are not named leave a record that says nothing."""
-
-    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
-        if not any(self._is_traced(policy, method) for policy in self._port_traces(member, port)):
-            self._write(("debug", "a call"))
-        return super()._trace_call(member, port, method, work)
+    if not any(self._is_traced(policy, method) for policy in self._port_traces(member, port)):
+        self._write(("debug", "a call"))
+    return Base._trace_call(self, member, port, method, work)
 
 
-@breaks("R-10.1.4.2-35", clauses=HERE)
-class traces_ports_as_info(Base):
+@replaces("_trace_call", "R-10.1.4.2-35", clauses=HERE)
+def traces_ports_as_info(self: Base, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
     """What port traces record has always the same severity."""
-
-    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
-        if any(self._is_traced(policy, method) for policy in self._port_traces(member, port)):
-            self._write(("info", self._call_message(member, port, method)))
-        return work()
+    if any(self._is_traced(policy, method) for policy in self._port_traces(member, port)):
+        self._write(("info", self._call_message(member, port, method)))
+    return work()
 
 
-@breaks("R-10.1.4.2-35", clauses=HERE)
-class traces_errors_as_warnings(Base):
+@replaces("_write", "R-10.1.4.2-35", clauses=HERE)
+def traces_errors_as_warnings(self: Base, record: Record) -> None:
     """What is to be recorded as error is a warning."""
-
-    def _write(self, record: Record) -> None:
-        of_an_error = record[0] == "error" and _is_of_a_call(self, record)
-        super()._write(("warning", record[1]) if of_an_error else record)
+    of_an_error = record[0] == "error" and _is_of_a_call(self, record)
+    Base._write(self, ("warning", record[1]) if of_an_error else record)
 
 
 @alters("_trace_call", "R-11.1.3-01", clauses=HERE, also=("R-10.1.3.2-21",))

@@ -13,7 +13,8 @@ from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract.data_values import components_of
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.altering import Carried, carries, made_to, register_carried
-from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.mutants.python.methods import replaces
+from ucm_cts.adapters.mutants.python.registry import Base
 from ucm_cts.adapters.reference.python.connectors import Link
 
 _CLAUSE = ("10.1.1",)
@@ -89,15 +90,13 @@ def writes_no_special_numbers_in_sequences(of: Any, value: Any) -> Any:
     ]
 
 
-@breaks("R-10.1.1-17", clauses=_CLAUSE, also=_REFUSED)
-class refuses_aliases(Base):
+@replaces("link", "R-10.1.1-17", clauses=_CLAUSE, also=_REFUSED)
+def refuses_aliases(self: Base, connector: str, interface: d.Interface) -> Link:
     """Connectors cannot be bound to an interface that has an alias for a type."""
-
-    def link(self, connector: str, interface: d.Interface) -> Link:
-        types = [parameter.of for method in interface.methods.values() for parameter in method.parameters]
-        if any(isinstance(of, d.Alias) for of in types):
-            raise UcmError("what is an alias?")
-        return super().link(connector, interface)
+    types = [parameter.of for method in interface.methods.values() for parameter in method.parameters]
+    if any(isinstance(of, d.Alias) for of in types):
+        raise UcmError("what is an alias?")
+    return Base.link(self, connector, interface)
 
 
 @carries("R-10.1.1-17", d.Alias)
@@ -111,15 +110,13 @@ def _depth(of: d.AnyType, value: d.Datum) -> int:
     return composite + max((_depth(part, one) for _, part, one in components_of(of, value)), default=0)
 
 
-@breaks("R-10.1.1-18", clauses=_CLAUSE, also=_REFUSED)
-class refuses_types_in_types(Link):
+@replaces("send", "R-10.1.1-18", clauses=_CLAUSE, also=_REFUSED)
+def refuses_types_in_types(self: Link, method: str, arguments: collections.abc.Sequence[d.Datum]) -> Any:
     """Calls with structures, unions, arrays or sequences that contain others are refused."""
-
-    def send(self, method: str, arguments: collections.abc.Sequence[d.Datum]) -> Any:
-        types = [p.of for p in self.interface.methods[method].arguments]
-        if any(_depth(of, value) > 1 for of, value in zip(types, arguments, strict=True)):
-            raise UcmError("the value is too deep")
-        return super().send(method, arguments)
+    types = [p.of for p in self.interface.methods[method].arguments]
+    if any(_depth(of, value) > 1 for of, value in zip(types, arguments, strict=True)):
+        raise UcmError("the value is too deep")
+    return Link.send(self, method, arguments)
 
 
 @carries("R-10.1.1-18", also=("R-10.1.1-16",))

@@ -11,6 +11,7 @@ from ucm_cts.adapters.contract.data_types import Boolean, Char, Enumeration, Flo
 from ucm_cts.adapters.contract.data_values import read_spelled, spell
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.altering import Carried, Change, carries, changing, made_to, register_carried
+from ucm_cts.adapters.mutants.python.methods import replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, variant_of
 from ucm_cts.adapters.reference.python.framework import Member
 
@@ -100,13 +101,11 @@ def has_no_enumerations_with_long_indices(of: Any, value: Any) -> Any:
 # attributes
 
 
-@breaks("R-10.1.1-06", clauses=_CLAUSE, also=("R-11.2.1.2-05",))
-class configures_after_on_init(Base):
+@replaces("_configure", "R-10.1.1-06", clauses=_CLAUSE, also=("R-11.2.1.2-05",))
+def configures_after_on_init(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """Attributes are set when on_init has returned."""
-
-    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        super()._configure(member, {})
-        self._set_attributes(member, attributes)
+    Base._configure(self, member, {})
+    self._set_attributes(member, attributes)
 
 
 @breaks("R-10.1.1-06", clauses=_CLAUSE, also=("R-11.2.1.2-05",))
@@ -121,12 +120,10 @@ class configures_with_small_numbers(Base):
         return str(number % 2**32) if isinstance(number, int) and not isinstance(number, bool) else value
 
 
-@breaks("R-10.1.1-06", clauses=_CLAUSE, also=("R-11.2.1.2-05",))
-class forgets_attributes_with_lists(Base):
+@replaces("_set_attributes", "R-10.1.1-06", clauses=_CLAUSE, also=("R-11.2.1.2-05",))
+def forgets_attributes_with_lists(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """Only attributes with simple values are set."""
-
-    def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
-        super()._set_attributes(member, {name: value for name, value in attributes.items() if value[:1] != "["})
+    Base._set_attributes(self, member, {name: value for name, value in attributes.items() if value[:1] != "["})
 
 
 # other ways of doing it right
@@ -146,18 +143,17 @@ class marshals_values(Base):
     link_class = changing(lambda of, value: read_spelled(spell(value)))
 
 
-@variant_of("10.1.1")
-class spells_attributes_anew(Base):
+@replaces("_set_attributes", clauses=("10.1.1",))
+def spells_attributes_anew(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """Values of attributes are read, and spelled in another way."""
-
-    def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
-        super()._set_attributes(
-            member,
-            {
-                name: value.replace(",", " , ") if value[:1] == "[" and '"' not in value else value
-                for name, value in attributes.items()
-            },
-        )
+    Base._set_attributes(
+        self,
+        member,
+        {
+            name: value.replace(",", " , ") if value[:1] == "[" and '"' not in value else value
+            for name, value in attributes.items()
+        },
+    )
 
 
 CARRIED: Mapping[str, Carried] = {

@@ -10,7 +10,7 @@ from typing import TypeVar
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
-from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, Proxy, breaks, breaks_policy
 from ucm_cts.adapters.reference.python.connectors import Link, Taker
 from ucm_cts.adapters.reference.python.framework import Member
@@ -52,14 +52,12 @@ class leaves_self_executing_components_open(_Unprotects):
     definition = SELF_EXECUTING
 
 
-@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-10", "R-10.1.3.2-16")
-class locks_ports(Base):
+@replaces("_exclusion", "R-10.1.3.2-06", "R-10.1.3.2-10", "R-10.1.3.2-16", clauses=POLICIES)
+@contextmanager
+def locks_ports(_self: Base, member: Member, port: str | None) -> Iterator[None]:
     """Each port element has a lock of its own, and so has run."""
-
-    @contextmanager
-    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
-        with member.__dict__.setdefault(f"lock of {port}", threading.RLock()):
-            yield
+    with member.__dict__.setdefault(f"lock of {port}", threading.RLock()):
+        yield
 
 
 @alters(
@@ -91,39 +89,32 @@ class protects_from_connections_only(Link):
         return element.call(method, arguments)
 
 
-@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-16")
-class protects_from_calls_only(Link):
+@replaces("_deliver", "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-16", clauses=POLICIES)
+def protects_from_calls_only(_self: Link, taker: Taker, method: str) -> None:
     """Messages enter protected components while others are inside."""
-
-    def _deliver(self, taker: Taker, method: str) -> None:
-        while (message := taker.messages.get()) is not None:
-            element = taker.member.body.get_portElement(taker.port)
-            assert element is not None
-            with suppress(Exception):
-                element.call(method, [message])
+    while (message := taker.messages.get()) is not None:
+        element = taker.member.body.get_portElement(taker.port)
+        assert element is not None
+        with suppress(Exception):
+            element.call(method, [message])
 
 
-@breaks_policy("R-10.1.2-10")
-class loses_messages_to_protected_components(Link):
+@does_only_if("_post", "R-10.1.2-10", clauses=POLICIES)
+def loses_messages_to_protected_components(_self: Link, taker: Taker, *_: object) -> bool:
     """Messages to protected components get ok and are lost."""
-
-    def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
-        if not taker.member.container._is_protected(taker.member):
-            super()._post(taker, method, arguments)
+    return not taker.member.container._is_protected(taker.member)
 
 
-@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16")
-class protects_until_exceptions(Base):
+@replaces("_execute", "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16", clauses=POLICIES)
+def protects_until_exceptions(self: Base, member: Member, port: str | None, work: Callable[[], T]) -> T:
     """A protected component that was left with an exception is protected no more."""
-
-    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        if member.__dict__.get("was left with an exception"):
-            return work()
-        try:
-            return super()._execute(member, port, work)
-        except Exception:
-            member.__dict__["was left with an exception"] = True
-            raise
+    if member.__dict__.get("was left with an exception"):
+        return work()
+    try:
+        return Base._execute(self, member, port, work)
+    except Exception:
+        member.__dict__["was left with an exception"] = True
+        raise
 
 
 @breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16", also=("R-10.1.3.2-05",))
@@ -161,13 +152,11 @@ class runs_more_often_than_it_says(Base):
     """run is said to be called once a start, and is called again and again."""
 
 
-@breaks_policy("R-10.1.3.2-01", readings={"run-trigger": "repeated"})
-class runs_less_often_than_it_says(Base):
+@replaces("_keep_running", "R-10.1.3.2-01", clauses=POLICIES, readings={"run-trigger": "repeated"})
+def runs_less_often_than_it_says(self: Base, member: Member, trigger: Trigger) -> None:
     """run is said to be called again and again, and is called once a start."""
-
-    def _keep_running(self, member: Member, trigger: Trigger) -> None:
-        if not trigger.ended.wait(self.period):
-            self._run(member, trigger)
+    if not trigger.ended.wait(self.period):
+        self._run(member, trigger)
 
 
 @breaks_policy("R-10.1.3.2-09", readings={"active-unmanaged": "unprotected"})
@@ -175,13 +164,11 @@ class leaves_active_components_open_as_if_declared(leaves_active_components_open
     """Active components are open, of which the vendor has declared a part only."""
 
 
-@breaks_policy("R-10.1.3.2-10")
-class protects_managed_ports_only(Base):
+@replaces("_execute", "R-10.1.3.2-10", clauses=POLICIES)
+def protects_managed_ports_only(self: Base, member: Member, port: str | None, work: Callable[[], T]) -> T:
     """The ports of an active component that its policy does not manage are open."""
-
-    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        is_open = member.execution.managed and port not in member.execution.managed
-        return work() if is_open else super()._execute(member, port, work)
+    is_open = member.execution.managed and port not in member.execution.managed
+    return work() if is_open else Base._execute(self, member, port, work)
 
 
 class _Unlocked(Proxy):
@@ -262,64 +249,52 @@ _CALLS = ("R-10.1.3.2-08", "R-10.1.3.2-15", "R-11.1.2-02", "R-11.1.3-01", "R-11.
 """Business calls do not do what they should."""
 
 
-@breaks_policy("R-10.1.3.2-17", also=(*_CALLS, *_THROUGH_CONNECTORS))
-class refuses_who_waited(_Meets):
+@replaces("_meet", "R-10.1.3.2-17", clauses=POLICIES, also=(*_CALLS, *_THROUGH_CONNECTORS))
+def refuses_who_waited(self: _Meets, member: Member, port: str | None, *_: object) -> None:
     """A caller that meets an execution waits for its end and is refused."""
-
-    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        with self._exclusion(member, port):
-            pass
-        raise UcmError("busy")
+    with self._exclusion(member, port):
+        pass
+    raise UcmError("busy")
 
 
-@breaks_policy("R-10.1.3.2-17", also=_CALLS)
-class forgets_who_waits(_Meets):
+@replaces("_meet", "R-10.1.3.2-17", clauses=POLICIES, also=_CALLS)
+def forgets_who_waits(_self: _Meets, *_: object) -> None:
     """A caller that meets an execution waits for ever."""
-
-    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        threading.Event().wait()
-        raise NotImplementedError
+    threading.Event().wait()
 
 
-@breaks_policy("R-10.1.3.2-17", also=(*_CALLS, *_THROUGH_CONNECTORS))
-class answers_all_who_wait_alike(_Meets):
+@replaces("_meet", "R-10.1.3.2-17", clauses=POLICIES, also=(*_CALLS, *_THROUGH_CONNECTORS))
+def answers_all_who_wait_alike(self: _Meets, member: Member, port: str | None, *_: object) -> object:
     """A caller that meets an execution waits and gets its result."""
-
-    def _meet(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        with self._exclusion(member, port):
-            return member.__dict__.get("last", 0)  # type: ignore[no-any-return]
+    with self._exclusion(member, port):
+        return member.__dict__.get("last", 0)
 
 
-@breaks_policy("R-10.1.3.2-17", also=_CALLS)
-class stays_locked_after_exceptions(Base):
+@replaces("_exclusion", "R-10.1.3.2-17", clauses=POLICIES, also=_CALLS)
+@contextmanager
+def stays_locked_after_exceptions(_self: Base, member: Member, *_: object) -> Iterator[None]:
     """No call enters a component after one was left with an exception."""
-
-    @contextmanager
-    def _exclusion(self, member: Member, port: str | None) -> Iterator[None]:
-        lock = member.__dict__.setdefault("semaphore", threading.Semaphore())
-        if member.execution.is_inside:
-            yield
-            return
-        lock.acquire()
-        member.execution.thread_inside = threading.get_ident()
-        try:
-            yield
-        except Exception:
-            member.execution.thread_inside = None
-            raise
+    lock = member.__dict__.setdefault("semaphore", threading.Semaphore())
+    if member.execution.is_inside:
+        yield
+        return
+    lock.acquire()
+    member.execution.thread_inside = threading.get_ident()
+    try:
+        yield
+    except Exception:
         member.execution.thread_inside = None
-        lock.release()
+        raise
+    member.execution.thread_inside = None
+    lock.release()
 
 
 # how many policies
 
 
-@breaks_policy("R-10.1.3-03")
-class takes_any_number_of_policies(Base):
+@replaces("_check_policies", "R-10.1.3-03", clauses=POLICIES)
+def takes_any_number_of_policies(_self: Base, *_: object) -> None:
     """The first of several execution policies counts."""
-
-    def _check_policies(self, implementation: Implementation) -> None:
-        pass
 
 
 # support, and results

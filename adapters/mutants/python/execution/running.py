@@ -8,29 +8,25 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
-from ucm_cts.adapters.mutants.python.registry import Base, breaks_policy
+from ucm_cts.adapters.mutants.python.methods import replaces
+from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, breaks_policy
 from ucm_cts.adapters.reference.python.framework import Failures, Member
 from ucm_cts.adapters.reference.python.policies import Trigger
 
 T = TypeVar("T")
 
 
-@breaks_policy("R-10.1.3.2-01", also=("R-10.1.3.2-03",))
-class never_runs(Base):
+@replaces("_begin_execution", "R-10.1.3.2-01", clauses=POLICIES, also=("R-10.1.3.2-03",))
+def never_runs(_self: Base, *_: object) -> None:
     """Self-executing components are not executed."""
 
-    def _begin_execution(self, member: Member) -> None:
-        pass
 
-
-@breaks_policy("R-10.1.3.2-01", also=("R-10.1.3.2-03",))
-class runs_after_the_first_start_only(Base):
+@replaces("_begin_execution", "R-10.1.3.2-01", clauses=POLICIES, also=("R-10.1.3.2-03",))
+def runs_after_the_first_start_only(self: Base, member: Member) -> None:
     """Self-executing components are not executed after a restart."""
-
-    def _begin_execution(self, member: Member) -> None:
-        if not member.__dict__.get("has_run"):
-            super()._begin_execution(member)
-        member.__dict__["has_run"] = True
+    if not member.__dict__.get("has_run"):
+        Base._begin_execution(self, member)
+    member.__dict__["has_run"] = True
 
 
 @breaks_policy("R-10.1.3.2-01", "R-10.1.3.2-03")
@@ -47,15 +43,13 @@ class runs_when_called(Base):
         return result
 
 
-@breaks_policy("R-10.1.3.2-02", also=("R-10.1.3.2-01", "R-10.1.3.2-03"))
-class runs_before_startup(Base):
+@replaces("_start_up", "R-10.1.3.2-02", clauses=POLICIES, also=("R-10.1.3.2-01", "R-10.1.3.2-03"))
+def runs_before_startup(self: Base, member: Member, failures: Failures) -> bool:
     """run is called as soon as start begins."""
-
-    def _start_up(self, member: Member, failures: Failures) -> bool:
-        if member.execution.definition == SELF_EXECUTING:
-            self._begin_execution(member)
-            time.sleep(2 * self.period)
-        return super()._start_up(member, failures)
+    if member.execution.definition == SELF_EXECUTING:
+        self._begin_execution(member)
+        time.sleep(2 * self.period)
+    return Base._start_up(self, member, failures)
 
 
 @breaks_policy("R-10.1.3.2-02")
@@ -74,15 +68,13 @@ class runs_after_stop(Base):
         super()._remove(member, failures)
 
 
-@breaks_policy("R-10.1.3.2-02", also=("R-10.1.3.2-06",))
-class runs_once_more_after_stop(Base):
+@replaces("_end_execution", "R-10.1.3.2-02", clauses=POLICIES, also=("R-10.1.3.2-06",))
+def runs_once_more_after_stop(self: Base, member: Member) -> None:
     """run is called once more a little after stop."""
-
-    def _end_execution(self, member: Member) -> None:
-        had_run = member.execution.trigger is not None
-        super()._end_execution(member)
-        if had_run:
-            threading.Timer(1.5 * self.period, self._execution_api(member).run).start()
+    had_run = member.execution.trigger is not None
+    Base._end_execution(self, member)
+    if had_run:
+        threading.Timer(1.5 * self.period, self._execution_api(member).run).start()
 
 
 @breaks_policy("R-10.1.3.2-14")

@@ -47,16 +47,13 @@ class calls_once(_HandsOver):
     proxy = _Remembers
 
 
-@breaks("R-11.1.3-01", also=("R-11.1.2-02",))
-class calls_the_first_provider(_HandsOver):
+@alters("_dependencies_of", "R-11.1.3-01", also=("R-11.1.2-02",))
+def calls_the_first_provider(_self: _HandsOver, given: list[PortConnection], member: Member) -> list[PortConnection]:
     """Calls through any required port element reach the provider of the first one."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        given = super()._dependencies_of(member)
-        first = given[0].to_port[0] if given else None
-        if first is None:
-            return given
-        return [PortConnection(d.from_port, tuple(Proxy(first, member) for _ in d.to_port)) for d in given]
+    first = given[0].to_port[0] if given else None
+    if first is None:
+        return given
+    return [PortConnection(d.from_port, tuple(Proxy(first, member) for _ in d.to_port)) for d in given]
 
 
 class _Unsigned(Proxy):

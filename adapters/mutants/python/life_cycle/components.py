@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ucm_cts.adapters.contract import programming_model as pm
-from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks
 from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member
 
@@ -22,12 +22,10 @@ class fragments_cannot_be_connected(Base):
         return super().connect(instance, port_name, to_port)
 
 
-@breaks("R-11.2.1.1-02")
-class changes_what_is_sent(Proxy):
+@replaces("exchange", "R-11.2.1.1-02")
+def changes_what_is_sent(self: Proxy, value: int) -> int:
     """References hand the body another value than the one sent."""
-
-    def exchange(self, value: int) -> int:
-        return self.target.exchange(value ^ 1)
+    return self.target.exchange(value ^ 1)
 
 
 @breaks("R-11.2.1.2-01")
@@ -51,22 +49,18 @@ def mixes_references_up(_self: Base, given: list[pm.PortConnection], _member: Me
     return [pm.PortConnection(d.from_port, t) for d, t in zip(given, targets, strict=True)]
 
 
-@breaks("R-11.2.1.2-04")
-class initialises_at_stop(Base):
+@replaces("_shut_down", "R-11.2.1.2-04")
+def initialises_at_stop(self: Base, member: Member, failures: Failures) -> None:
     """Calls on_init again when a component is shut down."""
-
-    def _shut_down(self, member: Member, failures: Failures) -> None:
-        super()._shut_down(member, failures)
-        failures.attempt(member.body.on_init)
+    Base._shut_down(self, member, failures)
+    failures.attempt(member.body.on_init)
 
 
-@breaks("R-11.2.1.2-05")
-class attributes_after_init(Base):
+@replaces("_configure", "R-11.2.1.2-05")
+def attributes_after_init(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """Sets attributes when on_init has run."""
-
-    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        super()._configure(member, {})
-        self._set_attributes(member, attributes)
+    Base._configure(self, member, {})
+    self._set_attributes(member, attributes)
 
 
 @breaks("R-11.2.1.2-06")
@@ -87,23 +81,19 @@ class removes_silently(Base):
             super()._remove(member, failures)
 
 
-@breaks("R-11.2.1.2-07")
-class never_serves(Proxy):
+@replaces("exchange", "R-11.2.1.2-07")
+def never_serves(_self: Proxy, *_: object) -> int:
     """References refuse every call, also of operational components."""
-
-    def exchange(self, value: int) -> int:
-        raise pm.UcmError("not operational")
+    raise pm.UcmError("not operational")
 
 
-@breaks("R-11.2.1.2-08")
-class connects_while_starting(Base):
+@replaces("_start_up", "R-11.2.1.2-08")
+def connects_while_starting(self: Base, member: Member, failures: Failures) -> bool:
     """Repeats on_connect during start, when other members are started already."""
-
-    def _start_up(self, member: Member, failures: Failures) -> bool:
-        for connection in self._connections_from(member):
-            if isinstance(member.body, pm.Connectable):
-                member.body.on_connect(connection.port, connection.target)
-        return super()._start_up(member, failures)
+    for connection in self._connections_from(member):
+        if isinstance(member.body, pm.Connectable):
+            member.body.on_connect(connection.port, connection.target)
+    return Base._start_up(self, member, failures)
 
 
 @alters("_dependencies_of", "R-11.2.1.2-09", also=("R-11.2.3-10",))
@@ -114,15 +104,13 @@ def names_dependencies_differently(
     return [pm.PortConnection(d.from_port.upper(), d.to_port) for d in given]
 
 
-@breaks("R-11.2.1.2-10")
-class shuts_down_at_every_stop(Base):
+@replaces("stop", "R-11.2.1.2-10")
+def shuts_down_at_every_stop(self: Base) -> None:
     """stop calls on_shutdown on members that were never started."""
-
-    def stop(self) -> None:
-        idle = [] if self.is_started else list(self.members.values())
-        super().stop()
-        for member in idle:
-            Failures().attempt(member.body.on_shutdown)
+    idle = [] if self.is_started else list(self.members.values())
+    Base.stop(self)
+    for member in idle:
+        Failures().attempt(member.body.on_shutdown)
 
 
 @refuses_if("_connect", "R-11.2.1.3-01", also=("R-11.2.2.1-08",))
@@ -131,12 +119,10 @@ def demands_connectable(_self: Base, connection: Connection) -> bool:
     return not isinstance(connection.client.body, pm.Connectable)
 
 
-@breaks("R-11.2.1.3-02")
-class connects_silently(Base):
+@replaces("_connect", "R-11.2.1.3-02")
+def connects_silently(self: Base, connection: Connection) -> None:
     """connect forgets on_connect."""
-
-    def _connect(self, connection: Connection) -> None:
-        self.manager.connections[connection.id] = connection
+    self.manager.connections[connection.id] = connection
 
 
 @breaks("R-11.2.1.3-03")
@@ -151,34 +137,28 @@ class announces_refused_connections(Base):
         return super().connect(instance, port_name, to_port)
 
 
-@breaks("R-11.2.1.3-04")
-class on_connect_without_reference(Base):
+@replaces("_connect", "R-11.2.1.3-04")
+def on_connect_without_reference(self: Base, connection: Connection) -> None:
     """on_connect gets a null reference."""
-
-    def _connect(self, connection: Connection) -> None:
-        if isinstance(connection.client.body, pm.Connectable):
-            failures = Failures()
-            failures.attempt(connection.client.body.on_connect, connection.port, None)
-            failures.report()
-        self.manager.connections[connection.id] = connection
+    if isinstance(connection.client.body, pm.Connectable):
+        failures = Failures()
+        failures.attempt(connection.client.body.on_connect, connection.port, None)
+        failures.report()
+    self.manager.connections[connection.id] = connection
 
 
-@breaks("R-11.2.1.3-05")
-class disconnects_silently(Base):
+@replaces("_disconnect", "R-11.2.1.3-05")
+def disconnects_silently(self: Base, connection: Connection, *_: object) -> None:
     """on_disconnect is never called."""
-
-    def _disconnect(self, connection: Connection, failures: Failures) -> None:
-        del self.manager.connections[connection.id]
+    del self.manager.connections[connection.id]
 
 
-@breaks("R-11.2.1.3-06")
-class misnames_disconnected_ports(Base):
+@replaces("_disconnect", "R-11.2.1.3-06")
+def misnames_disconnected_ports(self: Base, connection: Connection, failures: Failures) -> None:
     """on_disconnect is given the connection's number instead of the port element's name."""
-
-    def _disconnect(self, connection: Connection, failures: Failures) -> None:
-        del self.manager.connections[connection.id]
-        if isinstance(connection.client.body, pm.Connectable):
-            failures.attempt(connection.client.body.on_disconnect, str(connection.id))
+    del self.manager.connections[connection.id]
+    if isinstance(connection.client.body, pm.Connectable):
+        failures.attempt(connection.client.body.on_disconnect, str(connection.id))
 
 
 @does_only_if("_initialise", "R-11.2.1.4-01", also=("R-11.2.1.2-01",))
@@ -187,24 +167,20 @@ def leaves_fragments_uninitialised(_self: Base, member: Member) -> bool:
     return not isinstance(member.body, pm.FragmentObject)
 
 
-@breaks("R-11.2.1.4-02", also=("R-11.2.1.4-03",))
-class hides_the_container(Base):
+@replaces("_configure", "R-11.2.1.4-02", also=("R-11.2.1.4-03",))
+def hides_the_container(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """Fragments are never given their container."""
-
-    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        self._set_attributes(member, attributes)
-        self._initialise(member)
+    self._set_attributes(member, attributes)
+    self._initialise(member)
 
 
-@breaks("R-11.2.1.4-03")
-class shows_fragments_nothing(Base):
+@replaces("_configure", "R-11.2.1.4-03")
+def shows_fragments_nothing(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """The container interface that fragments get lists no members."""
-
-    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        self._set_attributes(member, attributes)
-        if isinstance(member.body, pm.FragmentObject):
-            member.body.set_container_interface(_Blind())
-        self._initialise(member)
+    self._set_attributes(member, attributes)
+    if isinstance(member.body, pm.FragmentObject):
+        member.body.set_container_interface(_Blind())
+    self._initialise(member)
 
 
 class _Blind:

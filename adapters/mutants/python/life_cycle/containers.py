@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract import programming_model as pm
-from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks, is_below
 from ucm_cts.adapters.mutants.python.variants.phases import starts_all_at_a_time
 from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Failures, Member, State
@@ -40,26 +40,22 @@ class _Changed(pm.PortElementObject):
         return self.target.exchange(value) ^ 1
 
 
-@breaks("R-11.1.3-01")
-class spoils_results_between_components(Base):
+@replaces("_dependencies_of", "R-11.1.3-01")
+def spoils_results_between_components(self: Base, member: Member) -> list[pm.PortConnection]:
     """Flips a bit of what one component's call of another one gives back."""
-
-    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
-        return [
-            pm.PortConnection(c.port, (c.target if _of_fragment(self, c) else _Changed(c.target),))
-            for c in self._connections_from(member)
-        ]
+    return [
+        pm.PortConnection(c.port, (c.target if _of_fragment(self, c) else _Changed(c.target),))
+        for c in self._connections_from(member)
+    ]
 
 
-@breaks("R-11.1.2-02")
-class spoils_results_of_fragments(Base):
+@replaces("_dependencies_of", "R-11.1.2-02")
+def spoils_results_of_fragments(self: Base, member: Member) -> list[pm.PortConnection]:
     """Flips a bit of what a call of a fragment gives back."""
-
-    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
-        return [
-            pm.PortConnection(c.port, (_Changed(c.target) if _of_fragment(self, c) else c.target,))
-            for c in self._connections_from(member)
-        ]
+    return [
+        pm.PortConnection(c.port, (_Changed(c.target) if _of_fragment(self, c) else c.target,))
+        for c in self._connections_from(member)
+    ]
 
 
 def _of_fragment(container: Container, connection: Connection) -> bool:
@@ -74,63 +70,49 @@ def one_kind_a_container(self: Base, implementation: pm.Implementation) -> bool:
     return any(m.implementation.fragment != implementation.fragment for m in self.members.values())
 
 
-@breaks("R-11.1.3-03")
-class one_sub_container(Base):
+@replaces("create_container", "R-11.1.3-03")
+def one_sub_container(self: Base) -> Container:
     """Refuses a second container."""
-
-    def create_container(self) -> Container:
-        if self.manager.sub_containers:
-            raise pm.UcmError("one is enough")
-        return ContainerManager.create_container(self.manager)
+    if self.manager.sub_containers:
+        raise pm.UcmError("one is enough")
+    return ContainerManager.create_container(self.manager)
 
 
-@breaks("R-11.1.3-04")
-class starts_the_neighbours(Base):
+@replaces("start", "R-11.1.3-04")
+def starts_the_neighbours(self: Base) -> None:
     """Starting one sub-container starts the members of all other sub-containers, too."""
-
-    def start(self) -> None:
-        super().start()
-        for other in self.manager.sub_containers:
-            if is_below(self) and other is not self and not other.is_started:
-                for member in other.members.values():
-                    member.body.on_startup(other._dependencies_of(member))
+    Base.start(self)
+    for other in self.manager.sub_containers:
+        if is_below(self) and other is not self and not other.is_started:
+            for member in other.members.values():
+                member.body.on_startup(other._dependencies_of(member))
 
 
-@breaks("R-11.2.2.1-01", also=("R-11.1.3-02",))
-class adds_two_member_only(Base):
+@refuses_if("_instantiate", "R-11.2.2.1-01", also=("R-11.1.3-02",))
+def adds_two_member_only(self: Base, *_: object) -> bool:
     """Refuses a third member."""
-
-    def _instantiate(self, implementation: pm.Implementation) -> pm.ComponentObject:
-        if len(self.members) >= 2:
-            raise pm.UcmError("full")
-        return super()._instantiate(implementation)
+    return len(self.members) >= 2
 
 
-@breaks("R-11.2.2.1-02", also=("R-11.2.1.2-05",))
-class makes_two_bodies(Base):
+@replaces("_initialise", "R-11.2.2.1-02", also=("R-11.2.1.2-05",))
+def makes_two_bodies(self: Base, member: Member) -> None:
     """add_component initialises two bodies and keeps one."""
-
-    def _initialise(self, member: Member) -> None:
-        super()._initialise(member)
-        member.implementation.create().on_init()
+    Base._initialise(self, member)
+    member.implementation.create().on_init()
 
 
-@breaks("R-11.2.2.1-03", also=("R-11.2.2.1-06",))
-class same_id_for_all(Base):
+@replaces("add_component", "R-11.2.2.1-03", also=("R-11.2.2.1-06",))
+def same_id_for_all(self: Base, implementation: str, attributes: Mapping[str, str]) -> int:
     """A second instance of an implementation is given the id of the first."""
-
-    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
-        twins = [m.id for m in self.members.values() if m.implementation.name == implementation]
-        identifier = super().add_component(implementation, attributes)
-        return twins[0] if twins else identifier
+    twins = [m.id for m in self.members.values() if m.implementation.name == implementation]
+    identifier = Base.add_component(self, implementation, attributes)
+    return twins[0] if twins else identifier
 
 
-@breaks("R-11.2.2.1-05")
-class cannot_remove(Base):
+@replaces("_check_removable", "R-11.2.2.1-05")
+def cannot_remove(_self: Base, *_: object) -> None:
     """Refuses to remove what is neither connected nor operational."""
-
-    def _check_removable(self, member: Member) -> None:
-        raise pm.UcmError("never")
+    raise pm.UcmError("never")
 
 
 @alters("get_port_element", "R-11.2.2.1-06")
@@ -142,50 +124,42 @@ def any_port_element_will_do(
     return member.body.get_portElement(member.implementation.provides[0]) or element
 
 
-@breaks("R-11.2.2.1-07")
-class no_references_while_ready(Base):
+@replaces("get_port_element", "R-11.2.2.1-07")
+def no_references_while_ready(self: Base, comp_instance: int, port_name: str) -> pm.PortElementObject:
     """get_port_element is refused while the component is operational."""
-
-    def get_port_element(self, comp_instance: int, port_name: str) -> pm.PortElementObject:
-        if self.is_started and comp_instance in self.members:
-            raise pm.NotFound("busy")
-        return super().get_port_element(comp_instance, port_name)
+    if self.is_started and comp_instance in self.members:
+        raise pm.NotFound("busy")
+    return Base.get_port_element(self, comp_instance, port_name)
 
 
-@breaks("R-11.2.2.1-08")
-class refuses_to_connect_across(Base):
+@replaces("connect", "R-11.2.2.1-08")
+def refuses_to_connect_across(self: Base, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
     """connect takes only references of its own container."""
-
-    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
-        own = [m.body.get_portElement(p) for m in self.members.values() for p in m.implementation.provides]
-        elsewhere = [c for c in (self.manager, *self.manager.sub_containers) if c is not self]
-        foreign = [
-            m.body.get_portElement(p) for c in elsewhere for m in c.members.values() for p in m.implementation.provides
-        ]
-        if instance in self.members and to_port is not None and to_port in foreign and to_port not in own:
-            raise pm.BadParameter("foreign")
-        return super().connect(instance, port_name, to_port)
+    own = [m.body.get_portElement(p) for m in self.members.values() for p in m.implementation.provides]
+    elsewhere = [c for c in (self.manager, *self.manager.sub_containers) if c is not self]
+    foreign = [
+        m.body.get_portElement(p) for c in elsewhere for m in c.members.values() for p in m.implementation.provides
+    ]
+    if instance in self.members and to_port is not None and to_port in foreign and to_port not in own:
+        raise pm.BadParameter("foreign")
+    return Base.connect(self, instance, port_name, to_port)
 
 
-@breaks("R-11.2.2.1-09", also=("R-11.2.1.3-06", "R-11.2.2.1-08", "R-11.2.2.1-10", "R-11.2.3-08"))
-class same_id_for_connections(Base):
+@replaces("connect", "R-11.2.2.1-09", also=("R-11.2.1.3-06", "R-11.2.2.1-08", "R-11.2.2.1-10", "R-11.2.3-08"))
+def same_id_for_connections(self: Base, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
     """Every connection of a client gets the id of its first one."""
-
-    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
-        known = [c.id for c in self.manager.connections.values() if c.client.id == instance]
-        identifier = super().connect(instance, port_name, to_port)
-        return known[0] if known else identifier
+    known = [c.id for c in self.manager.connections.values() if c.client.id == instance]
+    identifier = Base.connect(self, instance, port_name, to_port)
+    return known[0] if known else identifier
 
 
-@breaks("R-11.2.2.1-10")
-class refuses_to_disconnect(Base):
+@replaces("disconnect", "R-11.2.2.1-10")
+def refuses_to_disconnect(self: Base, connection: int) -> None:
     """disconnect of a live connection is refused."""
-
-    def disconnect(self, connection: int) -> None:
-        found = self.manager.connections.get(connection)
-        if found is not None and found.client.container is self and not self.is_started:
-            raise pm.UcmError("never")
-        super().disconnect(connection)
+    found = self.manager.connections.get(connection)
+    if found is not None and found.client.container is self and not self.is_started:
+        raise pm.UcmError("never")
+    Base.disconnect(self, connection)
 
 
 @breaks("R-11.2.2.1-10", also=("R-11.1.3-01", "R-11.2.3-10"))
@@ -207,33 +181,27 @@ class hands_over_undone_connections(Base):
         return given
 
 
-@breaks("R-11.2.2.1-11", also=("R-11.2.1.4-01",))
-class forgets_the_last(Base):
+@replaces("_start_order", "R-11.2.2.1-11", also=("R-11.2.1.4-01",))
+def forgets_the_last(self: Base) -> Sequence[Member]:
     """start leaves the last of several members out."""
-
-    def _start_order(self) -> Sequence[Member]:
-        order = list(super()._start_order())
-        return order[:-1] if len(order) > 1 else order
+    order = list(Base._start_order(self))
+    return order[:-1] if len(order) > 1 else order
 
 
-@breaks("R-11.2.2.1-12", also=("R-11.2.3-09",))
-class forgets_to_stop_the_first(Base):
+@replaces("stop", "R-11.2.2.1-12", also=("R-11.2.3-09",))
+def forgets_to_stop_the_first(self: Base) -> None:
     """stop leaves out the member that was started first, if there are several."""
-
-    def stop(self) -> None:
-        if len(self.started) > 1:
-            self.started[0].state = State.CONFIGURING
-            del self.started[0]
-        super().stop()
+    if len(self.started) > 1:
+        self.started[0].state = State.CONFIGURING
+        del self.started[0]
+    Base.stop(self)
 
 
-@breaks("R-11.2.2.1-13")
-class stops_in_startup_order(Base):
+@replaces("_shut_down_started", "R-11.2.2.1-13")
+def stops_in_startup_order(self: Base, failures: Failures) -> None:
     """stop shuts members down in the order they were started in."""
-
-    def _shut_down_started(self, failures: Failures) -> None:
-        self.started.reverse()
-        super()._shut_down_started(failures)
+    self.started.reverse()
+    Base._shut_down_started(self, failures)
 
 
 @breaks("R-11.2.2.1-13", readings={"start-order": "at-once"})
@@ -264,22 +232,18 @@ def manager_forgets_its_own(self: Base, given: Sequence[Member]) -> Sequence[Mem
     return [] if not is_below(self) else given
 
 
-@breaks("R-11.2.2.2-02")
-class makes_no_containers(Base):
+@replaces("create_container", "R-11.2.2.2-02")
+def makes_no_containers(_self: Base) -> Container:
     """create_container is always refused."""
-
-    def create_container(self) -> Container:
-        raise pm.UcmError("not supported")
+    raise pm.UcmError("not supported")
 
 
-@breaks("R-11.2.2.2-03")
-class keeps_full_containers(Base):
+@replaces("_remove_container", "R-11.2.2.2-03")
+def keeps_full_containers(self: Base, container: Container, failures: Failures) -> None:
     """remove_container is refused while there are members."""
-
-    def _remove_container(self, container: Container, failures: Failures) -> None:
-        if container.members:
-            raise pm.UcmError("not empty")
-        ContainerManager._remove_container(self.manager, container, failures)
+    if container.members:
+        raise pm.UcmError("not empty")
+    ContainerManager._remove_container(self.manager, container, failures)
 
 
 @breaks("R-11.2.2.2-04")
@@ -298,21 +262,17 @@ class drops_members_of_removed_containers(Base):
             super()._remove(member, failures)
 
 
-@breaks("R-11.2.2.2-05")
-class destroys_without_shutdown(Base):
+@replaces("destroy", "R-11.2.2.2-05")
+def destroys_without_shutdown(self: Base) -> None:
     """destroy forgets on_shutdown."""
-
-    def destroy(self) -> None:
-        for container in (self.manager, *self.manager.sub_containers):
-            container.started.clear()
-        ContainerManager.destroy(self.manager)
+    for container in (self.manager, *self.manager.sub_containers):
+        container.started.clear()
+    ContainerManager.destroy(self.manager)
 
 
-@breaks("R-11.2.2.2-06")
-class refuses_to_end(Base):
+@replaces("destroy", "R-11.2.2.2-06")
+def refuses_to_end(self: Base) -> None:
     """destroy is refused while any container is started."""
-
-    def destroy(self) -> None:
-        if any(c.is_started for c in (self.manager, *self.manager.sub_containers)):
-            raise pm.UcmError("still running")
-        ContainerManager.destroy(self.manager)
+    if any(c.is_started for c in (self.manager, *self.manager.sub_containers)):
+        raise pm.UcmError("still running")
+    ContainerManager.destroy(self.manager)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ucm_cts.adapters.contract import programming_model as pm
-from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Member
 
@@ -80,78 +80,64 @@ def unknown_connections_are_ignored(self: Base, connection: int) -> bool:
     return connection in self.manager.connections
 
 
-@breaks("R-12.10-17")
-class unknown_containers_are_ignored(Base):
+@replaces("remove_container", "R-12.10-17")
+def unknown_containers_are_ignored(self: Base, sub_container: Container | None) -> None:
     """remove_container of a removed container returns."""
-
-    def remove_container(self, sub_container: Container | None) -> None:
-        if sub_container in self.manager.sub_containers:
-            ContainerManager.remove_container(self.manager, sub_container)
+    if sub_container in self.manager.sub_containers:
+        ContainerManager.remove_container(self.manager, sub_container)
 
 
-@breaks("R-12.10-18")
-class connects_any_name(Base):
+@replaces("connect", "R-12.10-18")
+def connects_any_name(self: Base, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
     """connect to a port element that does not exist returns an id."""
-
-    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
-        known = instance in self.members and not self.is_started
-        if known and to_port is not None and port_name not in self.members[instance].implementation.requires:
-            return self._new_id()
-        return super().connect(instance, port_name, to_port)
+    known = instance in self.members and not self.is_started
+    if known and to_port is not None and port_name not in self.members[instance].implementation.requires:
+        return self._new_id()
+    return Base.connect(self, instance, port_name, to_port)
 
 
-@breaks("R-12.10-19")
-class connects_to_nothing(Base):
+@replaces("connect", "R-12.10-19")
+def connects_to_nothing(self: Base, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
     """connect to a null reference returns an id."""
-
-    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
-        known = instance in self.members and port_name in self.members[instance].implementation.requires
-        if to_port is None and known and not self.is_started:
-            return self._new_id()
-        return super().connect(instance, port_name, to_port)
+    known = instance in self.members and port_name in self.members[instance].implementation.requires
+    if to_port is None and known and not self.is_started:
+        return self._new_id()
+    return Base.connect(self, instance, port_name, to_port)
 
 
-@breaks("R-12.10-20")
-class any_name_gives_nothing(Base):
+@replaces("get_port_element", "R-12.10-20")
+def any_name_gives_nothing(self: Base, comp_instance: int, port_name: str) -> pm.PortElementObject:
     """get_port_element of an unknown name returns a null reference."""
-
-    def get_port_element(self, comp_instance: int, port_name: str) -> pm.PortElementObject:
-        if comp_instance in self.members and port_name not in self.members[comp_instance].implementation.provides:
-            return None  # type: ignore[return-value]
-        return super().get_port_element(comp_instance, port_name)
+    if comp_instance in self.members and port_name not in self.members[comp_instance].implementation.provides:
+        return None  # type: ignore[return-value]
+    return Base.get_port_element(self, comp_instance, port_name)
 
 
-@breaks("R-12.10-21")
-class adds_nothing(Base):
+@replaces("add_component", "R-12.10-21")
+def adds_nothing(self: Base, implementation: str, attributes: Mapping[str, str]) -> int:
     """add_component of an unknown implementation returns an id."""
-
-    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
-        if implementation not in self.manager.implementations and not self.is_started:
-            return self._new_id()
-        return super().add_component(implementation, attributes)
+    if implementation not in self.manager.implementations and not self.is_started:
+        return self._new_id()
+    return Base.add_component(self, implementation, attributes)
 
 
-@breaks("R-12.10-22", also=("R-11.2.3-06",))
-class keeps_failed_components(Base):
+@replaces("_configure", "R-12.10-22", also=("R-11.2.3-06",))
+def keeps_failed_components(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """A component whose on_init raised is listed although add_component was refused."""
-
-    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        self.members[member.id] = member
-        super()._configure(member, attributes)
+    self.members[member.id] = member
+    Base._configure(self, member, attributes)
 
 
-@breaks("R-12.10-23")
-class failing_removal_is_not_found(Base):
+@replaces("remove_component", "R-12.10-23")
+def failing_removal_is_not_found(self: Base, comp_instance: int) -> None:
     """remove_component raises NOT_FOUND when on_remove raised."""
-
-    def remove_component(self, comp_instance: int) -> None:
-        known = comp_instance in self.members
-        try:
-            super().remove_component(comp_instance)
-        except pm.UcmError as error:
-            if known and comp_instance not in self.members:
-                raise pm.NotFound("gone") from error
-            raise
+    known = comp_instance in self.members
+    try:
+        Base.remove_component(self, comp_instance)
+    except pm.UcmError as error:
+        if known and comp_instance not in self.members:
+            raise pm.NotFound("gone") from error
+        raise
 
 
 @breaks("R-12.10-24")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract.programming_model import FragmentObject, PortConnection, PortElementObject, UcmError
-from ucm_cts.adapters.mutants.python.methods import alters, does_only_if
+from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.mutants.python.variants.readings import adds_later, configures_at_any_time
 from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
@@ -13,22 +13,18 @@ from ucm_cts.adapters.reference.python.framework import Connection, Container, F
 # members, listed, started and stopped
 
 
-@breaks("R-11.2.2.1-11", also=("R-11.2.1.4-01",))
-class forgets_the_fourth_below(Base):
+@replaces("_start_order", "R-11.2.2.1-11", also=("R-11.2.1.4-01",))
+def forgets_the_fourth_below(self: Base) -> Sequence[Member]:
     """start leaves out the fourth member of a sub-container, be it a fragment or not."""
-
-    def _start_order(self) -> Sequence[Member]:
-        order = list(super()._start_order())
-        return [*order[:3], *order[4:]] if is_below(self) else order
+    order = list(Base._start_order(self))
+    return [*order[:3], *order[4:]] if is_below(self) else order
 
 
-@breaks("R-11.2.2.1-11", also=("R-11.2.1.4-01",))
-class forgets_the_fifth(Base):
+@replaces("_start_order", "R-11.2.2.1-11", also=("R-11.2.1.4-01",))
+def forgets_the_fifth(self: Base) -> Sequence[Member]:
     """start leaves out the fifth member, be it a fragment or not."""
-
-    def _start_order(self) -> Sequence[Member]:
-        order = list(super()._start_order())
-        return [*order[:4], *order[5:]]
+    order = list(Base._start_order(self))
+    return [*order[:4], *order[5:]]
 
 
 @alters("_start_order", "R-11.2.2.1-11", also=("R-11.2.1.4-01",))
@@ -37,35 +33,29 @@ def starts_sixteen(_self: Base, given: Sequence[Member]) -> Sequence[Member]:
     return list(given)[:16]
 
 
-@breaks("R-11.2.2.1-13")
-class swaps_the_last_two(Base):
+@replaces("stop", "R-11.2.2.1-13")
+def swaps_the_last_two(self: Base) -> None:
     """Of three or more members the two started last are shut down in the order of their start."""
-
-    def stop(self) -> None:
-        if len(self.started) >= 3:
-            self.started[-1], self.started[-2] = self.started[-2], self.started[-1]
-        super().stop()
+    if len(self.started) >= 3:
+        self.started[-1], self.started[-2] = self.started[-2], self.started[-1]
+    Base.stop(self)
 
 
-@breaks("R-11.2.2.1-13")
-class fragments_turn_the_order(Base):
+@replaces("stop", "R-11.2.2.1-13")
+def fragments_turn_the_order(self: Base) -> None:
     """Where a fragment is among the members, stop goes in the order of their start."""
-
-    def stop(self) -> None:
-        if any(isinstance(m.body, FragmentObject) for m in self.started):
-            self.started.reverse()
-        super().stop()
+    if any(isinstance(m.body, FragmentObject) for m in self.started):
+        self.started.reverse()
+    Base.stop(self)
 
 
-@breaks("R-11.2.2.1-13")
-class stops_in_order_once(Base):
+@replaces("stop", "R-11.2.2.1-13")
+def stops_in_order_once(self: Base) -> None:
     """Only the first stop of a container goes in reverse."""
-
-    def stop(self) -> None:
-        stops = self.__dict__["stops"] = self.__dict__.get("stops", 0) + 1
-        if stops > 1:
-            self.started.reverse()
-        super().stop()
+    stops = self.__dict__["stops"] = self.__dict__.get("stops", 0) + 1
+    if stops > 1:
+        self.started.reverse()
+    Base.stop(self)
 
 
 @alters("get_components", "R-11.2.2.1-14")
@@ -107,14 +97,12 @@ class finds_members_elsewhere(Base):
             member.container._remove(member, failures)
 
 
-@breaks("R-12.10-16", also=("R-11.1.3-04",))
-class undoes_connections_elsewhere(Base):
+@replaces("disconnect", "R-12.10-16", also=("R-11.1.3-04",))
+def undoes_connections_elsewhere(self: Base, connection: int) -> None:
     """Connection ids work with every container of the runtime."""
-
-    def disconnect(self, connection: int) -> None:
-        found = self.manager.connections.get(connection)
-        container = found.client.container if found is not None else self
-        Container.disconnect(container, connection)
+    found = self.manager.connections.get(connection)
+    container = found.client.container if found is not None else self
+    Container.disconnect(container, connection)
 
 
 # attributes and fragments
@@ -126,15 +114,13 @@ def fragments_have_no_attributes(_self: Base, member: Member, _attributes: Mappi
     return not isinstance(member.body, FragmentObject)
 
 
-@breaks("R-11.2.1.2-05")
-class sets_attributes_once(Base):
+@replaces("_set_attributes", "R-11.2.1.2-05")
+def sets_attributes_once(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """Attributes are set for the first instance of an implementation only."""
-
-    def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
-        known: set[str] = self.manager.__dict__.setdefault("known", set())
-        if member.implementation.name not in known:
-            super()._set_attributes(member, attributes)
-        known.add(member.implementation.name)
+    known: set[str] = self.manager.__dict__.setdefault("known", set())
+    if member.implementation.name not in known:
+        Base._set_attributes(self, member, attributes)
+    known.add(member.implementation.name)
 
 
 @does_only_if("_set_attributes", "R-11.2.1.2-05")
@@ -143,15 +129,13 @@ def no_attributes_below(self: Base, _member: Member, _attributes: Mapping[str, s
     return not is_below(self)
 
 
-@breaks("R-11.2.1.4-03")
-class shows_fragments_the_manager(Base):
+@replaces("_configure", "R-11.2.1.4-03")
+def shows_fragments_the_manager(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """Fragments of sub-containers are given the manager instead of their own container."""
-
-    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        self._set_attributes(member, attributes)
-        if isinstance(member.body, FragmentObject):
-            member.body.set_container_interface(self.manager)
-        self._initialise(member)
+    self._set_attributes(member, attributes)
+    if isinstance(member.body, FragmentObject):
+        member.body.set_container_interface(self.manager)
+    self._initialise(member)
 
 
 class _Remembered:
@@ -167,53 +151,45 @@ class _Remembered:
         return self.listed
 
 
-@breaks("R-11.2.1.4-03")
-class shows_fragments_the_past(Base):
+@replaces("_configure", "R-11.2.1.4-03")
+def shows_fragments_the_past(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """What a fragment once learnt of its container's members it is told ever after."""
-
-    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        self._set_attributes(member, attributes)
-        if isinstance(member.body, FragmentObject):
-            member.body.set_container_interface(_Remembered(self))
-        self._initialise(member)
+    self._set_attributes(member, attributes)
+    if isinstance(member.body, FragmentObject):
+        member.body.set_container_interface(_Remembered(self))
+    self._initialise(member)
 
 
-@breaks("R-11.2.1.4-02")
-class shows_fragments_their_container_again(Base):
+@replaces("_start_up", "R-11.2.1.4-02")
+def shows_fragments_their_container_again(self: Base, member: Member, failures: Failures) -> bool:
     """set_container_interface comes again with the second start."""
-
-    def _start_up(self, member: Member, failures: Failures) -> bool:
-        starts = member.__dict__["starts"] = member.__dict__.get("starts", 0) + 1
-        if starts == 2 and isinstance(member.body, FragmentObject):
-            member.body.set_container_interface(self)
-        return super()._start_up(member, failures)
+    starts = member.__dict__["starts"] = member.__dict__.get("starts", 0) + 1
+    if starts == 2 and isinstance(member.body, FragmentObject):
+        member.body.set_container_interface(self)
+    return Base._start_up(self, member, failures)
 
 
 # removal of containers
 
 
-@breaks("R-11.2.2.2-04", also=("R-11.2.2.2-05",))
-class removes_the_first_only(Base):
+@replaces("_remove_members", "R-11.2.2.2-04", also=("R-11.2.2.2-05",))
+def removes_the_first_only(self: Base, failures: Failures) -> None:
     """remove_container, and destroy below the manager, call on_remove on one member only."""
-
-    def _remove_members(self, failures: Failures) -> None:
-        for member in list(self.members.values())[1:] if is_below(self) else ():
-            del self.members[member.id]
-        super()._remove_members(failures)
+    for member in list(self.members.values())[1:] if is_below(self) else ():
+        del self.members[member.id]
+    Base._remove_members(self, failures)
 
 
 # failing bodies
 
 
-@breaks("R-11.2.3-09")
-class leaves_the_rest_ready(Base):
+@replaces("_shut_down_started", "R-11.2.3-09")
+def leaves_the_rest_ready(self: Base, failures: Failures) -> None:
     """After a failing on_shutdown the others are not shut down, and the next start starts them again."""
-
-    def _shut_down_started(self, failures: Failures) -> None:
-        while self.started and not failures.first:
-            self._shut_down(self.started.pop(), failures)
-        self.started.clear()
-        self.is_started = False
+    while self.started and not failures.first:
+        self._shut_down(self.started.pop(), failures)
+    self.started.clear()
+    self.is_started = False
 
 
 @breaks("R-11.2.2.2-01", also=("R-11.2.3-07",))
@@ -232,15 +208,13 @@ class never_recovers_from_a_failing_stop(Base):
             super().start()
 
 
-@breaks("R-11.2.1.2-10")
-class shuts_down_what_never_started(Base):
+@replaces("_start_up", "R-11.2.1.2-10")
+def shuts_down_what_never_started(self: Base, member: Member, failures: Failures) -> bool:
     """After a failing on_startup every member is told on_shutdown, started or not."""
-
-    def _start_up(self, member: Member, failures: Failures) -> bool:
-        if super()._start_up(member, failures):
-            return True
-        self.started = list(self.members.values())
-        return False
+    if Base._start_up(self, member, failures):
+        return True
+    self.started = list(self.members.values())
+    return False
 
 
 @breaks("R-12.10-22")
@@ -308,21 +282,15 @@ class loses_late_connections(adds_later):
         return [PortConnection(c.port, (c.target,)) for c in self._connections_from(member) if c.id not in lost]
 
 
-@breaks("R-11.2.3-10")
-class loses_connections_of_ready_components(configures_at_any_time):
+@does_only_if("_connect", "R-11.2.3-10")
+def loses_connections_of_ready_components(_self: configures_at_any_time, connection: Connection) -> bool:
     """connect of an operational component returns an id and does nothing."""
-
-    def _connect(self, connection: Connection) -> None:
-        if connection.client.state is not State.READY:
-            super()._connect(connection)
+    return connection.client.state is not State.READY
 
 
-@breaks("R-11.2.3-01")
-class starts_late_additions_unconnected(adds_later):
+@alters("add_component", "R-11.2.3-01")
+def starts_late_additions_unconnected(self: adds_later, identifier: int, *_: object) -> int:
     """A component added to a started container is started at once, connected or not."""
-
-    def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
-        identifier = super().add_component(implementation, attributes)
-        if self.is_started:
-            self._start_up(self.members[identifier], Failures())
-        return identifier
+    if self.is_started:
+        self._start_up(self.members[identifier], Failures())
+    return identifier

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import programming_model as pm
-from ucm_cts.adapters.mutants.python.methods import alters, refuses_if
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member, State
 
@@ -91,15 +91,13 @@ class connects_only_once(Base):
         super()._disconnect(connection, failures)
 
 
-@breaks("R-11.2.3-09")
-class starts_twice(Base):
+@replaces("start", "R-11.2.3-09")
+def starts_twice(self: Base) -> None:
     """start of a started container calls on_startup again."""
-
-    def start(self) -> None:
-        ready = [m for m in self.started if self.is_started]
-        super().start()
-        for member in ready:
-            member.body.on_startup(self._dependencies_of(member))
+    ready = [m for m in self.started if self.is_started]
+    Base.start(self)
+    for member in ready:
+        member.body.on_startup(self._dependencies_of(member))
 
 
 @breaks("R-11.2.3-10")
@@ -116,24 +114,20 @@ class starts_once_only(Base):
         super().stop()
 
 
-@breaks("R-11.2.3-10")
-class forgets_connections_at_stop(Base):
+@replaces("_dependencies_of", "R-11.2.3-10")
+def forgets_connections_at_stop(self: Base, member: Member) -> list[pm.PortConnection]:
     """At a second start the references are missing."""
-
-    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
-        before = member.__dict__.setdefault("before", 0)
-        member.__dict__["before"] = before + 1
-        return super()._dependencies_of(member) if not before else []
+    before = member.__dict__.setdefault("before", 0)
+    member.__dict__["before"] = before + 1
+    return Base._dependencies_of(self, member) if not before else []
 
 
-@breaks("R-11.2.3-11")
-class ready_is_not_found(Base):
+@replaces("_check_removable", "R-11.2.3-11")
+def ready_is_not_found(self: Base, member: Member) -> None:
     """remove_component of an operational component raises NOT_FOUND."""
-
-    def _check_removable(self, member: Member) -> None:
-        if member.state is State.READY:
-            raise pm.NotFound("busy")
-        super()._check_removable(member)
+    if member.state is State.READY:
+        raise pm.NotFound("busy")
+    Base._check_removable(self, member)
 
 
 @breaks("R-11.2.3-12")
@@ -153,32 +147,28 @@ class removes_without_shutdown(Base):
         super()._remove(member, failures)
 
 
-@breaks("R-11.2.3-12")
-class disconnects_after_removal(Base):
+@replaces("remove_component", "R-11.2.3-12")
+def disconnects_after_removal(self: Base, comp_instance: int) -> None:
     """remove_component calls on_remove first and on_disconnect later."""
-
-    def remove_component(self, comp_instance: int) -> None:
-        member = self.members.get(comp_instance)
-        own = self._connections_from(member) if member is not None and not self.is_started else []
-        if member is None or not own or self._connections_to(member):
-            super().remove_component(comp_instance)
-            return
-        failures = Failures()
-        self._remove(member, failures)
-        for connection in own:
-            self._disconnect(connection, failures)
-        failures.report()
+    member = self.members.get(comp_instance)
+    own = self._connections_from(member) if member is not None and not self.is_started else []
+    if member is None or not own or self._connections_to(member):
+        Base.remove_component(self, comp_instance)
+        return
+    failures = Failures()
+    self._remove(member, failures)
+    for connection in own:
+        self._disconnect(connection, failures)
+    failures.report()
 
 
-@breaks("R-11.2.3-13")
-class late_add_is_not_found(Base):
+@replaces("connect", "R-11.2.3-13")
+def late_add_is_not_found(self: Base, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
     """add_component to a started container is answered by an id, and by nothing else."""
-
-    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
-        member = self.members.get(instance) if self.is_started and to_port is not None else None
-        if member is not None and port_name in member.implementation.requires:
-            raise pm.NotFound("too late")
-        return super().connect(instance, port_name, to_port)
+    member = self.members.get(instance) if self.is_started and to_port is not None else None
+    if member is not None and port_name in member.implementation.requires:
+        raise pm.NotFound("too late")
+    return Base.connect(self, instance, port_name, to_port)
 
 
 @breaks("R-11.2.3-14")
@@ -193,14 +183,12 @@ class hands_out_removed_providers(Base):
         super()._remove(member, failures)
 
 
-@breaks("R-11.2.3-15")
-class second_start_restarts(Base):
+@replaces("start", "R-11.2.3-15")
+def second_start_restarts(self: Base) -> None:
     """start of a started container shuts its members down and starts them again."""
-
-    def start(self) -> None:
-        if self.is_started:
-            self.stop()
-        super().start()
+    if self.is_started:
+        self.stop()
+    Base.start(self)
 
 
 @breaks("R-11.2.3-17")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract.programming_model import BadParameter, FragmentObject, NotFound, PortElementObject
+from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, variant
 from ucm_cts.adapters.mutants.python.variants import readings
 from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member
@@ -78,35 +79,28 @@ class numbers_slots(readings.replaces_connections):
         return slot
 
 
-@variant
-class odd_ids(Base):
+@alters("_new_id")
+def odd_ids(_self: Base, number: int) -> int:
     """Ids are at both ends of the 32 bits, negative, or zero."""
-
-    def _new_id(self) -> int:
-        number = super()._new_id()
-        return (2**31 - number, -(2**31) + number - 1, 0 if number == 3 else -number)[number % 3]
+    return (2**31 - number, -(2**31) + number - 1, 0 if number == 3 else -number)[number % 3]
 
 
-@variant
-class sorts_its_list(Base):
+@alters("get_components")
+def sorts_its_list(_self: Base, given: list[int]) -> list[int]:
     """get_components lists the highest id first."""
-
-    def get_components(self) -> list[int]:
-        return sorted(super().get_components(), reverse=True)
+    return sorted(given, reverse=True)
 
 
 # orders
 
 
-@variant
-class announces_before_replacing(readings.appends_connections):
+@replaces("_connect")
+def announces_before_replacing(self: readings.appends_connections, connection: Connection) -> None:
     """Where a connection is replaced, on_connect of the new one comes before on_disconnect of the old one."""
-
-    def _connect(self, connection: Connection) -> None:
-        old = [c for c in self._connections_from(connection.client) if c.port == connection.port]
-        super()._connect(connection)
-        for replaced in old:
-            self._disconnect(replaced, Failures())
+    old = [c for c in self._connections_from(connection.client) if c.port == connection.port]
+    readings.appends_connections._connect(self, connection)
+    for replaced in old:
+        self._disconnect(replaced, Failures())
 
 
 @variant
@@ -128,34 +122,28 @@ class starts_providers_first(Base):
         order.append(member)
 
 
-@variant
-class alternates(Base):
+@replaces("_start_order")
+def alternates(self: Base) -> Sequence[Member]:
     """Every second start goes the other way round."""
-
-    def _start_order(self) -> Sequence[Member]:
-        self.__dict__["backwards"] = not self.__dict__.get("backwards", True)
-        return list(super()._start_order())[:: -1 if self.__dict__["backwards"] else 1]
+    self.__dict__["backwards"] = not self.__dict__.get("backwards", True)
+    return list(Base._start_order(self))[:: -1 if self.__dict__["backwards"] else 1]
 
 
-@variant
-class takes_down_in_startup_order(Base):
+@replaces("_take_down")
+def takes_down_in_startup_order(self: Base, containers: Sequence[Container], failures: Failures) -> None:
     """remove_container and destroy shut members down in the order of their start; only stop must reverse it."""
-
-    def _take_down(self, containers: Sequence[Container], failures: Failures) -> None:
-        for container in containers:
-            container.started.reverse()
-        super()._take_down(containers, failures)
+    for container in containers:
+        container.started.reverse()
+    Base._take_down(self, containers, failures)
 
 
-@variant
-class shows_the_container_after_init(Base):
+@replaces("_configure")
+def shows_the_container_after_init(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """set_container_interface comes after on_init."""
-
-    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        self._set_attributes(member, attributes)
-        self._initialise(member)
-        if isinstance(member.body, FragmentObject):
-            member.body.set_container_interface(self)
+    self._set_attributes(member, attributes)
+    self._initialise(member)
+    if isinstance(member.body, FragmentObject):
+        member.body.set_container_interface(self)
 
 
 @variant

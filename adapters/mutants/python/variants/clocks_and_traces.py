@@ -9,6 +9,7 @@ from typing import TypeVar
 
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
 from ucm_cts.adapters.contract.scenario import Policy
+from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, is_below, variant_of
 from ucm_cts.adapters.reference.python.container_services import Record
 from ucm_cts.adapters.reference.python.framework import Member
@@ -54,20 +55,16 @@ class has_seconds_that_wrap(Base):
     _synchronized_time = _local_time
 
 
-@variant_of("10.1.4")
-class has_a_node_for_each_container(Base):
+@alters("_local_time", clauses=("10.1.4",))
+def has_a_node_for_each_container(self: Base, given: int, member: Member) -> int:
     """Every sub-container is on a node with a clock of its own, some seconds behind; synchronized time is one."""
-
-    def _local_time(self, member: Member) -> int:
-        return super()._local_time(member) - is_below(self) * 5 * SECOND
+    return given - is_below(self) * 5 * SECOND
 
 
-@variant_of("10.1.4")
-class keeps_synchronized_time_loosely(Base):
+@alters("_synchronized_time", clauses=("10.1.4",))
+def keeps_synchronized_time_loosely(_self: Base, given: int, member: Member) -> int:
     """Synchronized time goes on in steps of 40 ms, and a bit slower than it should."""
-
-    def _synchronized_time(self, member: Member) -> int:
-        return super()._synchronized_time(member) * 9 // 10 // (40 * MILLISECOND) * 40 * MILLISECOND
+    return given * 9 // 10 // (40 * MILLISECOND) * 40 * MILLISECOND
 
 
 @variant_of("10.1.4")
@@ -107,15 +104,13 @@ class writes_calls_and_returns(Base):
         return result
 
 
-@variant_of("10.1.4")
-class writes_returns_at_required_ports(Base):
+@replaces("_trace_call", clauses=("10.1.4",))
+def writes_returns_at_required_ports(self: Base, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
     """A traced call has a record, and one more when it returns to a required port."""
-
-    def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
-        result = super()._trace_call(member, port, method, work)
-        if port in member.implementation.requires:
-            super()._trace_call(member, port, method, lambda: None)
-        return result
+    result = Base._trace_call(self, member, port, method, work)
+    if port in member.implementation.requires:
+        Base._trace_call(self, member, port, method, lambda: None)
+    return result
 
 
 @variant_of("10.1.4")
@@ -135,9 +130,7 @@ class writes_late(Base):
         threading.Thread(target=later, daemon=True).start()
 
 
-@variant_of("10.1.4")
-class keeps_logs_of_components(Base):
+@replaces("read_log", clauses=("10.1.4",))
+def keeps_logs_of_components(self: Base) -> list[Record]:
     """Each component has a log of its own; who reads the trace gets one after the other."""
-
-    def read_log(self) -> list[Record]:
-        return sorted(self.manager.log)
+    return sorted(self.manager.log)

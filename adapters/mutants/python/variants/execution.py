@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
 from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Policy
+from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, variant_of
 from ucm_cts.adapters.reference.python.framework import Failures, Member
 from ucm_cts.adapters.reference.python.policies import Executor, Trigger
@@ -50,43 +51,33 @@ class executes_all_on_one_thread(Base):
         self.__dict__.pop("executor", _SharedExecutor()).close()
 
 
-@variant_of(*POLICIES)
-class executes_each_on_its_thread(Base):
+@replaces("_execute", clauses=POLICIES)
+def executes_each_on_its_thread(self: Base, member: Member, port: str | None, work: Callable[[], T]) -> T:
     """Every protected component has a thread for all that enters it."""
-
-    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        if member.execution.is_inside:
-            return work()
-        return self._execute_on_own_thread(member, lambda: self._execute_alone(member, port, work))
+    if member.execution.is_inside:
+        return work()
+    return self._execute_on_own_thread(member, lambda: self._execute_alone(member, port, work))
 
 
-@variant_of(*POLICIES)
-class executes_all_on_the_callers_thread(Base):
+@replaces("_execute", clauses=POLICIES)
+def executes_all_on_the_callers_thread(self: Base, member: Member, port: str | None, work: Callable[[], T]) -> T:
     """Active components have no thread; callers enter one by one."""
-
-    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        return self._execute_alone(member, port, work)
+    return self._execute_alone(member, port, work)
 
 
 # callers that wait
 
 
-@variant_of(*POLICIES)
-class refuses_recursion(Base):
+@refuses_if("_execute", clauses=POLICIES)
+def refuses_recursion(_self: Base, member: Member, *_: object) -> bool:
     """A call that comes back to a protected component is refused."""
-
-    def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        if member.execution.is_inside:
-            raise UcmError("the component is being executed")
-        return super()._execute(member, port, work)
+    return member.execution.is_inside
 
 
-@variant_of(*POLICIES)
-class serialises_unprotected_components(Base):
+@alters("_is_protected", clauses=POLICIES)
+def serialises_unprotected_components(_self: Base, given: bool, member: Member) -> bool:
     """Unprotected passive components are entered one at a time, too."""
-
-    def _is_protected(self, member: Member) -> bool:
-        return super()._is_protected(member) or member.execution.definition == UNPROTECTED_PASSIVE
+    return given or member.execution.definition == UNPROTECTED_PASSIVE
 
 
 class _Turnstile:
@@ -143,24 +134,20 @@ class lets_the_last_in_first(lets_the_first_in_first):
 # what is open under a reading that is declared
 
 
-@variant_of(*POLICIES, readings={"self-exec-mutex": "run-only"})
-class keeps_runs_apart_only(Base):
+@replaces("_execute_alone", clauses=POLICIES, readings={"self-exec-mutex": "run-only"})
+def keeps_runs_apart_only(self: Base, member: Member, port: str | None, work: Callable[[], T]) -> T:
     """Ports of a self-executing component are open, whatever it executes."""
-
-    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        if member.execution.definition == SELF_EXECUTING and port is not None:
-            return work()
-        return super()._execute_alone(member, port, work)
+    if member.execution.definition == SELF_EXECUTING and port is not None:
+        return work()
+    return Base._execute_alone(self, member, port, work)
 
 
-@variant_of(*POLICIES, readings={"active-unmanaged": "unprotected"})
-class leaves_unmanaged_ports_open(Base):
+@replaces("_execute_alone", clauses=POLICIES, readings={"active-unmanaged": "unprotected"})
+def leaves_unmanaged_ports_open(self: Base, member: Member, port: str | None, work: Callable[[], T]) -> T:
     """The ports of an active component that its policy does not manage are open."""
-
-    def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
-        if member.execution.definition == ACTIVE and port not in member.execution.managed:
-            return work()
-        return super()._execute_alone(member, port, work)
+    if member.execution.definition == ACTIVE and port not in member.execution.managed:
+        return work()
+    return Base._execute_alone(self, member, port, work)
 
 
 @variant_of(*POLICIES, readings={"unprotected-concurrency": "concurrent"})
@@ -168,14 +155,10 @@ class lets_callers_meet(Base):
     """Callers meet in unprotected passive components, as they do in the reference framework."""
 
 
-@variant_of(*POLICIES, readings={"second-active-policy": "refuse"})
-class refuses_two_active_ports(Base):
+@refuses_if("_check_policies", clauses=POLICIES, readings={"second-active-policy": "refuse"})
+def refuses_two_active_ports(_self: Base, implementation: Implementation) -> bool:
     """The active policy on two ports is two policies."""
-
-    def _check_policies(self, implementation: Implementation) -> None:
-        if len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1:
-            raise UcmError(f"{implementation.name!r} has more than one execution policy")
-        super()._check_policies(implementation)
+    return len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1
 
 
 @variant_of(*POLICIES, readings={"second-active-policy": "allow", "run-trigger": "repeated"})
@@ -218,13 +201,11 @@ class manages_ports_or_whole_components(Base):
 # run
 
 
-@variant_of(*POLICIES)
-class runs_once_a_start(Base):
+@replaces("_keep_running", clauses=POLICIES)
+def runs_once_a_start(self: Base, member: Member, trigger: Trigger) -> None:
     """run is called once after each start."""
-
-    def _keep_running(self, member: Member, trigger: Trigger) -> None:
-        if not trigger.ended.wait(self.period):
-            self._run(member, trigger)
+    if not trigger.ended.wait(self.period):
+        self._run(member, trigger)
 
 
 @variant_of(*POLICIES)
@@ -234,23 +215,19 @@ class runs_seldom(Base):
     period = 0.05
 
 
-@variant_of(*POLICIES)
-class runs_no_more_after_a_failure(Base):
+@replaces("_keep_running", clauses=POLICIES)
+def runs_no_more_after_a_failure(self: Base, member: Member, trigger: Trigger) -> None:
     """An exception out of run ends the runs until the next start."""
-
-    def _keep_running(self, member: Member, trigger: Trigger) -> None:
-        run = self._execution_api(member).run
-        try:
-            while not trigger.ended.wait(self.period):
-                self._execute(member, None, lambda: trigger.run(run))
-        except Exception:  # noqa: BLE001 - a body may raise anything
-            return
+    run = self._execution_api(member).run
+    try:
+        while not trigger.ended.wait(self.period):
+            self._execute(member, None, lambda: trigger.run(run))
+    except Exception:  # noqa: BLE001 - a body may raise anything
+        return
 
 
-@variant_of(*POLICIES)
-class runs_one_component_at_a_time(Base):
+@replaces("_run", clauses=POLICIES)
+def runs_one_component_at_a_time(self: Base, member: Member, trigger: Trigger) -> None:
     """Of all self-executing components of the runtime one runs at a time."""
-
-    def _run(self, member: Member, trigger: Trigger) -> None:
-        with self.manager.__dict__.setdefault("one_run", threading.Lock()):
-            super()._run(member, trigger)
+    with self.manager.__dict__.setdefault("one_run", threading.Lock()):
+        Base._run(self, member, trigger)

@@ -13,6 +13,7 @@ from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
+from ucm_cts.adapters.mutants.python.methods import refuses_if
 from ucm_cts.adapters.mutants.python.registry import Base, variant_of
 from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, INTERNAL_ERROR, OK, Link, LinkElement, Taker
 from ucm_cts.adapters.reference.python.framework import Member
@@ -105,14 +106,10 @@ class passes_codes_on(Base):
                     raise UcmError("there is no receiver")
 
 
-@variant_of(*_CLAUSES, readings={"push-without-receiver": "refused"})
-class attaches_emitters_where_somebody_receives(Link):
+@refuses_if("_attach_sender", clauses=_CLAUSES, readings={"push-without-receiver": "refused"})
+def attaches_emitters_where_somebody_receives(self: Link, *_: object) -> bool:
     """An emitter is attached to a connection that has a receiver, and to no other one."""
-
-    def _attach_sender(self, member: Member, port: str) -> None:
-        if self.connector == MESSAGE_CONNECTOR and not self.takers:
-            raise UcmError("there is no receiver")
-        super()._attach_sender(member, port)
+    return self.connector == MESSAGE_CONNECTOR and not self.takers
 
 
 class _Holding(_Codes):

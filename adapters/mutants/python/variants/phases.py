@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable, Mapping
 
 from ucm_cts.adapters.contract.programming_model import PortElementObject, UcmError
+from ucm_cts.adapters.mutants.python.methods import refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import (
     CONTAINER,
     Base,
@@ -23,53 +24,40 @@ def _all_containers(container: Container) -> list[Container]:
     return [container.manager, *container.manager.sub_containers]
 
 
-@variant
-class configures_when_nothing_runs(Base):
+@replaces("_check_configuring")
+def configures_when_nothing_runs(self: Base) -> None:
     """Nothing is configured anywhere while any container is started."""
-
-    def _check_configuring(self) -> None:
-        if any(container.is_started for container in _all_containers(self)):
-            raise UcmError("the application has been started")
+    if any(container.is_started for container in _all_containers(self)):
+        raise UcmError("the application has been started")
 
 
-@variant
-class starts_when_all_is_configured(Base):
+@replaces("_check_startable")
+def starts_when_all_is_configured(self: Base) -> None:
     """No container is started while a component anywhere is unconfigured."""
-
-    def _check_startable(self) -> None:
-        for container in _all_containers(self):
-            Container._check_startable(container)
+    for container in _all_containers(self):
+        Container._check_startable(container)
 
 
-@variant
-class makes_no_late_containers(Base):
+@refuses_if("create_container")
+def makes_no_late_containers(self: Base) -> bool:
     """A started manager makes no containers."""
-
-    def create_container(self) -> Container:
-        self._check_configuring()
-        return super().create_container()  # type: ignore[misc,no-any-return]
+    return self.is_started
 
 
-@variant
-class starts_nothing_empty(Base):
+@refuses_if("_check_startable")
+def starts_nothing_empty(self: Base) -> bool:
     """A container without members is not started."""
-
-    def _check_startable(self) -> None:
-        if not self.members:
-            raise UcmError("there is nothing to start")
-        super()._check_startable()
+    return not self.members
 
 
-@variant
-class connects_nothing_to_itself(Base):
+@replaces("connect")
+def connects_nothing_to_itself(self: Base, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
     """A component's own port element is no partner for it."""
-
-    def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
-        member = self.members.get(instance)
-        own = [member.body.get_portElement(port) for port in member.implementation.provides] if member else []
-        if to_port is not None and any(to_port is element for element in own):
-            raise UcmError("a component is not connected to itself")
-        return super().connect(instance, port_name, to_port)
+    member = self.members.get(instance)
+    own = [member.body.get_portElement(port) for port in member.implementation.provides] if member else []
+    if to_port is not None and any(to_port is element for element in own):
+        raise UcmError("a component is not connected to itself")
+    return Base.connect(self, instance, port_name, to_port)
 
 
 class _Waiting(Proxy):
@@ -175,9 +163,7 @@ class stays_operational_below(manager_reaches_down, stays_operational_when_shutd
                 getattr(container, below.__name__)()
 
 
-@variant
-class attributes_by_name(Base):
+@replaces("_set_attributes")
+def attributes_by_name(self: Base, member: object, attributes: Mapping[str, str]) -> None:
     """Attributes are set in the order of their names."""
-
-    def _set_attributes(self, member: object, attributes: Mapping[str, str]) -> None:
-        super()._set_attributes(member, dict(sorted(attributes.items())))  # type: ignore[arg-type]
+    Base._set_attributes(self, member, dict(sorted(attributes.items())))  # type: ignore[arg-type]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from ucm_cts.adapters.contract import programming_model as pm
+from ucm_cts.adapters.mutants.python.methods import replaces
 from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, is_below, variant
 from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Failures, Member, State
 
@@ -224,20 +225,18 @@ class manager_reaches_down(Base):
                 below(container)
 
 
-@variant
-class other_errors(Base):
+@replaces("connect")
+def other_errors(self: Base, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
     """Unknown port elements of connect are NOT_FOUND, null references UCM_ERROR, a taken one BAD_PARAMETER."""
-
-    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
-        member = self.members.get(instance)
-        if member is not None:
-            if port_name not in member.implementation.requires:
-                raise pm.NotFound(port_name)
-            if to_port is None:
-                raise pm.UcmError("nil")
-            if self._is_connected(member, port_name):
-                raise pm.BadParameter(port_name)
-        return super().connect(instance, port_name, to_port)
+    member = self.members.get(instance)
+    if member is not None:
+        if port_name not in member.implementation.requires:
+            raise pm.NotFound(port_name)
+        if to_port is None:
+            raise pm.UcmError("nil")
+        if self._is_connected(member, port_name):
+            raise pm.BadParameter(port_name)
+    return Base.connect(self, instance, port_name, to_port)
 
 
 @variant

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.programming_model import PortElementObject
+from ucm_cts.adapters.mutants.python.methods import replaces
 from ucm_cts.adapters.mutants.python.registry import Base, is_below, variant
 from ucm_cts.adapters.mutants.python.variants import readings
 from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
@@ -57,15 +58,13 @@ class restarts_clients_of_many(restarts_clients, readings.appends_connections):
     """The same, with any number of connections a port element."""
 
 
-@variant
-class reaches_down_first(readings.manager_reaches_down):
+@replaces("start")
+def reaches_down_first(self: readings.manager_reaches_down) -> None:
     """The manager's start begins with its sub-containers, and its stop ends with them."""
-
-    def start(self) -> None:
-        if not is_below(self):
-            for container in self.manager.sub_containers:
-                Container.start(container)
-        Container.start(self)
+    if not is_below(self):
+        for container in self.manager.sub_containers:
+            Container.start(container)
+    Container.start(self)
 
 
 @variant
@@ -106,35 +105,31 @@ class manager_knows_everyone(Base):
         Container.disconnect(container, connection)
 
 
-@variant
-class leaves_started_what_was_started(Base):
+@replaces("start")
+def leaves_started_what_was_started(self: Base) -> None:
     """A start that meets what is unconfigured or raises leaves the others started; another start goes on from there."""
-
-    def start(self) -> None:
-        with self._operation():
-            failures = Failures()
-            for member in self._start_order():
-                if member.state is State.READY:
-                    continue
-                if all(self._is_connected(member, port) for port in member.implementation.requires):
-                    self._start_up(member, failures)
-                else:
-                    failures.first = failures.first or "not connected"
-            failures.report()
-            self._begin_operation()
+    with self._operation():
+        failures = Failures()
+        for member in self._start_order():
+            if member.state is State.READY:
+                continue
+            if all(self._is_connected(member, port) for port in member.implementation.requires):
+                self._start_up(member, failures)
+            else:
+                failures.first = failures.first or "not connected"
+        failures.report()
+        self._begin_operation()
 
 
-@variant
-class stops_half_way(Base):
+@replaces("stop")
+def stops_half_way(self: Base) -> None:
     """A stop ends where an on_shutdown raises; another stop goes on from there."""
-
-    def stop(self) -> None:
-        with self._operation():
-            while self.started:
-                failures = Failures()
-                self._shut_down(self.started.pop(), failures)
-                failures.report()
-            self.is_started = False
+    with self._operation():
+        while self.started:
+            failures = Failures()
+            self._shut_down(self.started.pop(), failures)
+            failures.report()
+        self.is_started = False
 
 
 @variant
@@ -153,13 +148,11 @@ class keeps_what_it_could_not_announce(Base):
             self.manager.connections[connection.id] = connection
 
 
-@variant
-class keeps_what_it_could_not_remove(Base):
+@replaces("_remove")
+def keeps_what_it_could_not_remove(self: Base, member: Member, failures: Failures) -> None:
     """A member whose on_remove raises stays."""
-
-    def _remove(self, member: Member, failures: Failures) -> None:
-        mine = Failures()
-        super()._remove(member, mine)
-        if mine.first:
-            failures.first = failures.first or mine.first
-            self.members[member.id] = member
+    mine = Failures()
+    Base._remove(self, member, mine)
+    if mine.first:
+        failures.first = failures.first or mine.first
+        self.members[member.id] = member

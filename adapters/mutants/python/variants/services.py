@@ -10,6 +10,7 @@ from typing import TypeVar
 from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import DeclaredException, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import SERVICE_CONNECTOR
+from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, variant_of
 from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
 from ucm_cts.adapters.reference.python.framework import Container, Member
@@ -132,15 +133,13 @@ class refuses_clients_without_server(Base):
 # exceptions
 
 
-@variant_of("10.1.1", "10.1.5", readings={"exception-transport": "system-error"})
-class raises_system_errors(Link):
+@replaces("_request", clauses=("10.1.1", "10.1.5"), readings={"exception-transport": "system-error"})
+def raises_system_errors(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """Whatever a server raises arrives as an error of the framework, as its vendor says."""
-
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        try:
-            return super()._request(method, arguments)
-        except DeclaredException as error:
-            raise UcmError(f"the server raised {error.name}") from None
+    try:
+        return Link._request(self, method, arguments)
+    except DeclaredException as error:
+        raise UcmError(f"the server raised {error.name}") from None
 
 
 # calls in flight
@@ -226,13 +225,10 @@ class undoes_connections_at_once(Base):
 # connectors that are hardly there
 
 
-@variant_of("10.1.5")
-class wires_clients_to_servers(Base):
+@alters("_dependencies_of", clauses=("10.1.5",))
+def wires_clients_to_servers(_self: Base, given: list[PortConnection], *_: object) -> list[PortConnection]:
     """A connector is what containers know of a connection; clients are given the reference of the server itself."""
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        given = super()._dependencies_of(member)
-        return [PortConnection(d.from_port, tuple(map(_server_behind, d.to_port))) for d in given]
+    return [PortConnection(d.from_port, tuple(map(_server_behind, d.to_port))) for d in given]
 
 
 def _server_behind(target: PortElementObject | None) -> PortElementObject | None:

@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from ucm_cts.adapters.contract import programming_model as pm
+from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, variant
 from ucm_cts.adapters.mutants.python.variants import readings
 from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
@@ -14,21 +15,17 @@ from ucm_cts.adapters.reference.python.framework import Connection, Container, F
 # what on_startup gets
 
 
-@variant
-class one_entry_a_connection(readings.appends_connections):
+@replaces("_dependencies_of")
+def one_entry_a_connection(self: readings.appends_connections, member: Member) -> list[pm.PortConnection]:
     """Two connections of a port element make two entries of the list, the later one first."""
-
-    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
-        return [pm.PortConnection(c.port, (c.target,)) for c in reversed(self._connections_from(member))]
+    return [pm.PortConnection(c.port, (c.target,)) for c in reversed(self._connections_from(member))]
 
 
-@variant
-class lists_unconnected_ports(readings.starts_the_unconfigured):
+@replaces("_dependencies_of")
+def lists_unconnected_ports(self: readings.starts_the_unconfigured, member: Member) -> list[pm.PortConnection]:
     """What is not connected has an entry without references; entries come in an order of their own."""
-
-    def _dependencies_of(self, member: Member) -> list[pm.PortConnection]:
-        given = {d.from_port: d for d in super()._dependencies_of(member)}
-        return [given.get(port, pm.PortConnection(port, ())) for port in reversed(member.implementation.requires)]
+    given = {d.from_port: d for d in readings.starts_the_unconfigured._dependencies_of(self, member)}
+    return [given.get(port, pm.PortConnection(port, ())) for port in reversed(member.implementation.requires)]
 
 
 class _Entrance(pm.PortElementObject):
@@ -167,13 +164,11 @@ class calls_back_elsewhere(Base):
 # bodies
 
 
-@variant
-class looks_at_a_prototype(Base):
+@replaces("_instantiate")
+def looks_at_a_prototype(self: Base, implementation: pm.Implementation) -> pm.ComponentObject:
     """A body of each implementation is made to look at and thrown away."""
-
-    def _instantiate(self, implementation: pm.Implementation) -> pm.ComponentObject:
-        super()._instantiate(implementation)
-        return super()._instantiate(implementation)
+    Base._instantiate(self, implementation)
+    return Base._instantiate(self, implementation)
 
 
 @variant
@@ -188,74 +183,65 @@ class pools_bodies(Base):
         return pool.pop()
 
 
-@variant
-class removes_what_failed_to_initialise(Base):
+@replaces("_configure")
+def removes_what_failed_to_initialise(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
     """A body whose on_init raised is told on_remove."""
-
-    def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
-        try:
-            super()._configure(member, attributes)
-        except Exception:
-            member.body.on_remove()
-            raise
+    try:
+        Base._configure(self, member, attributes)
+    except Exception:
+        member.body.on_remove()
+        raise
 
 
 # starting
 
 
-@variant
-class starts_late_additions_when_connected(readings.starts_late_additions):
+@alters("connect")
+def starts_late_additions_when_connected(
+    self: readings.starts_late_additions, identifier: int, instance: int, *_: object
+) -> int:
     """A component added to a started container starts as soon as its last port element is connected."""
-
-    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
-        identifier = super().connect(instance, port_name, to_port)
-        member = self.members[instance]
-        connected = all(self._is_connected(member, port) for port in member.implementation.requires)
-        if self.is_started and member.state is not State.READY and connected:
-            self._start_up(member, Failures())
-        return identifier
+    member = self.members[instance]
+    connected = all(self._is_connected(member, port) for port in member.implementation.requires)
+    if self.is_started and member.state is not State.READY and connected:
+        self._start_up(member, Failures())
+    return identifier
 
 
-@variant
-class starts_late_additions_at_start(readings.adds_later):
+@replaces("start")
+def starts_late_additions_at_start(self: readings.adds_later) -> None:
     """start of a started container starts what was added later."""
-
-    def start(self) -> None:
-        with self._operation():
-            self._check_startable()
-            failures = Failures()
-            for member in self._start_order():
-                if member.state is not State.READY:
-                    self._start_up(member, failures)
-            self._begin_operation()
-            failures.report()
-
-
-@variant
-class starts_the_others(Base):
-    """When an on_startup raises, the others are started, stay so, and start raises UCM_ERROR."""
-
-    def start(self) -> None:
-        with self._operation():
-            if self.is_started:
-                return
-            self._check_startable()
-            failures = Failures()
-            for member in self._start_order():
+    with self._operation():
+        self._check_startable()
+        failures = Failures()
+        for member in self._start_order():
+            if member.state is not State.READY:
                 self._start_up(member, failures)
-            self._begin_operation()
-            failures.report()
+        self._begin_operation()
+        failures.report()
 
 
-@variant
-class shuts_down_what_failed_to_start(Base):
+@replaces("start")
+def starts_the_others(self: Base) -> None:
+    """When an on_startup raises, the others are started, stay so, and start raises UCM_ERROR."""
+    with self._operation():
+        if self.is_started:
+            return
+        self._check_startable()
+        failures = Failures()
+        for member in self._start_order():
+            self._start_up(member, failures)
+        self._begin_operation()
+        failures.report()
+
+
+@replaces("_start_up")
+def shuts_down_what_failed_to_start(self: Base, member: Member, failures: Failures) -> bool:
     """When an on_startup raises, its own body is told on_shutdown like the others."""
-
-    def _start_up(self, member: Member, failures: Failures) -> bool:
-        if super()._start_up(member, failures):
-            return True
-        self.started.append(member)
-        return False
+    if Base._start_up(self, member, failures):
+        return True
+    self.started.append(member)
+    return False
 
 
 @variant
@@ -272,16 +258,14 @@ class finds_the_unconfigured_on_the_way(Base):
         return super()._start_up(member, failures)
 
 
-@variant
-class disconnects_at_any_time(Base):
+@replaces("disconnect")
+def disconnects_at_any_time(self: Base, connection: int) -> None:
     """disconnect works in a started container, connect does not; a Connectable is told in any phase."""
-
-    def disconnect(self, connection: int) -> None:
-        started, self.is_started = self.is_started, False
-        try:
-            super().disconnect(connection)
-        finally:
-            self.is_started = started
+    started, self.is_started = self.is_started, False
+    try:
+        Base.disconnect(self, connection)
+    finally:
+        self.is_started = started
 
 
 # many readings at once
