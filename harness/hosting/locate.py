@@ -17,6 +17,8 @@ from pathlib import Path
 from typing import Literal
 from urllib.parse import urlsplit
 
+from ucm_cts.adapters.sdk.python.loading import current_name
+
 GROUP = "ucm_cts.adapters"
 """The entry point group in which packages publish short names of adapters."""
 
@@ -115,7 +117,7 @@ def _parse(text: str, published: Mapping[str, EntryPoint]) -> Endpoint:
     if not _is_there(module.partition(".")[0]):
         missing = f": there is no module {module.partition('.')[0]}" if colon or "." in module else ""
         raise WrongUse(f"'{text}' names no adapter{missing}. {_what_there_is(text, published)}")
-    return Endpoint(text, "python", text)
+    return Endpoint(text, "python", current_name(text))
 
 
 def _address(text: str) -> str:

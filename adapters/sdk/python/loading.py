@@ -8,6 +8,7 @@ import importlib.util
 import inspect
 import os
 import sys
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
@@ -20,6 +21,15 @@ Answer = Callable[[bytes, Emit], bytes]
 """Answers one line of the wire protocol; may send lines ahead of the answer when a run is streamed."""
 
 
+_MOVED = {
+    "ucm_cts.adapters.derived": "ucm_cts.adapters.mutants.python",
+    "ucm_cts.adapters.gstreamer": "ucm_cts.adapters.integrations.gstreamer",
+    "ucm_cts.adapters.ipopo": "ucm_cts.adapters.integrations.ipopo",
+    "ucm_cts.adapters.reference_py": "ucm_cts.adapters.reference.python",
+}
+"""Deprecated names of packages with bundled adapters, and what they are called now (docs/decisions/0011)."""
+
+
 class CannotLoad(Exception):
     """The text names no adapter; the message says what is wrong and what to do."""
 
@@ -30,12 +40,22 @@ def load(spec: str) -> Answer:
     The class is a subclass of ``Adapter``, the module has a function ``answer(message: bytes) -> bytes`` which may take
     a second parameter ``emit`` as ``Engine.answer`` does. The current directory is searched too. Raises ``CannotLoad``.
     """
+    spec = current_name(spec)
     module_name, colon, class_name = spec.partition(":")
     if colon:
         cls = _find_class(_import(module_name), class_name)
         return Engine(cls).answer
     module = _import_file(Path(spec)) if _is_path(spec) else _import(spec)
     return _answer_of(module)
+
+
+def current_name(spec: str) -> str:
+    """``spec``, with the present name of its package. Warns of a deprecated one."""
+    for old, new in _MOVED.items():
+        if spec.startswith((f"{old}.", f"{old}:")):
+            warnings.warn(f"{old} is deprecated: use {new}", FutureWarning, stacklevel=2)
+            return spec.replace(old, new, 1)
+    return spec
 
 
 def _answer_of(module: ModuleType) -> Answer:

@@ -18,6 +18,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced
 from ucm_cts.adapters.contract.scenario import Declaration, Scenario
 from ucm_cts.adapters.contract.trace import Call, Create
+from ucm_cts.adapters.sdk.python.loading import load
 from ucm_cts.harness.hosting.hosts import Answer, Hosts, HostUnavailable, Limits
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.results.values import Incident
@@ -343,6 +344,21 @@ def test_short_names_name_any_door() -> None:
     assert (locate("as-class").kind, locate("as-class").target) == ("python", REFERENCE)
     assert (locate("as-module").kind, locate("as-module").target) == ("python", "misbehaving")
     assert (locate("as-path").kind, locate("as-path").text) == ("executable", "as-path")
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("ucm_cts.adapters.reference_py.adapter:ReferenceAdapter", REFERENCE),
+        ("ucm_cts.adapters.derived:serialises_calls", "ucm_cts.adapters.mutants.python:serialises_calls"),
+    ],
+)
+def test_old_names_of_bundled_adapters_still_work(old: str, new: str) -> None:
+    with pytest.warns(FutureWarning, match="is deprecated: use ucm_cts.adapters"):
+        endpoint = locate(old)
+    assert (endpoint.text, endpoint.target) == (old, new)
+    with pytest.warns(FutureWarning, match="is deprecated: use ucm_cts.adapters"):
+        assert load(old)(b"{}", lambda line: None)
 
 
 @pytest.mark.parametrize(
