@@ -26,11 +26,17 @@ _PROTECTIONS: dict[str, Protection] = {
 }
 
 
-EXCLUSIONS = ("R-10.1.3.2-05", "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
+_RUNS_APART = "R-10.1.3.2-05"
+_RUN_AND_PORTS, _MANAGED_PORTS, _WHOLE_COMPONENT = "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10"
+_PASSIVE, _EXECUTIONS_APART = "R-10.1.3.2-13", "R-10.1.3.2-16"
+
+CALL_EXCLUSIONS = (_RUN_AND_PORTS, _MANAGED_PORTS, _WHOLE_COMPONENT, _PASSIVE, _EXECUTIONS_APART)
+"""The requirements that keep executions by calls apart."""
+
+EXCLUSIONS = (_RUNS_APART, *CALL_EXCLUSIONS)
 """The requirements that keep executions of a component apart."""
 
-CALL_EXCLUSIONS = tuple(requirement for requirement in EXCLUSIONS if requirement != "R-10.1.3.2-05")
-"""Those that have to do with calls; the other one keeps runs apart."""
+_ACTIVE_CALLS = ("R-10.1.3.2-07", "R-10.1.3.2-08")
 
 _PROMISES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
 
@@ -272,14 +278,14 @@ def exclusion(declaration: Declaration, ics: Ics, one: str, other: str) -> str:
     protection = protection_of(declaration)
     if protection == "self-executing":
         if one == other == "run":
-            return "R-10.1.3.2-05"
-        return "" if ics.reading("self-exec-mutex") == "run-only" else "R-10.1.3.2-06"
+            return _RUNS_APART
+        return "" if ics.reading("self-exec-mutex") == "run-only" else _RUN_AND_PORTS
     if protection == "active":
         if {one, other} <= managed_ports(declaration):
-            return "R-10.1.3.2-09"
-        return "" if ics.reading("active-unmanaged") == "unprotected" else "R-10.1.3.2-10"
+            return _MANAGED_PORTS
+        return "" if ics.reading("active-unmanaged") == "unprotected" else _WHOLE_COMPONENT
     if protection == "passive":
-        return "R-10.1.3.2-13" if one == other else "R-10.1.3.2-16"
+        return _PASSIVE if one == other else _EXECUTIONS_APART
     return ""
 
 
@@ -298,7 +304,7 @@ def calls_promised(declaration: Declaration, port: str) -> tuple[str, ...]:
     protection = protection_of(declaration)
     managed = managed_ports(declaration)
     if protection == "active" and port in managed:
-        return ("R-10.1.3.2-08", "R-10.1.3.2-07") if len(managed) == 1 else ("R-10.1.3.2-07", "R-10.1.3.2-08")
+        return _ACTIVE_CALLS[::-1] if len(managed) == 1 else _ACTIVE_CALLS
     return _PROMISES.get(protection, ())
 
 

@@ -13,10 +13,13 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
-_DUE = {"transport": ("R-10.1.2-12", msg.COMM_ERROR), "inside": ("R-10.1.2-11", msg.INTERNAL_ERROR)}
+_CODES, _OK_IF_WELL, _OK_IS_TRUE = "R-10.1.2-02", "R-10.1.2-09", "R-10.1.2-10"
+_INTERNAL, _TRANSMISSION = "R-10.1.2-11", "R-10.1.2-12"
+
+_DUE = {"transport": (_TRANSMISSION, msg.COMM_ERROR), "inside": (_INTERNAL, msg.INTERNAL_ERROR)}
 
 
-@property_at("completed", "R-10.1.2-02")
+@property_at("completed", _CODES)
 def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """Whatever push gives back is one of the three codes."""
     if not call.is_message or call.reply is None or call.caller is None or not call.caller.serving:
@@ -27,7 +30,7 @@ def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
     return _violate(check, call, f"is answered {' or '.join(msg.CODES)}", "unknown")
 
 
-@property_at("completed", "R-10.1.2-02")
+@property_at("completed", _CODES)
 def without_receivers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """A push that nobody receives is answered what the vendor has declared."""
     if (
@@ -46,7 +49,7 @@ def without_receivers(check: Property, runtime: ObservedRuntime, call: MethodCal
         yield _violate(check, call, expected, "without receivers")
 
 
-@property_at("ended", "R-10.1.2-02", at=("start",), feature="interactions")
+@property_at("ended", _CODES, at=("start",), feature="interactions")
 def refused_without_receivers(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """A connection without receivers is refused only where the vendor has declared it."""
     if not isinstance(ongoing.end, Raise) or any(not m.connected for m in ongoing.container.members):
@@ -62,7 +65,7 @@ def refused_without_receivers(check: Property, runtime: ObservedRuntime, ongoing
         )
 
 
-@property_at("linked", "R-10.1.2-02")
+@property_at("linked", _CODES)
 def refused_attachment(
     check: Property, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Result
 ) -> Conclusions:
@@ -76,7 +79,7 @@ def refused_attachment(
         yield check.fail("refused", expected=expected, observed=observed, event=end)
 
 
-@property_at("completed", "R-10.1.2-09")
+@property_at("completed", _OK_IF_WELL)
 def ok_when_healthy(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """Nothing disturbs the push, so it gives ok."""
     if not _is_undisturbed(runtime, call) or call.link is None or call.link.broken_at:
@@ -91,7 +94,7 @@ def ok_when_healthy(check: Property, runtime: ObservedRuntime, call: MethodCall)
     return ()
 
 
-@property_at("completed", "R-10.1.2-09")
+@property_at("completed", _OK_IF_WELL)
 def receivers_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """What a receiver answers is dropped, and the code is ok, or passed on, and the code is that of one that was not ok."""
     if not _is_undisturbed(runtime, call) or not msg.is_quiet(runtime, call):
@@ -110,7 +113,7 @@ def receivers_codes(check: Property, runtime: ObservedRuntime, call: MethodCall)
         yield check.kept()
 
 
-@property_at("waited", "R-10.1.2-09", timed=True)
+@property_at("waited", _OK_IF_WELL, timed=True)
 def answered_at_all(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """A push that nothing disturbs is answered."""
     for call in msg.messages(runtime):
@@ -120,7 +123,7 @@ def answered_at_all(check: Property, runtime: ObservedRuntime, timeout: Timeout)
             yield _violate(check, call, "is answered ok", "no answer")
 
 
-@property_at("closed", "R-10.1.2-10")
+@property_at("closed", _OK_IS_TRUE)
 def ok_true(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Counts messages that got ok and arrived."""
     for call in msg.messages(runtime):
@@ -128,7 +131,7 @@ def ok_true(check: Property, runtime: ObservedRuntime) -> Conclusions:
             yield check.kept()
 
 
-@property_at("waited", "R-10.1.2-10", timed=True)
+@property_at("waited", _OK_IS_TRUE, timed=True)
 def ok_kept(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """What got ok arrives, if nothing is broken and the receivers are well."""
     for call, missing in msg.overdue(runtime, timeout):
@@ -138,7 +141,7 @@ def ok_kept(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conc
             yield _violate(check, call, expected, "lost", "it came to nobody", timeout.n)
 
 
-@property_at("completed", "R-10.1.2-10")
+@property_at("completed", _OK_IS_TRUE)
 def delivered_before_ok(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """Where the vendor has declared it, push gives ok when every receiver has the message."""
     if not call.is_message or call.code != msg.OK or not msg.is_whole(runtime, call) or not msg.is_calm(runtime, call):
@@ -185,14 +188,14 @@ def _failed_request(check: Property, runtime: ObservedRuntime, call: MethodCall)
         yield _violate(check, call, expected, "invented result")
         return
     if taken:
-        yield check.kept("R-10.1.2-01")
+        yield check.kept()
     else:
         declared = runtime.ics.reading("service-failure")
         expected = f"ends as declared of calls whose connection is broken: {declared}"
         yield _violate(check, call, expected, reading)
 
 
-@property_at("completed", "R-10.1.2-11")
+@property_at("completed", _INTERNAL)
 def internal_error_when_due(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """A push through a connector that is broken inside gives internal_error."""
     if not call.is_message or call.broken != "inside" or not _is_still_broken(call) or not _has_receivers(call):
@@ -203,7 +206,7 @@ def internal_error_when_due(check: Property, runtime: ObservedRuntime, call: Met
     return _violate(check, call, expected, "another code")
 
 
-@property_at("completed", "R-10.1.2-12", timed=True)
+@property_at("completed", _TRANSMISSION, timed=True)
 def comm_error_when_due(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """A push through a transport that is broken gives comm_error, at the latest when the connector must know."""
     if not call.is_message or call.broken != "transport" or not _is_still_broken(call) or not _has_receivers(call):
@@ -217,7 +220,7 @@ def comm_error_when_due(check: Property, runtime: ObservedRuntime, call: MethodC
         yield _violate(check, call, expected, "another code")
 
 
-@property_at("completed", "R-10.1.2-11", "R-10.1.2-12", timed=True)
+@property_at("completed", _INTERNAL, _TRANSMISSION, timed=True)
 def ok_after_mending(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """When what was broken has been mended push gives ok again."""
     link = call.link

@@ -15,8 +15,12 @@ from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_CODES, _OK_IF_WELL, _OK_IS_TRUE = "R-10.1.2-02", "R-10.1.2-09", "R-10.1.2-10"
+_EMITTERS, _ONCE, _ORIGIN = "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06"
+_ORDER = "R-10.1.6.1-07"
 
-@property_at("pushed", "R-10.1.2-02", "R-10.1.2-09")
+
+@property_at("pushed", _CODES, _OK_IF_WELL)
 def burst_answered(check: Property, runtime: ObservedRuntime, event: Pushed) -> Conclusions:
     """Each message of a burst is answered one of the three codes; ok, where the vendor has declared that push waits."""
     burst = runtime.interactions.bursts[-1]
@@ -26,20 +30,20 @@ def burst_answered(check: Property, runtime: ObservedRuntime, event: Pushed) -> 
     unknown = [code for code in event.answers if code not in CODES]
     if unknown:
         expected = f"each message of a burst is answered {' or '.join(CODES)}"
-        yield _violate(check, "R-10.1.2-02", expected, f"{unknown[0] or 'nothing'} was the answer", event)
+        yield _violate(check, _CODES, expected, f"{unknown[0] or 'nothing'} was the answer", event)
         return
     yield check.kept()
     healthy = len(burst.receivers) == len(burst.link.live("receiver")) > 0 and all(map(is_well, burst.receivers))
     if not healthy or burst.link.broken_at:
         return
     if set(event.answers) == {OK}:
-        yield check.kept("R-10.1.2-09")
+        yield check.kept(_OK_IF_WELL)
     elif not (yield from takes(runtime, "message-overflow", "refuse")):
         expected = "message-overflow was declared as block: each message of a burst is answered ok"
-        yield _violate(check, "R-10.1.2-09", expected, f"the answers were {event.answers}", event)
+        yield _violate(check, _OK_IF_WELL, expected, f"the answers were {event.answers}", event)
 
 
-@property_at("counted", "R-10.1.2-10", "R-10.1.6.1-03", "R-10.1.6.1-05", "R-10.1.6.1-06", "R-10.1.6.1-07", timed=True)
+@property_at("counted", _OK_IS_TRUE, _EMITTERS, _ONCE, _ORIGIN, _ORDER, timed=True)
 def burst_counted(check: Property, runtime: ObservedRuntime, event: Counted) -> Conclusions:
     """What was pushed in bursts and got ok is counted, each message once, and nothing else is."""
     receiver = runtime.member_of(event.component, event.instance)
@@ -57,11 +61,11 @@ def burst_counted(check: Property, runtime: ObservedRuntime, event: Counted) -> 
     if event.distinct >= due:
         yield check.kept()
         if len({(b.pushed.component, b.pushed.instance) for b in bursts}) > 1:
-            yield check.kept("R-10.1.6.1-03")
+            yield check.kept(_EMITTERS)
     elif isinstance(step, s.AwaitMessages) and event.received < step.count and not runtime.interactions.held:
         expected = f"{receiver.lane} gets each of the {due} messages that were answered ok"
         observed = f"it has got {event.distinct} of them when patience has run out"
-        yield _violate(check, "R-10.1.2-10", expected, observed, event, "lost")
+        yield _violate(check, _OK_IS_TRUE, expected, observed, event, "lost")
 
 
 def _origin(check: Property, receiver: Member, bursts: list[PushedBurst], event: Counted) -> Conclusions:
@@ -71,31 +75,31 @@ def _origin(check: Property, receiver: Member, bursts: list[PushedBurst], event:
     if event.received and (event.distinct > pushed or event.least < least or event.greatest > greatest):
         expected = f"{receiver.lane} gets {pushed} messages from {least} to {greatest} and nothing else"
         observed = f"it got {event.distinct} from {event.least} to {event.greatest}"
-        yield _violate(check, "R-10.1.6.1-06", expected, observed, event, "invented")
+        yield _violate(check, _ORIGIN, expected, observed, event, "invented")
     elif event.received:
-        yield check.kept("R-10.1.6.1-06")
+        yield check.kept(_ORIGIN)
 
 
 def _once(check: Property, receiver: Member, event: Counted) -> Conclusions:
     if event.received > event.distinct:
         again = event.received - event.distinct
         expected = f"{receiver.lane} gets each message once"
-        yield _violate(check, "R-10.1.6.1-05", expected, f"{again} came again", event, "repeated")
+        yield _violate(check, _ONCE, expected, f"{again} came again", event, "repeated")
     elif event.received:
-        yield check.kept("R-10.1.6.1-05")
+        yield check.kept(_ONCE)
 
 
 def _order(check: Property, runtime: ObservedRuntime, receiver: Member, event: Counted) -> Conclusions:
     """Each burst has numbers of its own, in which the disorder is counted."""
     if event.received < 2:
         return
-    yield check.kept("R-10.1.6.1-07")
+    yield check.kept(_ORDER)
     if not event.disordered:
         yield Taken("message-order", "fifo")
     elif not (yield from takes(runtime, "message-order", "unordered")):
         expected = f"{receiver.lane} gets an emitter's messages in the order in which they were pushed"
         observed = f"{event.disordered} came after a later one"
-        yield _violate(check, "R-10.1.6.1-07", expected, observed, event, "disordered")
+        yield _violate(check, _ORDER, expected, observed, event, "disordered")
 
 
 def _is_busy(runtime: ObservedRuntime, link: LinkState) -> bool:

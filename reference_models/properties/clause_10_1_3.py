@@ -13,6 +13,8 @@ from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Member, lane, raises
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_RUN_IS_CALLED = "R-10.1.3.2-01"
+
 _MILLISECOND = 1_000_000
 
 
@@ -82,7 +84,7 @@ def _is_active_twice(declaration: Declaration) -> bool:
     return is_active and not fails and len(ex.managed_ports(declaration)) > 1
 
 
-@property_at("began", "R-10.1.3.2-01")
+@property_at("began", _RUN_IS_CALLED)
 def runs_again(
     check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
 ) -> Conclusions:
@@ -100,7 +102,7 @@ def runs_again(
         )
 
 
-@property_at("waited", "R-10.1.3.2-01", timed=True)
+@property_at("waited", _RUN_IS_CALLED, timed=True)
 def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> Conclusions:
     """run was called once and not again within most of the scenario's patience, although it returned."""
     step = runtime.scenario.steps[event.step]

@@ -17,6 +17,9 @@ from ucm_cts.reference_models.model.runtime import lane, raises
 from ucm_cts.reference_models.model.service_policies import SERVICES, policies_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_REENTERED, _RUN_IS_CALLED, _RUN_PHASE = "R-10.1.3.2-20", "R-10.1.3.2-01", "R-10.1.3.2-02"
+_UNPROMPTED = "R-10.1.3.2-03"
+
 _SUPPORT = {
     "self-executing": "R-10.1.3.1-12",
     "active": "R-10.1.3.1-13",
@@ -51,7 +54,7 @@ def no_reentry(
             return
 
 
-@property_at("began", "R-10.1.3.2-20")
+@property_at("began", _REENTERED)
 def overlap_possible(
     check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
 ) -> Concluded:
@@ -96,7 +99,7 @@ def _time_passed(runtime: ObservedRuntime, begin: int, end: int) -> bool:
     return any(begin < pause.n < end for pause in runtime.interactions.pauses)
 
 
-@property_at("over", "R-10.1.3.2-20")
+@property_at("over", _REENTERED)
 def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execution, end: int) -> Conclusions:
     """Who waits while an unprotected component is executed is kept out, which is wrong if callers are said to meet."""
     enter = execution.enter
@@ -178,7 +181,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
     )
 
 
-@property_at("called", "R-10.1.3.2-14", "R-10.1.3.2-19", feature="policies")
+@property_at("called", *_BY_ITSELF.values(), feature="policies")
 def no_self_execution(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: ex.BusinessCall | None
 ) -> Concluded:
@@ -244,7 +247,7 @@ def one_execution_policy(check: Property, runtime: ObservedRuntime, ongoing: Ope
         )
 
 
-@property_at("began", "R-10.1.3.2-01", "R-10.1.3.2-02", "R-10.1.3.2-03")
+@property_at("began", _RUN_IS_CALLED, _RUN_PHASE, _UNPROMPTED)
 def run_phases(
     check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
 ) -> Conclusions:
@@ -255,9 +258,9 @@ def run_phases(
         return
     if member is not None and runtime.may_run(member):
         yield check.kept()
-        yield check.kept("R-10.1.3.2-02")
+        yield check.kept(_RUN_PHASE)
         if not member.connections and not member.served:
-            yield check.kept("R-10.1.3.2-03")
+            yield check.kept(_UNPROMPTED)
         return
     who = lane(enter.component, enter.instance)
     yield check.fail(
@@ -265,11 +268,11 @@ def run_phases(
         expected=f"run of '{who}' begins after its on_startup returned and before stop returned",
         observed="run began outside the operational phase",
         at=(enter.n,),
-        requirement="R-10.1.3.2-02",
+        requirement=_RUN_PHASE,
     )
 
 
-@property_at("waited", "R-10.1.3.2-01", "R-10.1.3.2-03", timed=True)
+@property_at("waited", _RUN_IS_CALLED, _UNPROMPTED, timed=True)
 def run_triggered(check: Property, runtime: ObservedRuntime, event: Timeout) -> Conclusions:
     """Once started, a self-executing component is executed within the scenario's patience."""
     step = runtime.scenario.steps[event.step]
@@ -279,7 +282,7 @@ def run_triggered(check: Property, runtime: ObservedRuntime, event: Timeout) -> 
         runs = runtime.runs_since_start(member)
         if member.serving and not runs and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
             unprompted = not member.connections and not member.served
-            for requirement in ("R-10.1.3.2-01", *(("R-10.1.3.2-03",) if unprompted else ())):
+            for requirement in (_RUN_IS_CALLED, *((_UNPROMPTED,) if unprompted else ())):
                 yield check.fail(
                     "never",
                     expected=f"run of '{member.lane}', which is ready, is called",

@@ -16,6 +16,8 @@ from ucm_cts.reference_models.model.runtime import lane
 from ucm_cts.reference_models.model.service_policies import has_several_clocks, only_service, policies_of
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_REAL_TIME, _SYSTEM_TIME = "R-10.1.4.1-09", "R-10.1.4.1-10"
+
 _LARGEST_MICROSECONDS = 999_999
 _LARGEST_SECONDS = 2**32 - 1
 _LONG_ENOUGH = 3
@@ -109,23 +111,23 @@ def local_time_order(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if drift <= tolerance:
                 yield check.kept()
         elif later.asked - earlier.told - went > drift:
-            yield _went_back(check, "R-10.1.4.1-08", earlier, later, 0.0)
+            yield _went_back(check, earlier, later, 0.0)
             return
 
 
-@property_at("closed", "R-10.1.4.1-10")
+@property_at("closed", _SYSTEM_TIME)
 def synchronized_time_agrees(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Of two readings of synchronized time, wherever, the later one is not earlier by more than the tolerance."""
     tolerance = runtime.ics.tolerance("synchronization-tolerance")
     for earlier, later, drift in _pairs(runtime, clocks.SYNCHRONIZED):
         if clocks.passed(earlier.time, later.time) < -tolerance * clocks.MILLISECOND - drift:
-            yield _went_back(check, "R-10.1.4.1-10", earlier, later, tolerance)
+            yield _went_back(check, earlier, later, tolerance)
             return
         if earlier.body != later.body and drift <= tolerance * clocks.MILLISECOND:
             yield check.kept()
 
 
-@property_at("closed", "R-10.1.4.1-10", timed=True)
+@property_at("closed", _SYSTEM_TIME, timed=True)
 def synchronized_time_passes(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Between two readings of one body synchronized time went on, by half of the real time at least."""
     tolerance = runtime.ics.tolerance("synchronization-tolerance") * clocks.MILLISECOND
@@ -143,7 +145,7 @@ def synchronized_time_passes(check: Property, runtime: ObservedRuntime) -> Concl
         return
 
 
-@property_at("closed", "R-10.1.4.1-09", timed=True)
+@property_at("closed", _REAL_TIME, timed=True)
 def local_time_rate(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Between two readings of one body as much local time passed as on the host's monotonic clock, and virtual time."""
     tolerance = runtime.ics.tolerance("clock-tolerance") * clocks.MILLISECOND
@@ -167,7 +169,7 @@ def local_time_rate(check: Property, runtime: ObservedRuntime) -> Conclusions:
         return
 
 
-@property_at("closed", "R-10.1.4.1-09", timed=True)
+@property_at("closed", _REAL_TIME, timed=True)
 def local_time_epoch(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Local time is the host's calendar time, within the tolerance, where the vendor says that it begins like Unix time."""
     if runtime.ics.reading("clock-epoch") != "unix":
@@ -215,9 +217,7 @@ def _pairs(
                 yield earlier, later, calendar[1]
 
 
-def _went_back(
-    check: Property, requirement: str, earlier: clocks.ClockReading, later: clocks.ClockReading, tolerance: float
-) -> Finding:
+def _went_back(check: Property, earlier: clocks.ClockReading, later: clocks.ClockReading, tolerance: float) -> Finding:
     back = _milliseconds(-clocks.passed(earlier.time, later.time))
     return check.fail(
         "one component" if earlier.body == later.body else "two components",
@@ -225,7 +225,6 @@ def _went_back(
         + (f", give or take {tolerance:g} ms" if tolerance else ""),
         observed=f"it was told one that is {back} ms earlier",
         at=(earlier.begin, earlier.end, later.begin, later.end),
-        requirement=requirement,
     )
 
 

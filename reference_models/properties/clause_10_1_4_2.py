@@ -23,6 +23,9 @@ from ucm_cts.reference_models.model.service_policies import (
 )
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_WRITTEN, _LONG_TEXTS, _TEXTS = "R-10.1.4.2-26", "R-10.1.4.2-47", "R-10.1.4.2-53"
+_PORT_TRACE, _NAMED_METHODS = "R-10.1.4.2-04", "R-10.1.4.2-32"
+
 _REFERENCES = {s.CLOCK: "R-10.1.4.1-06", s.COMPONENT_TRACE: "R-10.1.4.2-03"}
 _SEVERAL = "R-10.1.4.2-02"
 _TOO_MANY = "too many"
@@ -87,17 +90,17 @@ def traces_supported(check: Property, runtime: ObservedRuntime, ongoing: Operati
     return ()
 
 
-@property_at("read", "R-10.1.4.2-26", "R-10.1.4.2-47", _SEVERAL, timed=True)
+@property_at("read", _WRITTEN, _LONG_TEXTS, _SEVERAL, timed=True)
 def log_recorded(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """Each call of log leaves one record, from the declared threshold on and none below it."""
     for message in contents.missing:
-        requirement = "R-10.1.4.2-26" if message.is_narrow else "R-10.1.4.2-47"
+        requirement = _WRITTEN if message.is_narrow else _LONG_TEXTS
         expected = f"a record of log({message.severity}, {_shown(message.text)})"
         yield _violated(check, runtime, contents, message, requirement, "none", expected, "there was none")
     for message, record in contents.surplus:
         observed = f"there was another one: {record.severity} {_shown(record.message)}"
         expected = f"one record of log({message.severity}, {_shown(message.text)})"
-        yield _violated(check, runtime, contents, message, "R-10.1.4.2-26", "more than one", expected, observed)
+        yield _violated(check, runtime, contents, message, _WRITTEN, "more than one", expected, observed)
     for message in (m for m in contents.messages if m.barred and m.record is not None):
         yield check.fail(
             "threshold",
@@ -110,11 +113,11 @@ def log_recorded(check: Property, runtime: ObservedRuntime, contents: logs.Conte
         yield check.kept()
 
 
-@property_at("read", "R-10.1.4.2-47", "R-10.1.4.2-53")
+@property_at("read", _LONG_TEXTS, _TEXTS)
 def log_text(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """A record has the text that log was called with."""
     for message in (m for m in contents.messages if m.due):
-        requirement = "R-10.1.4.2-53" if message.is_narrow else "R-10.1.4.2-47"
+        requirement = _TEXTS if message.is_narrow else _LONG_TEXTS
         if message.record is not None:
             yield check.kept(requirement)
         elif message.altered is not None:
@@ -147,7 +150,7 @@ def log_severity_kept(check: Property, runtime: ObservedRuntime, contents: logs.
         )
 
 
-@property_at("read", "R-10.1.4.2-04", "R-10.1.4.2-32", timed=True)
+@property_at("read", _PORT_TRACE, _NAMED_METHODS, timed=True)
 def port_trace_recorded(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
     """Each call of a method that methods_to_trace names has one record with the method's name, or one for each way."""
     for tracing in contents.tracings.values():
@@ -160,7 +163,7 @@ def port_trace_recorded(check: Property, runtime: ObservedRuntime, contents: log
             yield _wrong_number(check, contents, tracing, problem)
         elif tracing.due and len(tracing.records) >= tracing.due:
             yield check.kept()
-            yield check.kept("R-10.1.4.2-32")
+            yield check.kept(_NAMED_METHODS)
 
 
 def _number_problem(
@@ -213,7 +216,7 @@ def _wrong_number(check: Property, contents: logs.Contents, tracing: logs.Tracin
         observed=f"{len(tracing.records)} records contain its name",
         at=contents.events,
         step=contents.step,
-        requirement="R-10.1.4.2-04" if nothing else "R-10.1.4.2-32",
+        requirement=_PORT_TRACE if nothing else _NAMED_METHODS,
     )
 
 

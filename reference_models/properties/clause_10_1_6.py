@@ -15,8 +15,11 @@ from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.model.values_carried import overwritten
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_EMITTERS, _RECEIVERS, _INDEPENDENCE = "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-08"
+_STANDARD, _TEMPLATE = "R-10.1.6.1-10", "R-10.1.6.1-20"
 
-@property_at("closed", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-08", "R-10.1.6.1-10", "R-10.1.6.1-20")
+
+@property_at("closed", _EMITTERS, _RECEIVERS, _INDEPENDENCE, _STANDARD, _TEMPLATE)
 def messages_arrived(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Counts what the properties about missing messages checked: messages that reached every receiver they had to."""
     arrived: dict[str, set[Member | None]] = {}
@@ -25,19 +28,19 @@ def messages_arrived(check: Property, runtime: ObservedRuntime) -> Conclusions:
         ready = [end for end, was_ready in call.targets if was_ready and not msg.counts(end.member)]
         if call.link is None or not ready or not all(msg.was_delivered(call, end) for end in ready):
             continue
-        yield check.kept("R-10.1.6.1-10")
+        yield check.kept(_STANDARD)
         arrived.setdefault(call.link.name, set()).add(call.caller)
         interfaces.add(call.link.interface)
         if len(ready) > 1:
-            yield check.kept("R-10.1.6.1-08" if msg.is_disturbed(runtime, call) else "R-10.1.6.1-04")
+            yield check.kept(_INDEPENDENCE if msg.is_disturbed(runtime, call) else _RECEIVERS)
     if len(interfaces) > 1:
-        yield check.kept("R-10.1.6.1-20")
+        yield check.kept(_TEMPLATE)
     for emitters in arrived.values():
         if len(emitters) > 1:
             yield check.kept()
 
 
-@property_at("waited", "R-10.1.6.1-04", "R-10.1.6.1-08", timed=True)
+@property_at("waited", _RECEIVERS, _INDEPENDENCE, timed=True)
 def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """What entered one receiver enters all that are well; one that is slow or fails costs the others nothing."""
     for call, missing in msg.overdue(runtime, timeout):
@@ -46,12 +49,12 @@ def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
             continue  # ok_kept's matter
         if refused and call.crowded:
             continue
-        requirement = "R-10.1.6.1-08" if disturbed and not refused else "R-10.1.6.1-04"
+        requirement = _INDEPENDENCE if disturbed and not refused else _RECEIVERS
         got = ", ".join(sorted({d.receiver.lane for d in call.deliveries if d.receiver is not None}))
         yield _missing(check, requirement, call, missing, f"it came to {got or 'nobody'}", timeout)
 
 
-@property_at("waited", "R-10.1.6.1-08", timed=True)
+@property_at("waited", _INDEPENDENCE, timed=True)
 def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Whether the others have the message while one of its receivers is held."""
     interactions = runtime.interactions
@@ -71,12 +74,12 @@ def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
         others = [end for end in msg.lasting(runtime, call) if end.member not in holding and msg.is_well(end.member)]
         missing = [end for end in others if not msg.was_delivered(call, end)]
         if missing and not (yield from takes(runtime, "slow-receiver", "shared")):
-            yield _missing(check, "R-10.1.6.1-08", call, missing, "they wait for one that is slow", timeout)
+            yield _missing(check, _INDEPENDENCE, call, missing, "they wait for one that is slow", timeout)
         elif others and not missing:
             yield Taken("slow-receiver", "independent")
 
 
-@property_at("waited", "R-10.1.6.1-03", timed=True)
+@property_at("waited", _EMITTERS, timed=True)
 def many_emitters(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Messages of each emitter arrive, not of one only."""
     for call, missing in msg.overdue(runtime, timeout):
@@ -84,17 +87,17 @@ def many_emitters(check: Property, runtime: ObservedRuntime, timeout: Timeout) -
             continue
         arrived = {c.caller for c in msg.messages(runtime) if c.link is call.link and c.deliveries}
         if arrived and call.caller not in arrived:
-            yield _missing(check, "R-10.1.6.1-03", call, missing, "only another emitter's came", timeout)
+            yield _missing(check, _EMITTERS, call, missing, "only another emitter's came", timeout)
 
 
-@property_at("waited", "R-10.1.6.1-20", timed=True)
+@property_at("waited", _TEMPLATE, timed=True)
 def message_template(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Messages of each type arrive, not of one only."""
     for call, missing in msg.overdue(runtime, timeout):
         arrived = {c.link.interface for c in msg.messages(runtime) if c.link is not None and c.deliveries}
         if call.code != msg.OK or call.link is None or not arrived or call.link.interface in arrived:
             continue
-        yield _missing(check, "R-10.1.6.1-20", call, missing, "only another type's came", timeout)
+        yield _missing(check, _TEMPLATE, call, missing, "only another type's came", timeout)
 
 
 @property_at("delivered", "R-10.1.6.1-05")
@@ -192,7 +195,7 @@ def values_isolated(check: Property, runtime: ObservedRuntime, delivery: Deliver
     return ()
 
 
-@property_at("linked", "R-10.1.6.1-03", "R-10.1.6.1-04", "R-10.1.6.1-10", "R-10.1.6.1-20")
+@property_at("linked", _EMITTERS, _RECEIVERS, _STANDARD, _TEMPLATE)
 def message_connector(
     check: Property, runtime: ObservedRuntime, link: LinkState | None, step: s.ConnectorCall, end: Result
 ) -> Concluded:
@@ -201,7 +204,7 @@ def message_connector(
         return ()
     if isinstance(step, s.Link) and step.connector == s.MESSAGE_CONNECTOR:
         others = {o.interface for o in runtime.interactions.links.values() if o.connector == step.connector}
-        requirement = "R-10.1.6.1-20" if others - {step.interface} else "R-10.1.6.1-10"
+        requirement = _TEMPLATE if others - {step.interface} else _STANDARD
         what = f"a message connector for {step.interface}"
     elif isinstance(step, s.Attach) and link is not None and link.connector == s.MESSAGE_CONNECTOR:
         member = runtime.members.get(step.id)
@@ -211,8 +214,8 @@ def message_connector(
             return ()
         if step.role == "emitter" and not link.live("receiver") and end.error in ("UCM_ERROR", "BAD_PARAMETER"):
             return ()  # refused_attachment's matter
-        several = "R-10.1.6.1-03" if step.role == "emitter" else "R-10.1.6.1-04"
-        requirement = several if link.live(step.role) else "R-10.1.6.1-10"
+        several = _EMITTERS if step.role == "emitter" else _RECEIVERS
+        requirement = several if link.live(step.role) else _STANDARD
         what = f"{step.port} of {member.lane} as {step.role} of {link.name}, which has {len(link.live(step.role))}"
     else:
         return ()
@@ -220,7 +223,7 @@ def message_connector(
     return check.fail(s.operation(step), expected=what, observed=observed, event=end, requirement=requirement)
 
 
-@property_at("ended", "R-10.1.6.1-10", at=("start",), feature="interactions")
+@property_at("ended", _STANDARD, at=("start",), feature="interactions")
 def joined_and_started(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Whoever is joined by a message connector can be started."""
     if not isinstance(ongoing.end, Raise) or ongoing.forgiving:

@@ -12,8 +12,10 @@ from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_IN_PHASE = "R-10.1.6.1-09"
 
-@property_at("delivered", "R-10.1.6.1-09")
+
+@property_at("delivered", _IN_PHASE)
 def message_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Concluded:
     """No message enters a receiver before start was called on its container, or after stop returned."""
     receiver, call = delivery.receiver, delivery.call
@@ -37,7 +39,7 @@ def message_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery
     )
 
 
-@property_at("delivered", "R-10.1.6.1-09")
+@property_at("delivered", _IN_PHASE)
 def later_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """A message of an earlier phase comes in a later one only if the vendor has not declared that it does not."""
     call, receiver = delivery.call, delivery.receiver
@@ -57,7 +59,7 @@ def later_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) 
         )
 
 
-@property_at("waited", "R-10.1.6.1-09", timed=True)
+@property_at("waited", _IN_PHASE, timed=True)
 def kept_for_later_phases(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """A message that waits for the next start comes then, where the vendor has declared it."""
     for call in msg.messages(runtime):
@@ -89,7 +91,7 @@ def kept_for_later_phases(check: Property, runtime: ObservedRuntime, timeout: Ti
                 )
 
 
-@property_at("ended", "R-10.1.6.1-09", at=("stop",), feature="interactions")
+@property_at("ended", _IN_PHASE, at=("stop",), feature="interactions")
 def delivered_at_stop(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     """All that had got ok has arrived when stop returns, where the vendor has declared it."""
     if isinstance(ongoing.end, Raise):
@@ -108,7 +110,7 @@ def delivered_at_stop(check: Property, runtime: ObservedRuntime, ongoing: Operat
                 )
 
 
-@property_at("completed", "R-10.1.6.1-09")
+@property_at("completed", _IN_PHASE)
 def unready_receivers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     """What is pushed to a receiver that is not operational is answered as the vendor has declared."""
     if not call.is_message or not call.idle or not msg.is_whole(runtime, call) or not msg.is_quiet(runtime, call):

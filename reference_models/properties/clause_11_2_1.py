@@ -17,12 +17,14 @@ from ucm_cts.reference_models.properties.clause_11_2_2 import listing_problem
 from ucm_cts.reference_models.properties.clause_11_2_3 import outside_life
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_BEFORE_INIT, _ATTRIBUTES = "R-11.2.1.2-05", "R-10.1.1-06"
+
 _UNDOING = ("disconnect", "remove_component", "remove_container", "destroy")
 _SHOWN = 3
 """So many attributes are told of."""
 
 
-@property_at("entered", "R-11.2.1.2-05", "R-10.1.1-06", at=("on_init",), feature="attributes")
+@property_at("entered", _BEFORE_INIT, _ATTRIBUTES, at=("on_init",), feature="attributes")
 def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """On entry to on_init the body holds the configured attribute values."""
     event = callback.event
@@ -36,12 +38,12 @@ def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: 
     if not wrong:
         yield check.kept()
     else:
-        yield _holds_others(check, "R-11.2.1.2-05", declaration, wrong, held, callback)
+        yield _holds_others(check, _BEFORE_INIT, declaration, wrong, held, callback)
     typed = {a for a, value in declaration.attributes.items() if read_spelled(value) is not None}
     if typed and not typed.intersection(wrong):
-        yield check.kept("R-10.1.1-06")
+        yield check.kept(_ATTRIBUTES)
     elif typed:
-        yield _holds_others(check, "R-10.1.1-06", declaration, [a for a in wrong if a in typed], held, callback)
+        yield _holds_others(check, _ATTRIBUTES, declaration, [a for a in wrong if a in typed], held, callback)
 
 
 def _is_configured(held: str | None, configured: str) -> bool:

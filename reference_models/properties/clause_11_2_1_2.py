@@ -11,6 +11,9 @@ from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_RESOLVED, _HANDED_OVER, _AGAIN = "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10"
+_ONE_REFERENCE, _DANGLING = "R-12.10-25", "R-11.2.3-14"
+
 
 def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
     """The non-null references of ``on_startup`` by port element name; several entries of one name are one."""
@@ -20,7 +23,7 @@ def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
     return by_port
 
 
-@property_at("entered", "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10", "R-12.10-25", at=("on_startup",))
+@property_at("entered", _RESOLVED, _HANDED_OVER, _AGAIN, _ONE_REFERENCE, at=("on_startup",))
 def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_startup names each connected required port element and gives the reference it was connected to."""
     event, member, ongoing, _ = callback
@@ -31,7 +34,7 @@ def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) 
     problem = _problem(member, given)
     if problem is None:
         if member.live_connections():
-            return (check.kept("R-11.2.3-10" if again else "R-11.2.1.2-09"), check.kept(), check.kept("R-12.10-25"))
+            return (check.kept(_AGAIN if again else _HANDED_OVER), check.kept(), check.kept(_ONE_REFERENCE))
         return ()
     requirement, cause, expected, observed = problem
     return check.fail(
@@ -40,7 +43,7 @@ def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) 
         observed=observed,
         during=(ongoing, event),
         instead=(Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
-        requirement="R-11.2.3-10" if again else requirement,
+        requirement=_AGAIN if again else requirement,
     )
 
 
@@ -50,7 +53,7 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
     foreign = [p for p in given if p not in required]
     if foreign:
         names = ", ".join(required) or "nothing"
-        return "R-11.2.1.2-09", "name", f"dependencies named {names}", f"a dependency named {foreign[0]}"
+        return _HANDED_OVER, "name", f"dependencies named {names}", f"a dependency named {foreign[0]}"
     for port in member.declaration.requires:
         if given.get(port) == [c.reference for c in member.connections if c.port == port]:
             continue  # the common case: what was connected, and what of it was undone is no_dangling_reference's matter
@@ -61,7 +64,7 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
         references = [r for r in given.get(port, []) if r not in undone]  # no_dangling_reference's matter
         if certain and not references:
             what = "no reference for it" if port in given else "nothing of that name"
-            return "R-11.2.1.2-09", "missing", f"a reference for {port}, which is connected", what
+            return _HANDED_OVER, "missing", f"a reference for {port}, which is connected", what
         wanted = {c.reference for c in connections if isinstance(c.reference, Reference)}
         strangers = [
             r
@@ -71,18 +74,18 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
             and all(isinstance(c.reference, Reference) for c in connections)
         ]
         if strangers and certain:
-            return "R-11.2.1.2-03", "reference", f"{port} = {_expected(member)}", f"{port} = {_show(strangers[0])}"
+            return _RESOLVED, "reference", f"{port} = {_expected(member)}", f"{port} = {_show(strangers[0])}"
         lost = [c for c in certain if isinstance(c.reference, Reference) and c.reference not in references]
         if lost and all(isinstance(r, Reference) for r in references) and not lost[0].stale:
             shown = ", ".join(map(_show, references))
-            return "R-11.2.1.2-09", "missing", f"{_show(lost[0].reference)} for {port}, connected last", shown
+            return _HANDED_OVER, "missing", f"{_show(lost[0].reference)} for {port}, connected last", shown
         if certain and len(references) > len(connections):
             expected = f"{len(connections)} reference(s) for {port}, one a connection"
-            return "R-12.10-25", "count", expected, f"{len(references)} references"
+            return _ONE_REFERENCE, "count", expected, f"{len(references)} references"
     return None
 
 
-@property_at("entered", "R-11.2.2.1-10", "R-11.2.3-14", at=("on_startup",))
+@property_at("entered", "R-11.2.2.1-10", _DANGLING, at=("on_startup",))
 def no_dangling_reference(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
     event, member, ongoing, _ = callback
@@ -99,7 +102,7 @@ def no_dangling_reference(check: Property, runtime: ObservedRuntime, callback: C
                     expected=f"{provider.lane} was removed, so {port} is not connected to it",
                     observed=f"on_startup handed over {_show(reference)} for {port}",
                     during=(ongoing, event),
-                    requirement="R-11.2.3-14",
+                    requirement=_DANGLING,
                 )
                 return
             of_port = [c for c in member.connections if c.port == port and c.reference == reference]
@@ -112,7 +115,7 @@ def no_dangling_reference(check: Property, runtime: ObservedRuntime, callback: C
                 )
                 return
     if any(c.provider is not None and c.provider.gone for c in member.connections):
-        yield check.kept("R-11.2.3-14")
+        yield check.kept(_DANGLING)
     if any(c.live is False and c.provider is not None and not c.provider.gone for c in member.connections):
         yield check.kept()
 

@@ -14,6 +14,8 @@ from ucm_cts.reference_models.model.operation import DECLARED_ERRORS, OperationI
 from ucm_cts.reference_models.model.runtime import Container, Member
 from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
+_FAILED_INIT = "R-12.10-22"
+
 DECLARED = {
     "add_component": "R-12.10-04",
     "remove_component": "R-12.10-05",
@@ -31,12 +33,15 @@ DECLARED = {
 
 _SMALLEST, _LARGEST = -(2**31), 2**31 - 1
 
-_FROM_TABLE = requirements("""
+_FROM_TABLE = (
+    _FAILED_INIT,
+    *requirements("""
     R-11.1.3-02 R-11.1.3-03 R-11.2.1.1-01 R-11.2.1.3-01 R-11.2.2.1-01 R-11.2.2.1-05 R-11.2.2.1-07 R-11.2.2.1-08
     R-11.2.2.1-10 R-11.2.2.2-02 R-11.2.2.2-03 R-11.2.2.2-06 R-11.2.3-06 R-11.2.3-07 R-11.2.3-08 R-11.2.3-10
     R-11.2.3-11 R-11.2.3-13 R-11.2.3-15 R-12.10-15 R-12.10-16 R-12.10-17 R-12.10-18 R-12.10-19 R-12.10-20
-    R-12.10-21 R-12.10-22 R-12.10-23 R-12.10-24 R-12.10-26
-""")
+    R-12.10-21 R-12.10-23 R-12.10-24 R-12.10-26
+"""),
+)
 
 
 @property_at("ended", *DECLARED.values())
@@ -90,7 +95,7 @@ def component_ids(check: Property, runtime: ObservedRuntime, ongoing: OperationI
     """Component ids are 32-bit, and distinct among the live members of a container."""
     if isinstance(ongoing.end, Return):
         live = [m.id for m in ongoing.container.live_members() if not m.doubtful]
-        return _identifier(check, ongoing, ongoing.end, live, "component", "R-11.2.2.1-03", "R-12.10-02")
+        return _identifier(check, ongoing, ongoing.end, live, "component")
     return ()
 
 
@@ -102,13 +107,12 @@ def connection_ids(check: Property, runtime: ObservedRuntime, ongoing: Operation
         replaced = (ongoing.subject, ongoing.step.port)  # what it takes the place of may lend it its id
         others = [c for c in runtime.all_connections() if c.live and (c.client, c.port) != replaced]
         live = [c.id for c in others if c.client.container is ongoing.container]
-        return _identifier(check, ongoing, ongoing.end, live, "connection", "R-11.2.2.1-09", "R-12.10-03")
+        return _identifier(check, ongoing, ongoing.end, live, "connection")
     return ()
 
 
-def _identifier(
-    check: Property, ongoing: OperationInProgress, end: Return, live: list[int], kind: str, unique: str, in_range: str
-) -> Concluded:
+def _identifier(check: Property, ongoing: OperationInProgress, end: Return, live: list[int], kind: str) -> Concluded:
+    unique, in_range = check.stands_for
     value = end.value
     if not isinstance(value, int) or not _SMALLEST <= value <= _LARGEST:
         text = f"{ongoing.operation} returned {value!r}"
@@ -146,16 +150,15 @@ def port_element_identity(check: Property, runtime: ObservedRuntime, ongoing: Op
     return ()
 
 
-@property_at("ended", "R-11.2.2.1-14", "R-12.10-22", at=("get_components",))
+@property_at("ended", "R-11.2.2.1-14", _FAILED_INIT, at=("get_components",))
 def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """get_components lists exactly the live members; a failed add has left nothing among them."""
     if not isinstance(ongoing.end, Return) or not ongoing.outcome.permitted:
         return ()
     listed = ongoing.end.value if isinstance(ongoing.end.value, tuple) else ()
     problem = listing_problem(runtime, ongoing.container, listed)
-    requirement = "R-11.2.2.1-14"
-    if ongoing.container.failed_adds and (problem is None or problem.startswith("holds")):
-        requirement = "R-12.10-22"
+    after_failure = ongoing.container.failed_adds and (problem is None or problem.startswith("holds"))
+    requirement = _FAILED_INIT if after_failure else check.stands_for[0]
     if problem is None:
         return (check.kept(requirement), check.kept())
     members = ", ".join(f"{m.id} ({m.lane})" for m in ongoing.container.live_members()) or "none"

@@ -14,13 +14,17 @@ from ucm_cts.reference_models.model.operation_end import OF_ALL_MEMBERS
 from ucm_cts.reference_models.model.runtime import Member, lane, raises
 from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
+_READY_BY_START, _ENDED_BY_SHUTDOWN = "R-11.2.3-09", "R-11.2.1.2-10"
+
 _ELSEWHERE, _OF_THE_MANAGER = "R-11.1.3-04", "R-11.2.2.2-01"
 _FROM_TABLE = (
     _ELSEWHERE,
     _OF_THE_MANAGER,
+    _READY_BY_START,
+    _ENDED_BY_SHUTDOWN,
     *requirements("""
-    R-11.2.1.2-04 R-11.2.1.2-06 R-11.2.1.2-10 R-11.2.1.3-02 R-11.2.1.3-03 R-11.2.1.3-05 R-11.2.1.4-01
-    R-11.2.2.1-11 R-11.2.2.1-12 R-11.2.2.2-04 R-11.2.2.2-05 R-11.2.3-01 R-11.2.3-05 R-11.2.3-09 R-11.2.3-07
+    R-11.2.1.2-04 R-11.2.1.2-06 R-11.2.1.3-02 R-11.2.1.3-03 R-11.2.1.3-05 R-11.2.1.4-01
+    R-11.2.2.1-11 R-11.2.2.1-12 R-11.2.2.2-04 R-11.2.2.2-05 R-11.2.3-01 R-11.2.3-05 R-11.2.3-07
     R-11.2.3-12 R-11.2.3-15
 """),
 )
@@ -176,11 +180,10 @@ def nothing_outside_life(check: Property, runtime: ObservedRuntime, callback: Ca
     return (finding, Suspended(member)) if member is not None else (finding,)
 
 
-@property_at("unclear", "R-11.2.3-09", "R-11.2.1.2-10", at=("on_startup", "on_shutdown"))
+@property_at("unclear", _READY_BY_START, _ENDED_BY_SHUTDOWN, at=("on_startup", "on_shutdown"))
 def alternation(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """No second on_startup without on_shutdown between, no on_shutdown without on_startup before: whatever else is unclear."""
     event, member, ongoing, history = callback
-    started_again, not_started = check.stands_for
     if ongoing is None or member is None or not member.suspended:
         return ()  # the table's matter, or whole_life's
     declaration = runtime.scenario.components.get(event.component)
@@ -193,7 +196,7 @@ def alternation(check: Property, runtime: ObservedRuntime, callback: Callback) -
         expected="on_startup and on_shutdown alternate",
         observed=f"{event.hook} after {', '.join(history.phases) or 'neither'}",
         during=(ongoing, event),
-        requirement=started_again if event.hook == "on_startup" else not_started,
+        requirement=_READY_BY_START if event.hook == "on_startup" else _ENDED_BY_SHUTDOWN,
     )
 
 

@@ -12,8 +12,11 @@ from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgres
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
+_METHODS, _OPERATIONAL, _OWN_ELEMENT = "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06"
+_DISABLED, _NOT_RUN = "R-11.2.3-02", "R-11.2.3-17"
 
-@property_at("answered", "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06")
+
+@property_at("answered", _METHODS, _OPERATIONAL, _OWN_ELEMENT)
 def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end: Result) -> Conclusions:
     """A call through a reference enters an operational body once, with the value sent, and returns its result."""
     member, port = call.callee, call.port
@@ -28,26 +31,26 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
     if not own or isinstance(end, Raise):
         expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
         observed = f"it raised {end.error} {end.detail}" if isinstance(end, Raise) else "the body was not entered"
-        yield _violate(check, "R-11.2.1.2-07", "not served", expected, observed, call.n, end.n, member)
+        yield _violate(check, _OPERATIONAL, "not served", expected, observed, call.n, end.n, member)
         return
     enter, exit_ = own[0]
     result = exit_.value if exit_ is not None else None
     if enter.port == port and enter.value == call.value and end.value == result and len(own) == 1:
-        yield check.kept("R-11.2.1.2-07")
+        yield check.kept(_OPERATIONAL)
         yield check.kept()
-        yield check.kept("R-11.2.2.1-06")
+        yield check.kept(_OWN_ELEMENT)
         return
-    yield check.kept("R-11.2.1.2-07")
+    yield check.kept(_OPERATIONAL)
     if enter.port != port:
         observed = f"it ran {member.lane}'s {enter.port}"
         expected = f"the reference that get_port_element gave for {port} runs {member.lane}'s {port}"
-        yield _violate(check, "R-11.2.2.1-06", "another port", expected, observed, call.n, end.n, member)
+        yield _violate(check, _OWN_ELEMENT, "another port", expected, observed, call.n, end.n, member)
         return
     observed = f"the body received {enter.value}, returned {result}, the caller got {end.value}"
     if len(own) > 1:
         observed = f"the body was entered {len(own)} times"
     expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
-    yield _violate(check, "R-11.2.1.1-02", "wrong value", expected, observed, call.n, end.n, member)
+    yield _violate(check, _METHODS, "wrong value", expected, observed, call.n, end.n, member)
 
 
 @property_at("replied", "R-11.1.3-01", "R-11.1.2-02")
@@ -59,7 +62,8 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
     providers, fragments, targets = behind_call(runtime, call, request)
     if not providers:
         return ()
-    requirement = "R-11.1.2-02" if fragments else "R-11.1.3-01"
+    of_components, of_fragments = check.stands_for
+    requirement = of_fragments if fragments else of_components
     wanted = call.value
     if len(call.entries) == 1:  # the common case: it reached one body, the right one
         enter, exit_ = call.entries[0]
@@ -101,10 +105,10 @@ def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, 
     if not reply.raised:
         return check.kept()
     expected = f"{caller.lane} and {providers[0].lane} are ready, so the call comes back"
-    return _violate(check, "R-11.2.3-03", "refused", expected, "the call raised", call.n, reply.n, providers[0])
+    return _violate(check, check.stands_for[0], "refused", expected, "the call raised", call.n, reply.n, providers[0])
 
 
-@property_at("called", "R-11.2.3-02", at=("body", "nobody"))
+@property_at("called", _DISABLED, at=("body", "nobody"))
 def disabled_ports(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
 ) -> Concluded:
@@ -138,7 +142,7 @@ def disabled_ports(
     )
 
 
-@property_at("replied", "R-11.2.3-02")
+@property_at("replied", _DISABLED)
 def refused_ports(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Concluded:
     """A call that a component makes as soon as it is told to start may be refused: ports were closed until then, too."""
     if call.caller_hook == "on_startup" and reply.raised and not call.entries:
@@ -161,11 +165,10 @@ def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: B
         observed=f"{caller} called {who}'s {event.port} during add_component",
         during=(ongoing, event),
         instead=(Arrow("test", ongoing.container.name, "start"), Arrow(caller, who, "exchange")),
-        requirement="R-11.2.3-02",
     )
 
 
-@property_at("called", "R-11.2.3-17", at=("nobody",))
+@property_at("called", _NOT_RUN, at=("nobody",))
 def nothing_after_stop(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
 ) -> Concluded:
@@ -183,7 +186,7 @@ def nothing_after_stop(
     )
 
 
-@property_at("ended", "R-11.2.3-17", at=("get_components", "get_port_element"))
+@property_at("ended", _NOT_RUN, at=("get_components", "get_port_element"))
 def quiet_after_stop(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Counts what nothing_after_stop watched: queries of a container stopped after it had served calls."""
     if ongoing.container.started is not False:

@@ -18,6 +18,8 @@ from ucm_cts.reference_models.model.operation import Fitted, OperationInProgress
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at, requirements
 
+_REVERSE_ORDER = "R-11.2.2.1-13"
+
 _WITH_CHOICES = requirements("""
     R-11.2.2.1-08 R-11.2.2.2-02 R-11.2.3-06 R-11.2.3-07 R-11.2.3-10 R-11.2.3-11 R-11.2.3-13 R-11.2.3-15
     R-12.10-22 R-12.10-23 R-12.10-24
@@ -141,7 +143,7 @@ def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: Operation
         return
 
 
-@property_at("entered", "R-11.2.2.1-13", at=("on_startup",))
+@property_at("entered", _REVERSE_ORDER, at=("on_startup",))
 def declared_order(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """Who declares that members are started one by one does not start them at a time, by several threads."""
     event, member, ongoing, _ = callback
@@ -157,7 +159,7 @@ def declared_order(check: Property, runtime: ObservedRuntime, callback: Callback
         )
 
 
-@property_at("entered", "R-11.2.2.1-13", at=("on_startup",), timed=True)
+@property_at("entered", _REVERSE_ORDER, at=("on_startup",), timed=True)
 def declared_meeting(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """Who declares that members are started at once does not let one wait until another one's on_startup has ended.
 

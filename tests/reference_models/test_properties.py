@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import random
+import re
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -23,6 +24,8 @@ from ucm_cts.reference_models.properties.table import PROPERTIES
 
 SCENARIOS, MUTANTS = 6, 8
 PROPERTY_MODULES = Path(table.__file__).parent
+MODELS = PROPERTY_MODULES.parent
+REQUIREMENT = re.compile(r"R-[\d.]+-\d+")
 
 
 @pytest.fixture(scope="module")
@@ -78,3 +81,11 @@ def test_properties_write_nothing() -> None:
                 targets = node.targets if isinstance(node, ast.Assign) else [node.target]
                 written = [t for t in targets if isinstance(t, ast.Attribute | ast.Subscript)]
                 assert not written, f"{path.name}:{node.lineno} writes {ast.unparse(written[0])}"
+
+
+@pytest.mark.parametrize("path", sorted(MODELS.glob("[mp]*/*.py")), ids=lambda path: path.stem)
+def test_each_requirement_id_is_typed_once_in_a_module(path: Path) -> None:
+    """An id that a module needs more than once is bound to a constant."""
+    texts = [node.value for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Constant)]
+    typed = Counter(found for text in texts if isinstance(text, str) for found in REQUIREMENT.findall(text))
+    assert not [requirement for requirement, times in typed.items() if times > 1]
