@@ -17,7 +17,7 @@ from ucm_cts.adapters.contract.trace import Event, LogRecord, Paused, Reply, Req
 from ucm_cts.adapters.mutants.python.registry import Base, bind
 from ucm_cts.adapters.mutants.python.variants import clocks_and_traces as variants
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
-from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.integrity import contradiction

@@ -17,7 +17,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Stressed, Trace
 from ucm_cts.adapters.mutants.python.registry import Base, bind
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
-from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.purposes.scripts import TestPurpose, load_scripts, to_scenario

@@ -13,7 +13,8 @@ from ucm_cts.adapters.contract.programming_model import Implementation, PortConn
 from ucm_cts.adapters.mutants.python import MUTANTS
 from ucm_cts.adapters.mutants.python.registry import Base, bind
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
-from ucm_cts.adapters.reference.python.framework import ContainerManager, Failures, Member
+from ucm_cts.adapters.reference.python.framework import ContainerManager
+from ucm_cts.adapters.reference.python.members import Failures, Member
 
 
 def __getattr__(name: str) -> type[ReferenceAdapter]:

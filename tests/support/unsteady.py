@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 from ucm_cts.adapters.mutants.python.registry import Base, bind
-from ucm_cts.adapters.reference.python.framework import Failures, Member
+from ucm_cts.adapters.reference.python.members import Failures, Member
 
 
 class Forgets(Base):

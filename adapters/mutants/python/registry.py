@@ -13,7 +13,8 @@ from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.python.connectors import Link
-from ucm_cts.adapters.reference.python.framework import Container, ContainerManager, Member
+from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
+from ucm_cts.adapters.reference.python.members import HasMembers, Member
 
 CONTAINER = ("11", "12.10")
 POLICIES = ("10.1.3",)
@@ -200,6 +201,12 @@ class GivesOutProxies(Base):
         return super().connect(instance, port_name, to_port.target if isinstance(to_port, Proxy) else to_port)
 
 
-def is_below(container: Container) -> bool:
+def container_of(member: Member) -> Container:
+    """The container that has the member."""
+    assert isinstance(member.container, Container)
+    return member.container
+
+
+def is_below(container: HasMembers) -> bool:
     """Is it a sub-container?"""
     return container is not container.manager

@@ -12,14 +12,11 @@ import threading
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNECTOR
-
-if TYPE_CHECKING:
-    from ucm_cts.adapters.reference.python.framework import Container, ContainerManager, Member
+from ucm_cts.adapters.reference.python.members import HasMembers, Member
 
 OK, INTERNAL_ERROR, COMM_ERROR = "ok", "internal_error", "comm_error"
 """The return codes of 10.1.2."""
@@ -122,7 +119,7 @@ class LinkElement(pm.PortElementObject):
 class Link:
     """A connection and its connector. One concern a method, for variants to override."""
 
-    def __init__(self, manager: ContainerManager, connector: str, interface: Interface) -> None:
+    def __init__(self, manager: UsesConnectors, connector: str, interface: Interface) -> None:
         self.manager = manager
         self.connector = connector
         self.interface = interface
@@ -131,7 +128,7 @@ class Link:
 
     # what an adapter calls
 
-    def attach(self, role: str, container: Container, comp_instance: int, port: str) -> None:
+    def attach(self, role: str, container: HasMembers, comp_instance: int, port: str) -> None:
         with container._operation():
             member = container._find_member(comp_instance)
             if role == TAKERS[self.connector]:
@@ -141,7 +138,7 @@ class Link:
             else:
                 raise pm.BadParameter(f"{self.connector} has no role {role!r}")
 
-    def detach(self, container: Container, comp_instance: int, port: str) -> None:
+    def detach(self, container: HasMembers, comp_instance: int, port: str) -> None:
         with container._operation():
             member = container._find_member(comp_instance)
             takers = [taker for taker in self.takers if (taker.member, taker.port) == (member, port)]
@@ -237,12 +234,16 @@ def _copy(value: Datum) -> Datum:
     return [_copy(one) for one in value] if isinstance(value, list) else value
 
 
-class UsesConnectors:
+class UsesConnectors(HasMembers):
     """The part of a container that has to do with connectors."""
+
+    manager: UsesConnectors
+    links: list[Link]
+    """The manager keeps all connections with a connector."""
 
     link_class: type[Link] = Link
 
-    def link(self: Container, connector: str, interface: Interface) -> Link:  # type: ignore[misc]
+    def link(self, connector: str, interface: Interface) -> Link:
         """A connection without ends, with a connector of that name. Raises ``UcmError`` if there is no such connector."""
         with self._operation():
             if connector not in SENDERS:
@@ -251,17 +252,17 @@ class UsesConnectors:
             self.manager.links.append(link)
             return link
 
-    def _takers_of(self: Container, member: Member) -> list[tuple[Link, Taker]]:  # type: ignore[misc]
+    def _takers_of(self, member: Member) -> list[tuple[Link, Taker]]:
         return [(link, taker) for link in self.manager.links for taker in link.takers if taker.member is member]
 
-    def _open_entrances(self: Container, member: Member) -> None:  # type: ignore[misc]
+    def _open_entrances(self, member: Member) -> None:
         for _, taker in self._takers_of(member):
             taker.entrance.open()
 
-    def _close_entrances(self: Container, member: Member) -> None:  # type: ignore[misc]
+    def _close_entrances(self, member: Member) -> None:
         for _, taker in self._takers_of(member):
             taker.close()
 
-    def _leave_links(self: Container, member: Member) -> None:  # type: ignore[misc]
+    def _leave_links(self, member: Member) -> None:
         for link, taker in self._takers_of(member):
             link.remove(taker)

@@ -9,15 +9,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
+from ucm_cts.adapters.reference.python.members import Member
 from ucm_cts.adapters.reference.python.policies import ExecutesComponents
-
-if TYPE_CHECKING:
-    from ucm_cts.adapters.contract.data_types import Datum
-    from ucm_cts.adapters.reference.python.framework import ContainerManager, Member
 
 T = TypeVar("T")
 
@@ -31,8 +29,8 @@ Record = tuple[str, str]
 class ServiceElement(PortElementObject):
     """A port element that the container provides to one of its components by ``policy``."""
 
-    def __init__(self, member: Member, policy: s.Policy) -> None:
-        self.member, self.policy = member, policy
+    def __init__(self, container: OffersServices, member: Member, policy: s.Policy) -> None:
+        self.container, self.member, self.policy = container, member, policy
 
     def exchange(self, value: int) -> int:
         raise UcmError(f"{self.policy.definition!r} has no method 'exchange'")
@@ -42,7 +40,7 @@ class ClockElement(ServiceElement):
     """clock_service_intf."""
 
     def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        container = self.member.container
+        container = self.container
         if method == "get_local_time":
             return [container._time_value(container._local_time(self.member) + container.manager.advanced)]
         if method == "get_synchronized_time":
@@ -57,7 +55,7 @@ class TraceElement(ServiceElement):
         if method != "log":
             raise UcmError(f"the trace has no method {method!r}")
         severity, message = arguments
-        container = self.member.container
+        container = self.container
         if severity not in container.severities:
             raise UcmError(f"there is no severity {severity!r}")
         container._log(self.member, str(severity), str(message))
@@ -67,8 +65,8 @@ class TraceElement(ServiceElement):
 class TracedElement(PortElementObject):
     """Stands for a port element, provided or required, whose calls are traced."""
 
-    def __init__(self, member: Member, port: str, element: PortElementObject) -> None:
-        self.member, self.port, self.element = member, port, element
+    def __init__(self, container: OffersServices, member: Member, port: str, element: PortElementObject) -> None:
+        self.container, self.member, self.port, self.element = container, member, port, element
 
     def exchange(self, value: int) -> int:
         return self._traced("exchange", lambda: self.element.exchange(value))
@@ -77,13 +75,15 @@ class TracedElement(PortElementObject):
         return self._traced(method, lambda: self.element.call(method, arguments))
 
     def _traced(self, method: str, work: Callable[[], T]) -> T:
-        return self.member.container._trace_call(self.member, self.port, method, work)
+        return self.container._trace_call(self.member, self.port, method, work)
 
 
 class OffersServices(ExecutesComponents):
     """The part of a container that offers clock and trace. One concern each, for variants to override."""
 
-    manager: ContainerManager
+    manager: OffersServices
+    log: list[Record]
+    """The manager keeps all records of the runtime."""
     severities: Sequence[str] = ("trace", "debug", "info", "warning", "error", "critical")
     """The enumerators of log_severity_t, least first."""
 
@@ -121,17 +121,17 @@ class OffersServices(ExecutesComponents):
         port = connection.from_port
         if not self._port_traces(member, port):
             return tuple(connection.to_port)
-        return tuple(target and TracedElement(member, port, target) for target in connection.to_port)
+        return tuple(target and TracedElement(self, member, port, target) for target in connection.to_port)
 
     def _service_element(self, member: Member, policy: s.Policy) -> PortConnection:
         kind = ClockElement if policy.definition == s.CLOCK else TraceElement
-        return PortConnection(policy.element or "", (kind(member, policy),))
+        return PortConnection(policy.element or "", (kind(self, member, policy),))
 
     def _reference_to(self, member: Member, port: str) -> PortElementObject | None:
         element = super()._reference_to(member, port)
         if element is None or not self._port_traces(member, port):
             return element
-        return member.traced.setdefault(port, TracedElement(member, port, element))
+        return member.traced.setdefault(port, TracedElement(self, member, port, element))
 
     # the clock, in nanoseconds
 

@@ -11,75 +11,21 @@ from __future__ import annotations
 
 import itertools
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
-from enum import Enum
+from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.reference.python.connectors import Link, UsesConnectors
-from ucm_cts.adapters.reference.python.container_services import OffersServices, Record, TracedElement
-from ucm_cts.adapters.reference.python.policies import Execution
-
-
-class State(Enum):
-    """Where a member is in the life cycle of 11.2.3; initialized and configured differ only in its connections."""
-
-    CONFIGURING = "initialized or configured"
-    READY = "ready"
-
-
-class Member:
-    """A component or fragment in a container: its body, its implementation and its state."""
-
-    def __init__(
-        self, number: int, implementation: pm.Implementation, body: pm.ComponentObject, container: Container
-    ) -> None:
-        self.id = number
-        self.implementation = implementation
-        self.body = body
-        self.container = container
-        self.state = State.CONFIGURING
-        self.execution = Execution(implementation.policies)
-        self.traced: dict[str, TracedElement] = {}
-
-
-@dataclass(frozen=True)
-class Connection:
-    """Required port element ``port`` of ``client``, connected to ``target``."""
-
-    id: int
-    client: Member
-    port: str
-    target: pm.PortElementObject
-
-
-class Failures:
-    """Carries on when a body raises, and remembers that it did."""
-
-    def __init__(self) -> None:
-        self.first = ""
-
-    def attempt(self, callback: Callable[..., None], *arguments: object) -> bool:
-        """Call a body; False if it raised."""
-        try:
-            callback(*arguments)
-        except Exception as error:  # noqa: BLE001 - a body may raise anything
-            self.first = self.first or f"{callback.__name__} raised {type(error).__name__}: {error}"
-            return False
-        return True
-
-    def report(self) -> None:
-        """Raise ``UcmError`` if any call failed."""
-        if self.first:
-            raise pm.UcmError(self.first)
+from ucm_cts.adapters.reference.python.container_services import OffersServices, Record
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 
 class Container(OffersServices, UsesConnectors):
     """Members with a common life cycle (11.2.2.1)."""
 
+    manager: ContainerManager
+
     def __init__(self, manager: ContainerManager | None) -> None:
-        self.manager: ContainerManager = manager or self  # type: ignore[assignment]  # the manager is its own
+        self.manager = manager or self  # type: ignore[assignment]  # the manager is its own
         self.members: dict[int, Member] = {}
         self.started: list[Member] = []
         self.is_started = False
@@ -162,10 +108,6 @@ class Container(OffersServices, UsesConnectors):
 
     # one concern each; what a variant of this framework overrides
 
-    def _new_id(self) -> int:
-        """A number that no component or connection of the runtime has, had or will have."""
-        return next(self.manager.numbers)
-
     def _find_implementation(self, name: str, attributes: Mapping[str, str]) -> pm.Implementation:
         implementation = self.manager.implementations.get(name)
         if implementation is None:
@@ -175,20 +117,6 @@ class Container(OffersServices, UsesConnectors):
             raise pm.UcmError(f"{name!r} has no attribute {min(unknown)!r}")
         self._check_policies(implementation)
         return implementation
-
-    def _find_member(self, number: int) -> Member:
-        if number not in self.members:
-            raise pm.NotFound(f"no component {number}")
-        return self.members[number]
-
-    def _check_alive(self) -> None:
-        if self.manager.is_removed or self.is_removed:
-            raise pm.UcmError("the container has been removed")
-
-    def _check_configuring(self) -> None:
-        """Members and their connections change in the configuration phase only (11.2.3)."""
-        if self.is_started:
-            raise pm.UcmError("the container has been started")
 
     def _check_startable(self) -> None:
         """Only a container whose members are all configured starts, so that nothing ever starts halfway."""
@@ -222,30 +150,6 @@ class Container(OffersServices, UsesConnectors):
 
     def _initialise(self, member: Member) -> None:
         member.body.on_init()
-
-    def _connect_to(self, member: Member, port: str, target: pm.PortElementObject) -> int:
-        connection = Connection(self._new_id(), member, port, target)
-        self._connect(connection)
-        return connection.id
-
-    def _undo(self, connection: Connection) -> None:
-        failures = Failures()
-        self._disconnect(connection, failures)
-        failures.report()
-
-    def _connect(self, connection: Connection) -> None:
-        body = connection.client.body
-        if isinstance(body, pm.Connectable):
-            failures = Failures()
-            failures.attempt(body.on_connect, connection.port, connection.target)
-            failures.report()
-        self.manager.connections[connection.id] = connection
-
-    def _disconnect(self, connection: Connection, failures: Failures) -> None:
-        del self.manager.connections[connection.id]
-        body = connection.client.body
-        if isinstance(body, pm.Connectable):
-            failures.attempt(body.on_disconnect, connection.port)
 
     def _start_order(self) -> Sequence[Member]:
         return list(self.members.values())
@@ -308,12 +212,6 @@ class Container(OffersServices, UsesConnectors):
 
     # looking up connections
 
-    def _is_connected(self, member: Member, port: str) -> bool:
-        return any(connection.port == port for connection in self._connections_from(member))
-
-    def _connections_from(self, member: Member) -> list[Connection]:
-        return [c for c in self.manager.connections.values() if c.client is member]
-
     def _connections_to(self, member: Member) -> list[Connection]:
         elements = [self._reference_to(member, port) for port in member.implementation.provides]
         return [c for c in self.manager.connections.values() if any(c.target is element for element in elements)]
@@ -321,19 +219,6 @@ class Container(OffersServices, UsesConnectors):
     def _connections_of_members(self) -> list[Connection]:
         touched = {c.id for m in self.members.values() for c in self._connections_from(m) + self._connections_to(m)}
         return [c for c in self.manager.connections.values() if c.id in touched]
-
-    @contextmanager
-    def _operation(self) -> Iterator[None]:
-        """One operation at a time; a body that calls back into its container is told that it cannot."""
-        if self.manager.busy_thread == threading.get_ident():
-            raise pm.UcmError("the runtime is in the middle of an operation")
-        with self.manager.lock:
-            self.manager.busy_thread = threading.get_ident()
-            try:
-                self._check_alive()
-                yield
-            finally:
-                self.manager.busy_thread = None
 
 
 class ContainerManager(Container):

@@ -6,117 +6,34 @@ that is inside may enter again; calls that come back to the component on another
 
 from __future__ import annotations
 
-import queue
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
-
-if TYPE_CHECKING:
-    from ucm_cts.adapters.reference.python.framework import Member
-
-_PROTECTED = {s.SELF_EXECUTING, s.ACTIVE, s.PROTECTED_PASSIVE}
-_POLICIES = {*_PROTECTED, s.UNPROTECTED_PASSIVE}
+from ucm_cts.adapters.reference.python.execution import POLICIES, PROTECTED, Trigger
+from ucm_cts.adapters.reference.python.members import HasMembers, Member
 
 T = TypeVar("T")
-
-
-class Execution:
-    """How one component is executed: what its policies say, and the lock and threads it takes."""
-
-    def __init__(self, policies: Sequence[s.Policy]) -> None:
-        self.definition = next((p.definition for p in policies if p.definition in _POLICIES), "")
-        self.managed = {policy.port for policy in policies if policy.definition == s.ACTIVE}
-        self.lock = threading.RLock()
-        self.thread_inside: int | None = None
-        self.executor = Executor()
-        self.trigger: Trigger | None = None
-        self.references: dict[str, ProtectedElement] = {}
-
-    @property
-    def is_inside(self) -> bool:
-        """Is the calling thread in the component?"""
-        return self.thread_inside == threading.get_ident()
-
-
-class Executor:
-    """The thread of an active component; it is started by the first call."""
-
-    def __init__(self) -> None:
-        self._calls: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
-        self._lock = threading.Lock()
-        self._is_running = False
-        self._is_closed = False
-
-    def execute(self, work: Callable[[], T]) -> T:
-        """Have ``work`` done by the thread and wait for its outcome, which may be an exception."""
-        outcome: Future[T] = Future()
-
-        def call() -> None:
-            try:
-                outcome.set_result(work())
-            except BaseException as error:  # noqa: BLE001 - whatever it is, the caller gets it
-                outcome.set_exception(error)
-
-        with self._lock:
-            if self._is_closed:
-                raise pm.UcmError("the component has been removed")
-            if not self._is_running:
-                threading.Thread(target=self._serve, daemon=True).start()
-                self._is_running = True
-            self._calls.put(call)
-        return outcome.result()
-
-    def close(self) -> None:
-        """End the thread, once the calls that are waiting have been served."""
-        with self._lock:
-            self._is_closed = True
-            self._calls.put(None)
-
-    def _serve(self) -> None:
-        while call := self._calls.get():
-            call()
-
-
-class Trigger:
-    """What makes a self-executing component run, from one start to the next stop."""
-
-    def __init__(self) -> None:
-        self.ended = threading.Event()
-        self._running = threading.RLock()
-
-    def run(self, run: Callable[[], None]) -> None:
-        """Run, unless it has ended."""
-        with self._running:
-            if not self.ended.is_set():
-                run()
-
-    def end(self) -> None:
-        """Run no more; a run that has begun is waited for."""
-        self.ended.set()
-        with self._running:
-            pass
 
 
 class ProtectedElement(pm.PortElementObject):
     """Stands for a provided port element of a protected component."""
 
-    def __init__(self, member: Member, port: str, element: pm.PortElementObject) -> None:
-        self.member, self.port, self.element = member, port, element
+    def __init__(self, container: ExecutesComponents, member: Member, port: str, element: pm.PortElementObject) -> None:
+        self.container, self.member, self.port, self.element = container, member, port, element
 
     def exchange(self, value: int) -> int:
-        return self.member.container._execute(self.member, self.port, lambda: self.element.exchange(value))
+        return self.container._execute(self.member, self.port, lambda: self.element.exchange(value))
 
     def call(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        return self.member.container._execute(self.member, self.port, lambda: self.element.call(method, arguments))
+        return self.container._execute(self.member, self.port, lambda: self.element.call(method, arguments))
 
 
-class ExecutesComponents:
+class ExecutesComponents(HasMembers):
     """The part of a container that applies execution policies. One concern each, for variants to override."""
 
     period = 0.002
@@ -125,7 +42,7 @@ class ExecutesComponents:
     def _check_policies(self, implementation: pm.Implementation) -> None:
         policies = implementation.policies
         for policy in policies:
-            if policy.definition not in _POLICIES or policy.parameters:
+            if policy.definition not in POLICIES or policy.parameters:
                 raise pm.UcmError(f"{implementation.name!r} has an unknown policy: {policy}")
             due = implementation.provides if policy.definition == s.ACTIVE else (None,)
             if policy.port not in due:
@@ -138,14 +55,13 @@ class ExecutesComponents:
             self._execution_api(member)
 
     def _is_protected(self, member: Member) -> bool:
-        return member.execution.definition in _PROTECTED
+        return member.execution.definition in PROTECTED
 
     def _reference_to(self, member: Member, port: str) -> pm.PortElementObject | None:
-        """What others get to know of a provided port element: always the same object."""
-        element = member.body.get_portElement(port)
+        element = super()._reference_to(member, port)
         if element is None or not self._is_protected(member):
             return element
-        return member.execution.references.setdefault(port, ProtectedElement(member, port, element))
+        return member.execution.references.setdefault(port, ProtectedElement(self, member, port, element))
 
     def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
         """Enter a protected component at ``port``, or at ``run``."""

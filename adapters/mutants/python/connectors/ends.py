@@ -14,7 +14,7 @@ from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNEC
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import OK, Link, Taker
-from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.members import Member
 
 _CALLS, _EXCEPTIONS = "R-10.1.5.1-01", "R-10.1.5.1-10"
 _ARRIVES = "R-10.1.2-10"

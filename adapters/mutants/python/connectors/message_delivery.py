@@ -17,7 +17,7 @@ from ucm_cts.adapters.mutants.python.connectors.message_receivers import Synchro
 from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import OK, Link, Taker
-from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.members import Member
 
 _MESSAGES = ("10.1.6",)
 _ALL = ("10.1.6", "10.1.2")

@@ -14,7 +14,7 @@ from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
 from ucm_cts.adapters.mutants.python.methods import does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK, Entrance, Link, Taker
-from ucm_cts.adapters.reference.python.framework import Failures, Member
+from ucm_cts.adapters.reference.python.members import Failures, Member
 
 
 class Synchronous(Link):

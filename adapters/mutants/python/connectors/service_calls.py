@@ -12,7 +12,7 @@ from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SERVICE_CONNEC
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
-from ucm_cts.adapters.reference.python.framework import Container, Member
+from ucm_cts.adapters.reference.python.members import HasMembers, Member
 
 _CLAUSES = ("10.1.5",)
 _CALLS, _CLIENTS, _OWN, _ONE_SERVER = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-05"
@@ -275,7 +275,7 @@ class _Undone(Services):
 
     undone = False
 
-    def detach(self, container: Container, comp_instance: int, port: str) -> None:
+    def detach(self, container: HasMembers, comp_instance: int, port: str) -> None:
         if not container.is_started:
             super().detach(container, comp_instance, port)
             return

@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.programming_model import DeclaredException, UcmEr
 from ucm_cts.adapters.mutants.python.connectors.service_calls import Services
 from ucm_cts.adapters.mutants.python.methods import replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
-from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.members import Member
 
 T = TypeVar("T")
 

@@ -9,7 +9,7 @@ from ucm_cts.adapters.contract.programming_model import Implementation, PortConn
 from ucm_cts.adapters.contract.scenario import CLOCK, Policy
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
-from ucm_cts.adapters.reference.python.framework import Failures, Member
+from ucm_cts.adapters.reference.python.members import Failures, Member
 
 SECOND = 1_000_000_000
 HERE = ("10.1.4",)

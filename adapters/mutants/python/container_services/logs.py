@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.scenario import COMPONENT_TRACE, PORT_TRACE, Poli
 from ucm_cts.adapters.mutants.python.container_services.clocks import HERE, Withholds
 from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
-from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.members import Member
 
 T = TypeVar("T")
 

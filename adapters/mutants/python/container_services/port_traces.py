@@ -13,7 +13,7 @@ from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, replac
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
 from ucm_cts.adapters.reference.python.connectors import Link
 from ucm_cts.adapters.reference.python.container_services import Record
-from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.members import Member
 
 T = TypeVar("T")
 

@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.mutants.python.altering import Carried, Change, carries, changing, made_to, register_carried
 from ucm_cts.adapters.mutants.python.methods import replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, variant_of
-from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.members import Member
 
 _CLAUSE = ("10.1.1",)
 

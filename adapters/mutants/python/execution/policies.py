@@ -11,10 +11,11 @@ from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
-from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, Proxy, breaks, breaks_policy
+from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, Proxy, breaks, breaks_policy, container_of
 from ucm_cts.adapters.reference.python.connectors import Link, Taker
-from ucm_cts.adapters.reference.python.framework import Member
-from ucm_cts.adapters.reference.python.policies import ProtectedElement, Trigger
+from ucm_cts.adapters.reference.python.execution import Trigger
+from ucm_cts.adapters.reference.python.members import Member
+from ucm_cts.adapters.reference.python.policies import ProtectedElement
 
 T = TypeVar("T")
 
@@ -102,7 +103,7 @@ def protects_from_calls_only(_self: Link, taker: Taker, method: str) -> None:
 @does_only_if("_post", "R-10.1.2-10", clauses=POLICIES)
 def loses_messages_to_protected_components(_self: Link, taker: Taker, *_: object) -> bool:
     """Messages to protected components get ok and are lost."""
-    return not taker.member.container._is_protected(taker.member)
+    return not container_of(taker.member)._is_protected(taker.member)
 
 
 @replaces("_execute", "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16", clauses=POLICIES)
@@ -350,7 +351,7 @@ class _Truncates(Base):
         if member.execution.definition != self.definition or element is None or not self._truncates(member, port):
             return element
         inner = element.element if isinstance(element, ProtectedElement) else element
-        return member.execution.references.setdefault(f"{port}, truncated", _Forwards(member, port, inner))
+        return member.execution.references.setdefault(f"{port}, truncated", _Forwards(self, member, port, inner))
 
     def _truncates(self, member: Member, port: str) -> bool:
         return True

@@ -10,8 +10,8 @@ from typing import TypeVar
 from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
 from ucm_cts.adapters.mutants.python.methods import replaces
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, breaks_policy
-from ucm_cts.adapters.reference.python.framework import Failures, Member
-from ucm_cts.adapters.reference.python.policies import Trigger
+from ucm_cts.adapters.reference.python.execution import Trigger
+from ucm_cts.adapters.reference.python.members import Failures, Member
 
 T = TypeVar("T")
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from ucm_cts.adapters.contract.programming_model import PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.mutants.python.methods import alters
 from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, breaks
-from ucm_cts.adapters.reference.python.framework import Container, Failures, Member
+from ucm_cts.adapters.reference.python.framework import Container
+from ucm_cts.adapters.reference.python.members import Failures, Member
 
 
 class _HandsOver(Base):

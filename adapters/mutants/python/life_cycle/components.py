@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks
-from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member
 
 
 @breaks("R-11.2.1.1-01")

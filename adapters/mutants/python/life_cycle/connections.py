@@ -6,7 +6,7 @@ from ucm_cts.adapters.contract.programming_model import Connectable, FragmentObj
 from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
 from ucm_cts.adapters.mutants.python.variants.readings import appends_connections, cascades
-from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member
 
 # what on_startup gets
 

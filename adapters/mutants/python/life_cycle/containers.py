@@ -8,7 +8,8 @@ from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks, is_below
 from ucm_cts.adapters.mutants.python.variants.phases import starts_all_at_a_time
-from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Failures, Member, State
+from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 
 class _Nudge(Proxy):

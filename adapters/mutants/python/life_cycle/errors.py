@@ -8,7 +8,8 @@ from typing import Any
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
-from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Member
+from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
+from ucm_cts.adapters.reference.python.members import Connection, Member
 
 
 @alters("add_component", "R-12.10-02")

@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from ucm_cts.adapters.contract.programming_model import FragmentObject, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, replaces
-from ucm_cts.adapters.mutants.python.registry import Base, breaks, is_below
+from ucm_cts.adapters.mutants.python.registry import Base, breaks, container_of, is_below
 from ucm_cts.adapters.mutants.python.variants.readings import adds_later, configures_at_any_time
-from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
+from ucm_cts.adapters.reference.python.framework import Container
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 # members, listed, started and stopped
 
@@ -94,14 +95,14 @@ class finds_members_elsewhere(Base):
         if member.container is self:
             super()._remove(member, failures)
         else:
-            member.container._remove(member, failures)
+            container_of(member)._remove(member, failures)
 
 
 @replaces("disconnect", "R-12.10-16", also=("R-11.1.3-04",))
 def undoes_connections_elsewhere(self: Base, connection: int) -> None:
     """Connection ids work with every container of the runtime."""
     found = self.manager.connections.get(connection)
-    container = found.client.container if found is not None else self
+    container = container_of(found.client) if found is not None else self
     Container.disconnect(container, connection)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
-from ucm_cts.adapters.reference.python.framework import Connection, Failures, Member, State
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 
 @breaks("R-11.2.3-01", "R-11.2.3-02", also=("R-11.2.1.2-10", "R-11.2.2.1-11", "R-11.2.2.2-01"))

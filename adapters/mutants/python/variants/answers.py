@@ -8,7 +8,8 @@ from ucm_cts.adapters.contract.programming_model import BadParameter, FragmentOb
 from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, variant
 from ucm_cts.adapters.mutants.python.variants import readings
-from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member
+from ucm_cts.adapters.reference.python.framework import Container
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member
 
 # which error comes first
 

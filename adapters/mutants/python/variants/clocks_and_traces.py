@@ -12,7 +12,7 @@ from ucm_cts.adapters.contract.scenario import Policy
 from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, is_below, variant_of
 from ucm_cts.adapters.reference.python.container_services import Record
-from ucm_cts.adapters.reference.python.framework import Member
+from ucm_cts.adapters.reference.python.members import Member
 
 T = TypeVar("T")
 

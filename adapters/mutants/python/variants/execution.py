@@ -12,8 +12,8 @@ from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
 from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Policy
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, variant_of
-from ucm_cts.adapters.reference.python.framework import Failures, Member
-from ucm_cts.adapters.reference.python.policies import Executor, Trigger
+from ucm_cts.adapters.reference.python.execution import Executor, Trigger
+from ucm_cts.adapters.reference.python.members import Failures, Member
 
 _EXECUTION = frozenset((SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE, UNPROTECTED_PASSIVE))
 

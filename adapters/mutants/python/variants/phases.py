@@ -17,7 +17,8 @@ from ucm_cts.adapters.mutants.python.registry import (
     variant_of,
 )
 from ucm_cts.adapters.mutants.python.variants.readings import manager_reaches_down
-from ucm_cts.adapters.reference.python.framework import Container, Failures, State
+from ucm_cts.adapters.reference.python.framework import Container
+from ucm_cts.adapters.reference.python.members import Failures, State
 
 
 def _all_containers(container: Container) -> list[Container]:

@@ -7,7 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import replaces
 from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, is_below, variant
-from ucm_cts.adapters.reference.python.framework import Connection, Container, ContainerManager, Failures, Member, State
+from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 
 @variant

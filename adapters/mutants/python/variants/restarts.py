@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.mutants.python.methods import replaces
-from ucm_cts.adapters.mutants.python.registry import Base, is_below, variant
+from ucm_cts.adapters.mutants.python.registry import Base, container_of, is_below, variant
 from ucm_cts.adapters.mutants.python.variants import readings
-from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
+from ucm_cts.adapters.reference.python.framework import Container
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 
 def _take_down(member: Member, failures: Failures) -> None:
     member.container.started.remove(member)
-    member.container._shut_down(member, failures)
+    container_of(member)._shut_down(member, failures)
 
 
 @variant
@@ -97,11 +98,11 @@ class manager_knows_everyone(Base):
         if member.container is self:
             super()._remove(member, failures)
         else:
-            member.container._remove(member, failures)
+            container_of(member)._remove(member, failures)
 
     def disconnect(self, connection: int) -> None:
         found = self.manager.connections.get(connection)
-        container = found.client.container if found is not None and not is_below(self) else self
+        container = container_of(found.client) if found is not None and not is_below(self) else self
         Container.disconnect(container, connection)
 
 

@@ -13,8 +13,8 @@ from ucm_cts.adapters.contract.scenario import SERVICE_CONNECTOR
 from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, variant_of
 from ucm_cts.adapters.reference.python.connectors import Link, LinkElement, Taker
-from ucm_cts.adapters.reference.python.framework import Container, Member
-from ucm_cts.adapters.reference.python.policies import Executor
+from ucm_cts.adapters.reference.python.execution import Executor
+from ucm_cts.adapters.reference.python.members import HasMembers, Member
 
 T = TypeVar("T")
 
@@ -183,7 +183,7 @@ class aborts_calls_of_stopped_servers(Base):
 class _LetsGo(Link):
     """May be undone while everything is started; calls in progress finish."""
 
-    def detach(self, container: Container, comp_instance: int, port: str) -> None:
+    def detach(self, container: HasMembers, comp_instance: int, port: str) -> None:
         if self.connector != SERVICE_CONNECTOR or not container.is_started:
             super().detach(container, comp_instance, port)
             return

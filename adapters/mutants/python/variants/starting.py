@@ -10,7 +10,8 @@ from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, variant
 from ucm_cts.adapters.mutants.python.variants import readings
-from ucm_cts.adapters.reference.python.framework import Connection, Container, Failures, Member, State
+from ucm_cts.adapters.reference.python.framework import Container
+from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
 
 # what on_startup gets
 
