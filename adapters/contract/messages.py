@@ -2,7 +2,7 @@
 
 The harness sends ``hello`` once and then any number of ``run`` without waiting for answers; the host answers each in
 order. A whole scenario travels in one message and its whole trace comes back in one. With ``stream`` the host sends
-each event as it happens, before the trace message; the harness asks for that when it takes a second look at a crash.
+each event as it happens, before the trace message; the harness asks for that when it runs a scenario again after a crash.
 ``protocol.schema.json`` beside this file is generated from these types (``python -m ucm_cts.adapters.contract.messages``).
 """
 

@@ -113,9 +113,9 @@ def read_toml(path: Path, largest: int = LARGEST) -> tuple[dict[str, Any], dict[
         return tomllib.loads(text), _toml_lines(text)
     except tomllib.TOMLDecodeError as error:
         problem, _, place = str(error).partition(" (at ")
-        told = re.match(r"line (\d+)", place)
+        named = re.match(r"line (\d+)", place)
         last = text.rstrip("\n").count("\n") + 1
-        raise DocumentError(path, int(told[1]) if told else last, f"not TOML: {problem}; mend it there") from None
+        raise DocumentError(path, int(named[1]) if named else last, f"not TOML: {problem}; mend it there") from None
     except RecursionError:
         raise DocumentError(path, None, "nests too deep") from None
     except ValueError:
@@ -144,7 +144,7 @@ def _line(mark: Any) -> int:
 
 
 def _refuse_anchors_and_depth(path: Path, text: str) -> None:
-    """Look at the event stream first: composing a deeply nested document would recurse."""
+    """Check the event stream first: composing a deeply nested document would recurse."""
     depth = 0
     for event in yaml.parse(text, Loader=_Loader):
         if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):

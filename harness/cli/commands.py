@@ -25,7 +25,7 @@ from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_
 from ucm_cts.harness.cli.toolchain_command import certify_toolchain, profiles_of
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
-from ucm_cts.harness.execution.repeating import looking, repeated
+from ucm_cts.harness.execution.repeating import repeated, steady_search
 from ucm_cts.harness.hosting.hosts import HostUnavailable
 from ucm_cts.harness.hosting.locate import WrongUse, locate
 from ucm_cts.harness.purposes.scripts import TestPurpose, read_scripts, to_scenario
@@ -33,7 +33,7 @@ from ucm_cts.harness.purposes.selection import select
 from ucm_cts.harness.purposes.systematic.purposes import MOST_EXTRA
 from ucm_cts.harness.report.diagrams.sequence_text import failure_text, replay_text
 from ucm_cts.harness.report.write import prepare_folder, save_report
-from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean, one_line
+from ucm_cts.harness.results.foreign import LONGEST_STACKS, clean
 from ucm_cts.harness.results.known_failures import known_today
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.applicability import purposes_for
@@ -54,12 +54,7 @@ def cli() -> None:
 @options.profile_option
 @click.option("-k", "expression", default="", help="Only test purposes whose id, clause or requirement contains this.")
 @options.seed_option
-@click.option(
-    "--out",
-    type=options.Folder(file_okay=False, path_type=Path),
-    default=Path("ucm-cts-report"),
-    show_default=True,
-)
+@options.out_folder("ucm-cts-report")
 @click.option("--known-failures", type=click.Path(dir_okay=False, path_type=Path), help="Failures expected for now.")
 @options.ics_option
 @options.toolchain_option
@@ -131,11 +126,11 @@ def run(
             try:
                 with Driver(endpoint, drawn + len(reports), limits) as driver:
                     if reports and not _is_of(driver.identity, reports[0]):
-                        cut_short = f"{which} was of another product, '{_name(driver.identity)}'"
+                        cut_short = f"{which} was of another product, '{options.name_of(driver.identity)}'"
                         continue
                     if not reports:
                         check_subject(statement, driver.identity, profile)
-                        options.greet(console, _name(driver.identity), profile, drawn)
+                        options.greet(console, options.name_of(driver.identity), profile, drawn)
                         prepare_folder(out)
                     campaign = Campaign(driver, profile, known, statement)
                     try:
@@ -149,7 +144,7 @@ def run(
                     raise
                 cut_short = f"{which} could not begin: {problem}"
         try:
-            report = repeated(reports, looking(endpoint, limits, statement.ics))
+            report = repeated(reports, steady_search(endpoint, limits, statement.ics))
         except (HostUnavailable, KeyboardInterrupt) as problem:
             interrupted = interrupted or isinstance(problem, KeyboardInterrupt)
             report = repeated(reports, lambda failed, seed: None)
@@ -175,10 +170,6 @@ def _is_of(identity: Welcome, report: FrameworkReport) -> bool:
     return (identity.product, identity.version) == (report.product, report.version)
 
 
-def _name(identity: Welcome) -> str:
-    return one_line(f"{identity.product} {identity.version}", 80)
-
-
 def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output, which: str = "") -> None:
     with progress_of(console) as progress:
         task = progress.add_task(f"{which}checking", total=len(purposes))
@@ -186,19 +177,17 @@ def _check(campaign: Campaign, purposes: Sequence[TestPurpose], console: Output,
         for checked in campaign.check(purposes):
             failing += bool(checked.failures)
             progress.update(task, advance=1, description=f"{which}{failing} failing, {_short(checked.purpose.id)}")
-        progress.update(task, description="taking second looks")
+        progress.update(task, description="confirming failures")
         campaign.confirm()
         if failing:
-            progress.update(task, description="looking for the shortest scenarios")
+            progress.update(task, description="shortening scenarios of failures")
             for _ in campaign.shorten():
                 pass
 
 
 @cli.command()
 @options.adapter_argument
-@click.option(
-    "--out", type=click.Path(dir_okay=False, path_type=Path), default=Path("ucm-cts-ics.toml"), show_default=True
-)
+@options.out_file("ucm-cts-ics.toml")
 @options.toolchain_option
 @click.option("--force", is_flag=True, help="Write over a file that is there.")
 @click.pass_context
@@ -245,7 +234,7 @@ def explain(requirement: str) -> None:
 def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: int | None, timeout: float) -> None:
     """Run the scenario in FILE on ADAPTER and print what happens as a sequence diagram.
 
-    Exit status 1 if any rule was broken.
+    Exit status 1 if there is any finding.
     """
     if file.suffix == ".xml":
         raise WrongUse(
@@ -258,8 +247,7 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
     with ends_like_interrupts(), Driver(locate(adapter, in_process), seed or 0, Limits(timeout)) as driver:
         for answer in driver.run((script.scenario, to_scenario(script)) for script in scripts):
             execution = driver.revealed(answer)
-            product = one_line(f"{driver.identity.product} {driver.identity.version}", 80)
-            console.out(f"{execution.name} on {product}\n", highlight=False)
+            console.out(f"{execution.name} on {options.name_of(driver.identity)}\n", highlight=False)
             console.out(replay_text(execution), highlight=False)
             if execution.incident is not None:
                 failed = True
@@ -270,9 +258,8 @@ def replay(file: Path, adapter: str, ics: Path | None, in_process: bool, seed: i
             for finding in findings:
                 console.out("\n" + failure_text(finding, execution), highlight=False)
             failed = failed or bool(findings)
-            console.out(
-                "\nno rule was broken" if not findings else f"\n{len(findings)} rule(s) broken", highlight=False
-            )
+            number = f"{len(findings) or 'no'} finding{'' if len(findings) == 1 else 's'}"
+            console.out(f"\n{number}", highlight=False)
     options.leave(console, options.NOT_CONFORMANT if failed else options.CONFORMANT)
 
 

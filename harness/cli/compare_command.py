@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from ucm_cts.harness.cli.options import CONFORMANT, leave
+from ucm_cts.harness.cli.options import CONFORMANT, leave, out_file
 from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.comparison import compare as lay_side_by_side
@@ -19,13 +19,7 @@ from ucm_cts.harness.results.foreign import one_line
 
 @click.command()
 @click.argument("reports", nargs=-1, type=click.Path(dir_okay=False, path_type=Path), metavar="REPORT...")
-@click.option(
-    "--out",
-    type=click.Path(dir_okay=False, path_type=Path),
-    default=Path("ucm-cts-comparison.html"),
-    show_default=True,
-    help="The page to write.",
-)
+@out_file("ucm-cts-comparison.html", "The page to write.")
 def compare(reports: Sequence[Path], out: Path) -> None:
     """Lay the reports in the files REPORT, each a report.json, side by side, requirement by requirement.
 

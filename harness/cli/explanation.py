@@ -25,7 +25,7 @@ from ucm_cts.reference_models.properties.table import PROPERTIES
 
 
 def explanation(identifier: str) -> RenderableType:
-    """The requirement ``identifier``: clause, meaning, how observed, interpretations, rules, scenarios."""
+    """The requirement ``identifier``: clause, meaning, how observed, interpretations, properties, scenarios."""
     requirement = _find(identifier)
     interpretations = {i.id: i for i in load_interpretations()}
     lines: list[RenderableType] = [
@@ -39,29 +39,32 @@ def explanation(identifier: str) -> RenderableType:
         ("Not checked yet", requirement.pending),
         ("Observed", requirement.observed),
     ):
-        if text:
-            lines += [Text(), Text(f"{label}: ", style="bold") + Text(text)]
+        lines += _paragraph(f"{label}: ", text) if text else []
     for name in requirement.interpretations:
         entry = interpretations[name]
-        lines += [Text(), Text(f"Interpretation {name}: ", style="bold") + Text(entry.reason)]
-        lines += [Text(f"  {line}") for line in entry.lines[1:]]
-        lines += [Text(f"  {option}: {', '.join(readings)}") for option, readings in entry.options.items()]
+        options = [f"{option}: {', '.join(readings)}" for option, readings in entry.options.items()]
+        lines += _paragraph(f"Interpretation {name}: ", entry.reason, *entry.lines[1:], *options)
     for need in load_capabilities().of(requirement.id):
-        lines += [Text(), Text("Applies where the vendor states: ", style="bold") + Text(_needed(need))]
+        lines += _paragraph("Applies where the vendor states: ", _needed(need))
     checks = CHECKS | TOOLCHAIN_CHECKS
     for rule in requirement.rules:
         doc = checks[rule] if rule in checks else (PROPERTIES[rule].evaluate.__doc__ or "").strip().splitlines()[0]
-        lines += [Text(), Text(f"Rule {rule}: ", style="bold") + Text(doc)]
+        lines += _paragraph(f"Checked by {rule}: ", doc)
     offered = load_purposes(requirement.profile) if requirement.profile in FRAMEWORK_PROFILES else ()
     purposes = [p for p in offered if requirement.id in p.requirements]
     if purposes:
-        lines += [Text(), Text("Scenarios that exercise it:", style="bold")]
-        lines += [Text(f"  {p.id}: {p.text} ({_count(len(p.scenarios))})") for p in purposes]
+        scenarios = [f"{p.id}: {p.text} ({_count(len(p.scenarios))})" for p in purposes]
+        lines += _paragraph("Scenarios that exercise it:", "", *scenarios)
     cases = [q for q in questions() if q.requirement == requirement.id] if requirement.profile == "pim" else []
     if cases:
-        lines += [Text(), Text("Models that ask about it:", style="bold")]
-        lines += [Text(f"  {q.due} {q.name}{f': {q.because}' if q.because else ''}") for q in cases]
+        models = [f"{q.due} {q.name}{f': {q.because}' if q.because else ''}" for q in cases]
+        lines += _paragraph("Models that ask about it:", "", *models)
     return Group(*lines)
+
+
+def _paragraph(label: str, text: str, *lines: str) -> list[Text]:
+    """A blank line, ``text`` behind its bold label, and ``lines`` below it."""
+    return [Text(), Text(label, style="bold") + Text(text), *(Text(f"  {line}") for line in lines)]
 
 
 def overview() -> RenderableType:

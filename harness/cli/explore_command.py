@@ -22,7 +22,6 @@ from ucm_cts.harness.exploring.memory import Memory, Remembered, open_databases
 from ucm_cts.harness.exploring.printing import found_text, is_found, known_text, mishaps, write_exploration
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.report.write import prepare_folder, write_failures
-from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.values import FrameworkReport
 from ucm_cts.harness.statement.files import check_subject, stated_by
@@ -71,12 +70,7 @@ class _Budget(click.ParamType):  # type: ignore[type-arg] # generic since click 
 )
 @options.framework_profile_option
 @options.seed_option
-@click.option(
-    "--out",
-    type=options.Folder(file_okay=False, path_type=Path),
-    default=Path("ucm-cts-exploration"),
-    show_default=True,
-)
+@options.out_folder("ucm-cts-exploration")
 @click.option(
     "--database",
     "databases",
@@ -114,8 +108,7 @@ def explore(
         prepare_folder(out)
         database = open_databases(databases or [str(out / "examples")])
         memory = Memory(database, identity.product, profile)
-        name = one_line(f"exploring {identity.product} {identity.version}", 80)
-        options.greet(console, name, profile, drawn)
+        options.greet(console, f"exploring {options.name_of(identity)}", profile, drawn)
         exploration = Exploration(driver, profile, statement, memory)
         known, far, interrupted = _explore(exploration, memory, budget, console)
         report = exploration.report()
@@ -138,7 +131,7 @@ def _explore(
     known: list[Replayed] = []
     far = HowFar(0, 0, 0, 0, 0)
     with _progress(console) as progress:
-        task = progress.add_task("trying what is remembered", total=budget.amount)
+        task = progress.add_task("running remembered failures", total=budget.amount)
         try:
             known = exploration.replay()
             if known or memory.unreadable:
@@ -149,7 +142,7 @@ def _explore(
                 _show(progress, task, far, spent)
                 if spent >= budget.amount:
                     break
-            progress.update(task, description="looking for the shortest scenarios", completed=budget.amount)
+            progress.update(task, description="shortening scenarios of failures", completed=budget.amount)
             exploration.finish()
         except KeyboardInterrupt:
             return known, far, True

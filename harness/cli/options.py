@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeVar
 
 import click
 
@@ -16,8 +16,12 @@ from ucm_cts.harness.catalogue.requirements import in_the_making
 from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.execution.driver import Limits
 from ucm_cts.harness.report.summary import summary
+from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import KnownFailure, stale, succeeded
 from ucm_cts.harness.results.values import Report
+from ucm_cts.harness.statement.files import Identity
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 CONFORMANT, NOT_CONFORMANT, WRONG_USE, HARNESS_FAILED = 0, 1, 2, 3
 """Exit statuses; NOT_CONFORMANT includes inconclusive runs."""
@@ -54,6 +58,18 @@ class Profile(click.Choice):  # type: ignore[type-arg] # generic since click 8.2
         return super().convert(value, param, ctx)
 
 
+def out_folder(default: str, text: str = "") -> Callable[[F], F]:
+    """The option ``--out`` of a command that writes a folder."""
+    kind = Folder(file_okay=False, path_type=Path)
+    return click.option("--out", type=kind, default=Path(default), show_default=True, help=text or None)
+
+
+def out_file(default: str, text: str = "") -> Callable[[F], F]:
+    """The option ``--out`` of a command that writes one file."""
+    kind = click.Path(dir_okay=False, path_type=Path)
+    return click.option("--out", type=kind, default=Path(default), show_default=True, help=text or None)
+
+
 adapter_argument = click.argument("adapter", default=DEFAULT_ADAPTER, required=False)
 profile_option = click.option("--profile", type=Profile(PROFILES), default="container", show_default=True)
 framework_profile_option = click.option(
@@ -70,6 +86,11 @@ toolchain_option = click.option(
 timeout_option = click.option(
     "--timeout", type=Seconds(min=0.1), default=Limits.seconds, show_default=True, help="Seconds a scenario may take."
 )
+
+
+def name_of(identity: Identity) -> str:
+    """Product and version, on one line."""
+    return one_line(f"{identity.product} {identity.version}", 80)
 
 
 def greet(console: Output, what: str, profile: str, seed: int) -> None:

@@ -231,5 +231,5 @@ def _story(finding: Finding | None, execution: Execution) -> str:
         return f"{head}\nscenario {execution.name}\n{failure_text(finding, execution)}"
     incident = execution.incident
     assert incident is not None
-    blame = "" if incident.kind in FRAMEWORK_INCIDENTS else "\nThis says nothing about the framework."
-    return f"{incident.kind}: {incident.detail}{blame}\n{incident.stacks}"
+    remark = "" if incident.kind in FRAMEWORK_INCIDENTS else "\nThis says nothing about the framework."
+    return f"{incident.kind}: {incident.detail}{remark}\n{incident.stacks}"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from ucm_cts.harness.cli.options import CONFORMANT, leave
+from ucm_cts.harness.cli.options import CONFORMANT, leave, out_folder
 from ucm_cts.harness.cli.terminal import Output
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.comparison import read_report
@@ -21,8 +21,7 @@ DETECTION, PAGE = "detection", "README.md"
 
 @click.command()
 @click.argument("sources", nargs=-1, type=click.Path(path_type=Path), metavar="[REPORT|FOLDER]...")
-@click.option("--out", type=click.Path(file_okay=False, path_type=Path), default=Path("results"), show_default=True,
-              help="The folder of results; those of other products stay.")  # fmt: skip
+@out_folder("results", "The folder of results; those of other products stay.")
 def results(sources: Sequence[Path], out: Path) -> None:
     """Keep what each REPORT (report.json or matrix.json), or each of those in FOLDER, says that is the same in every run.
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 from rich.table import Table
 
+from ucm_cts.harness.cli.options import out_folder
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.order import clause_key
@@ -22,7 +23,7 @@ from ucm_cts.harness.selftest.running import Result, SelfTest
 from ucm_cts.harness.selftest.toolchains import ToolChainSubject, all_subjects
 from ucm_cts.harness.selftest.trials import Subject, Thoroughness, all_mutants, all_variants, names
 
-TOLD_EVERY = 50
+PRINT_EVERY = 50
 """Without a terminal, progress is printed each time this many subjects have been examined."""
 
 LISTED = 40
@@ -32,16 +33,12 @@ LISTED = 40
 @click.command()
 @click.argument("names_wanted", metavar="[NAME]...", nargs=-1)
 @click.option("--quick", is_flag=True, help="Leave each mutant as soon as it is killed, and the variants out.")
-@click.option("--whole", is_flag=True, help="Everybody goes through all of profile core, not only clauses of interest.")
+@click.option(
+    "--whole", is_flag=True, help="Run all of profile core on each subject, not only the clauses that it concerns."
+)
 @click.option("--jobs", type=click.IntRange(min=1), default=2 * (os.cpu_count() or 1), show_default=True)
 @click.option("--seed", type=int, default=1, show_default=True)
-@click.option(
-    "--out",
-    type=click.Path(file_okay=False, path_type=Path),
-    default=Path("ucm-cts-selftest"),
-    show_default=True,
-    help="Where the kill matrix goes: matrix.html and matrix.json.",
-)
+@out_folder("ucm-cts-selftest", "Where the kill matrix goes: matrix.html and matrix.json.")
 @click.option("--toolchains", is_flag=True, help="Examine tool chains, derived from the reference tool chain.")
 @click.option("--list", "listed", is_flag=True, help="Name all mutants and variants, and run nothing.")
 def selftest(
@@ -86,7 +83,7 @@ def selftest(
         of_toolchains=toolchains,
     )
     if not conduct.number:
-        raise WrongUse("--quick leaves conformant variants out, and nobody else is named; leave out --quick")
+        raise WrongUse("--quick leaves conformant variants out, and no other subject is named; leave out --quick")
     if not toolchains and not any(isinstance(s, Subject) and s.is_native for s in subjects.values()):
         console.print("native mutants are left out: their executable comes with an installed ucm-cts, and is not here")
     prepare_folder(out)
@@ -123,7 +120,7 @@ def _conduct(conduct: SelfTest, console: Output) -> bool:
             nonlocal done, wrong
             done += 1
             wrong += not is_well(result)
-            if not console.is_terminal and (done == 1 or done % TOLD_EVERY == 0):
+            if not console.is_terminal and (done == 1 or done % PRINT_EVERY == 0):
                 console.print(f"{done} of {total} examined, {wrong} not as they should be")
                 console.file.flush()
             progress.update(task, advance=1, description=f"{wrong} not as they should be, {result.name[:40]}")

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from ucm_cts.harness.catalogue.profiles import TOOLCHAIN_PROFILES
-from ucm_cts.harness.cli.options import greet, leave_with
+from ucm_cts.harness.cli.options import greet, leave_with, name_of
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.report.write import prepare_folder, save_report
@@ -42,7 +42,7 @@ def certify_toolchain(
     if not examination.models:
         raise WrongUse(f"no model matches -k '{expression}'; try a requirement or a part of its id")
     console = Output()
-    greet(console, one_line(f"{toolchain.product} {toolchain.version}", 80), profile, seed)
+    greet(console, name_of(toolchain), profile, seed)
     prepare_folder(out)
     campaign = ToolChainCampaign(
         processor,
@@ -69,7 +69,7 @@ def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:
 
 
 def _conduct(campaign: ToolChainCampaign, models: int, console: Output) -> bool:
-    """Ask, judge and look again; was it interrupted?"""
+    """Process all models, judge and confirm. Returns True if interrupted."""
     with ends_like_interrupts(), progress_of(console) as progress:
         task = progress.add_task("asking", total=models)
         try:
@@ -79,7 +79,7 @@ def _conduct(campaign: ToolChainCampaign, models: int, console: Output) -> bool:
             campaign.judge()
             return True
         campaign.judge()
-        progress.update(task, description="taking second looks")
+        progress.update(task, description="confirming failures")
         try:
             for _ in campaign.confirm():
                 pass

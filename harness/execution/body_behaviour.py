@@ -30,7 +30,7 @@ class Body:
         return plan
 
     def be_given(self, dependencies: tuple[t.Dependency, ...]) -> None:
-        """It hears which references there are."""
+        """It gets the references of its port elements."""
         self.held = {}
         for dependency in dependencies:
             given = sum(reference is not None for reference in dependency.references)

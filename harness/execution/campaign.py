@@ -27,9 +27,9 @@ from ucm_cts.reference_models.monitor import Monitor
 from ucm_cts.reference_models.verdicts import Verdicts
 
 SECONDS_FOR_CONFIRMATION = 60
-"""How long all further runs may take; what was not run again by then stands as it was seen."""
+"""How long all further runs may take; failures that were not run again by then count as they are."""
 
-NOT_CONFIRMED = "failures without a second look"
+NOT_CONFIRMED = "failures that were not run again"
 """The measure of how many failures were not run again because the time was used up."""
 
 
@@ -171,7 +171,7 @@ class Campaign:
             for finding in findings:
                 self._tally.add_failure(self._driver.reveal(finding), TraceEvidence(execution))
             self._mark_unstable(execution, not_confirmed)
-        self._spent["second looks"] = self._spent.get("second looks", 0.0) + time.monotonic() - began
+        self._spent["confirmation"] = self._spent.get("confirmation", 0.0) + time.monotonic() - began
 
     def _mark_unstable(self, execution: Execution, unconfirmed: Iterable[Unconfirmed]) -> None:
         for one in unconfirmed:
@@ -179,7 +179,7 @@ class Campaign:
             self._tally.mark_unstable(self._driver.reveal(one.finding), TraceEvidence(execution, steady), one.reason)
 
     def shorten(self) -> Iterator[Cause]:
-        """Look for the shortest scenario of each failure; yields each cause when it is done."""
+        """Search the shortest scenario of each failure; yields each cause when it is done."""
         yield from Shortening(self._driver, self._monitor, self._confirmation, self._tally).of_all()
 
     def report(self) -> FrameworkReport:

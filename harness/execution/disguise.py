@@ -132,7 +132,7 @@ class Disguise:
         return self._name(plain) if read_spelled(plain) is None else plain
 
     def _policy(self, policy: Policy) -> Policy:
-        """Definitions have standard names, which are no secret."""
+        """Definitions keep their standard names."""
         parameters = dict(policy.parameters)
         if s.METHODS_TO_TRACE in parameters:
             named = parameters[s.METHODS_TO_TRACE]

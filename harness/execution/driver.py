@@ -14,7 +14,7 @@ import msgspec
 
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced, Welcome
 from ucm_cts.adapters.contract.scenario import Scenario, Stress
-from ucm_cts.adapters.contract.trace import Event, Trace
+from ucm_cts.adapters.contract.trace import Trace
 from ucm_cts.harness.execution.clock_gaps import ClockGaps
 from ucm_cts.harness.execution.disguise import Disguise
 from ucm_cts.harness.execution.host_clock import HostClock
@@ -28,6 +28,8 @@ from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incid
 __all__ = ["Answer", "Circumstances", "Driver", "Limits"]
 
 T = TypeVar("T")
+
+_EMPTY = Scenario({}, ())
 
 MOST_UNTRIED = 32
 """How many scenarios in a row are left out before the answers to them, and to those before them, are given."""
@@ -142,7 +144,7 @@ class Driver:
                     yield from untried()
                     case = waiting.popleft()
                     trace, incident = self._examine(case, reply, insist)
-                    self._patience.heard(case.run.scenario, trace if incident is None else ())
+                    self._patience.note_skips(case.run.scenario, trace if incident is None else ())
                     lost = incident is not None and incident.kind in _HOST_IS_GONE
                     if incident is not None and lost:
                         self._patience.spend(time.monotonic() - began, case.run.scenario, incident, trace)
@@ -180,15 +182,8 @@ class Driver:
 
     def revealed(self, answer: Answer) -> Execution:
         """The answer as an execution that people can read."""
-        return Execution(
-            answer.name,
-            answer.scenario,
-            self._reveal_trace(answer.trace),
-            answer.incident and self.reveal(answer.incident),
-        )
-
-    def _reveal_trace(self, trace: Trace) -> Trace:
-        return self.reveal(_Whole(trace)).trace
+        revealed = self.reveal(Execution("", _EMPTY, answer.trace, answer.incident))
+        return msgspec.structs.replace(revealed, name=answer.name, scenario=answer.scenario)
 
     def _examine(self, case: _Case, answer: HostAnswer, insist: bool) -> tuple[Trace, Incident | None]:
         run, reply = case.run, answer.reply
@@ -203,9 +198,9 @@ class Driver:
             return (), Incident("refused", reply.reason)
         if reply.kind not in FRAMEWORK_INCIDENTS:
             return (), reply
-        if not insist and not self._patience.is_worth_a_look(run.scenario, reply.kind):
+        if not insist and not self._patience.is_worth_confirming(run.scenario, reply.kind):
             return (), reply
-        return self._second_look(run, reply)
+        return self._run_again(run, reply)
 
     def _out_of_time(self, answer: HostAnswer) -> str | None:
         """Why the times of the trace cannot be true; None if they can."""
@@ -215,11 +210,11 @@ class Driver:
         events = answer.reply.events if isinstance(answer.reply, Traced) else ()
         return self._clock[1].contradiction(events, answer.sent, received)
 
-    def _second_look(self, run: Run, first: Incident) -> tuple[Trace, Incident]:
+    def _run_again(self, run: Run, first: Incident) -> tuple[Trace, Incident]:
         """Run the scenario once more and have each event sent as it happens, to find what led to the incident."""
         began = time.monotonic()
         second = self._hosts.run_again(run)
-        self._patience.looked(time.monotonic() - began)
+        self._patience.spend_confirming(time.monotonic() - began)
         if isinstance(second.reply, Incident) and second.reply.kind == first.kind:
             return believable(run.scenario, second.happened), msgspec.structs.replace(
                 second.reply, stacks=second.reply.stacks or first.stacks
@@ -246,9 +241,3 @@ class _Case:
     scenario: Scenario
     run: Run
     untried: Incident | None = None
-
-
-class _Whole(msgspec.Struct, frozen=True):
-    """A trace as one value, so that it can be revealed at once."""
-
-    trace: tuple[Event, ...]

@@ -79,12 +79,10 @@ class _Check(BodyChecks):
     def end(self) -> str | None:
         """What is wrong if nothing follows."""
         for number, step in enumerate(self.scenario.steps):
-            if isinstance(step, s.ReachGate):
-                if number not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
-                    return (
-                        f"step {number} (reach) has neither seen a body at gate {step.gate!r} nor run out of patience"
-                    )
-            elif not isinstance(step, s.Join) and not self.done.get(number):
+            is_over = (
+                isinstance(step, s.Join) or self.is_over(number) if self.is_silent(number) else self.done.get(number)
+            )
+            if not is_over:
                 return f"step {number} ({s.operation(step)}) is missing or not ended"
         return None
 
@@ -109,17 +107,24 @@ class _Check(BodyChecks):
         if problem or not self.order.passed:
             return problem
         for passed in self.order.passed:
-            step = self.scenario.steps[passed]
-            if isinstance(step, s.ReachGate):
-                if passed not in self.done and self.arrivals[step.gate] < max(step.more, step.total, 1):
-                    return f"step {number} comes after step {passed} (reach), which has not seen a body at gate {step.gate!r}"
-            elif isinstance(step, s.Join):
-                before = [n for n in self.order.steps.get(step.worker, ()) if n < passed and not self.is_silent(n)]
-                if passed not in self.done and not all(self.done.get(n) for n in before):
-                    return f"step {number} comes after step {passed} (join), and '{step.worker}' is not done"
-            elif passed not in self.done:
-                return f"step {number} comes after step {passed} ({s.operation(step)}), which is missing"
+            if not self.is_over(passed):
+                operation = s.operation(self.scenario.steps[passed])
+                return f"step {number} comes after step {passed} ({operation}), which is missing or not ended"
         return None
+
+    def is_over(self, number: int) -> bool:
+        """Has the step ended, by an event or because what it waits for has happened?"""
+        step = self.scenario.steps[number]
+        if number in self.done:
+            return True
+        if isinstance(step, s.ReachGate):
+            return self.arrivals[step.gate] >= max(step.more, step.total, 1)
+        return isinstance(step, s.Join) and self.has_done_all(step.worker, number)
+
+    def has_done_all(self, worker: str, number: int) -> bool:
+        """Has ``worker`` done all its steps before step ``number``?"""
+        steps = self.order.steps.get(worker, ())
+        return all(self.done.get(n) for n in steps if n < number and not self.is_silent(n))
 
     def check_begin(self, event: t.Call | t.Skip, thread: Thread) -> str | None:
         step = self.step(event)
@@ -194,8 +199,7 @@ class _Check(BodyChecks):
             return f"no step settles '{event.worker}' here"
         problem = self.check_order(number, thread)
         self.done[number] = True
-        before = [n for n in self.order.steps.get(event.worker, ()) if n < number and not self.is_silent(n)]
-        if event.where == "done" and not all(self.done.get(n) for n in before):
+        if event.where == "done" and not self.has_done_all(event.worker, number):
             return f"'{event.worker}' is recorded as done and is not"
         return problem
 

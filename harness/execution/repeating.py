@@ -22,8 +22,8 @@ Steady = Callable[[v.ReportedFinding, int], v.Execution | None]
 """Runs the scenario of a failure with the seed of another run; the execution, unless that one shows the failure, too."""
 
 
-def looking(endpoint: Endpoint, limits: Limits, ics: Ics) -> Steady:
-    """Looks for a steady execution on hosts behind ``endpoint``."""
+def steady_search(endpoint: Endpoint, limits: Limits, ics: Ics) -> Steady:
+    """Searches for executions without the failure, on hosts behind ``endpoint``."""
     monitor = Monitor(load_life_cycle(), ics)
 
     def steady(failed: v.ReportedFinding, seed: int) -> v.Execution | None:

@@ -1,4 +1,4 @@
-"""Looks for the shortest scenario of each failure, and the smallest values in it, that show the same cause."""
+"""Finds the shortest scenario of each failure, and the smallest values in it, that show the same cause."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ _QUICK: frozenset[IncidentKind] = frozenset(("crash", "exit"))
 """Incidents whose scenarios are shortened; each try of another one would cost its whole deadline."""
 
 SECONDS_FOR_SHORTER_CRASHES = 20
-"""How long shorter scenarios of crashes are looked for; each try takes two hosts."""
+"""How long the search for shorter scenarios of crashes takes; each try takes two hosts."""
 
 SECONDS_FOR_SHORTER = 10
-"""How long a shorter scenario of one failure is looked for, before the try that is the last."""
+"""How long the search for a shorter scenario of one failure takes; its last try begins before."""
 
 SECONDS_FOR_ALL_SHORTER = 180
 """The same for all failures of a run."""
 
 SECONDS_FOR_SMALLER_VALUES = 5
-"""How long a smaller value is looked for that fails like the one found."""
+"""How long the search for a smaller value with the same failure takes."""
 
 
 class Shortening:
@@ -41,7 +41,7 @@ class Shortening:
         self._tally = tally
 
     def of_all(self) -> Iterator[Cause]:
-        """Look for the shortest scenario of each failure; yields each cause when it is done."""
+        """Search the shortest scenario of each failure; yields each cause when it is done."""
         until = time.monotonic() + SECONDS_FOR_SHORTER_CRASHES
         last = time.monotonic() + SECONDS_FOR_ALL_SHORTER
         for cause, failure in list(self._tally.failures.items()):

@@ -63,7 +63,7 @@ class _Sent:
 
 
 def smallest(finding: Finding, execution: Execution, first_failing: FirstFailing, seed: int, until: float) -> None:
-    """Look for smaller values of those that ``finding`` is about, if it is about any. The last scenario that
+    """Search smaller values of those that ``finding`` is about, if it is about any. The last scenario that
     ``first_failing`` finds to fail is the one with the smallest.
 
     Ends soon after ``until``, a time of ``time.monotonic``.
@@ -129,7 +129,7 @@ def _cut(part: _Sent, search: _Search) -> _Sent:
 
 
 def _draw_smaller(part: _Sent, search: _Search, seed: int) -> None:
-    """Have hypothesis look for the smallest value of the type that fails."""
+    """Have hypothesis search the smallest value of the type that fails."""
     import hypothesis
 
     settings = hypothesis.settings(

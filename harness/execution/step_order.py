@@ -52,7 +52,7 @@ class StepOrder:
         return self._next_step(lambda step: isinstance(step, s.OpenGate) and step.gate == gate, thread)
 
     def next_settle(self, worker: str, thread: int) -> int | None:
-        """The step that can have looked for ``worker`` on ``thread``, waits apart the next one there."""
+        """The step that can have waited for ``worker`` on ``thread``, waits apart the next one there."""
         return self._next_step(lambda step: isinstance(step, s.Settle) and step.worker == worker, thread)
 
     def _next_step(self, wanted: Callable[[s.Step], bool], thread: int) -> int | None:

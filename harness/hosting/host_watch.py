@@ -19,8 +19,8 @@ from ucm_cts.harness.results.values import Incident, IncidentKind
 
 _CHUNK = 1 << 16
 _STDERR_TAIL = 1 << 16
-_LOOK_SECONDS = 0.05
-_LOOK_MILLISECONDS = 50
+_CHECK_SECONDS = 0.05
+_POLL_MILLISECONDS = 50
 _STACK_SECONDS = 0.3
 _QUIET_SECONDS = 0.05
 _END_SECONDS = 0.5
@@ -59,7 +59,7 @@ class Deadline(msgspec.Struct, frozen=True):
 
 
 class HostIncident(Exception):
-    """The host broke a rule of the protocol or a limit, and has been ended."""
+    """The host violated the protocol or a limit, and has been ended."""
 
     def __init__(self, incident: Incident) -> None:
         super().__init__(f"{incident.kind}: {incident.detail}")
@@ -96,7 +96,7 @@ class WatchedHost:
         self._partial = bytearray()
         self._lines: deque[bytes] = deque()
         self._stderr = bytearray()
-        self._looked = 0.0
+        self._checked = 0.0
         self._writing = False
         self._ended = False
         self._poll = select.poll()
@@ -129,10 +129,10 @@ class WatchedHost:
                 self._fail_ended()
             if now >= deadline.end:
                 self._fail_hanging(deadline)
-            if now >= self._looked + _LOOK_SECONDS:
-                self._looked = now
+            if now >= self._checked + _CHECK_SECONDS:
+                self._checked = now
                 self._check_memory()
-            for ready, _ in self._poll.poll(_LOOK_MILLISECONDS):
+            for ready, _ in self._poll.poll(_POLL_MILLISECONDS):
                 if ready == self._source:
                     self._read()
                 else:
@@ -174,7 +174,7 @@ class WatchedHost:
                 del self._outgoing[:written]
         except BlockingIOError:
             pass
-        except OSError:  # the host is ending, which reading will tell
+        except OSError:  # the host is ending, which the next read shows
             self._outgoing.clear()
         if bool(self._outgoing) != self._writing:
             self._writing = not self._writing

@@ -150,7 +150,7 @@ _REMEDY = "give a report.json as this version of ucm-cts run writes it"
 
 
 def _misfit(path: Path, error: msgspec.ValidationError) -> DocumentError:
-    """The same error with its line, if the file is small enough to look for it."""
+    """The same error with its line, if the file is small enough to find it."""
     problem = str(error)
     with suppress(DocumentError, RecursionError):
         _, lines = read_lines(path)

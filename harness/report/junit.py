@@ -81,7 +81,7 @@ def _story(result: v.RequirementResult, report: v.Report) -> str:
         finding = failed.finding
         parts.append(
             f"expected: {finding.expected}\nobserved: {finding.observed}\n"
-            f"seen {failed.occurrences} times; rule {finding.rule}"
+            f"seen {failed.occurrences} times; found by {finding.rule}"
             + (f"; scenario {failed.execution.name}\n" if failed.execution is not None else "\n")
             + (f"waived: {failed.waived}\n" if failed.waived else "")
         )

@@ -16,26 +16,26 @@ from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS
 from ucm_cts.reference_models.properties.clause_11_2_2 import DECLARED
 
-FREE_LOOKS = 0.25
+FREE_CONFIRMATIONS = 0.25
 """The part of the incident time in which every incident gets a second run."""
 
-LOOKS = 2
+CONFIRMATIONS = 2
 """After that part, an operation with this many incidents of a kind explains the next one of that kind."""
 
 
 class Patience:
-    """How long a run puts up with incidents: ``seconds`` in all."""
+    """The time that a run spends on incidents: ``seconds`` in all."""
 
     def __init__(self, seconds: float) -> None:
         self.seconds = seconds
         self._spent = 0.0
-        self._spent_looking = 0.0
+        self._spent_confirming = 0.0
         self._met: Counter[tuple[str, IncidentKind]] = Counter()
         self._exhausted = False
         self._unoffered: set[str] = set()
 
-    def heard(self, scenario: Scenario, trace: Trace) -> None:
-        """A scenario has come back; perhaps the adapter has said that it does not offer a connector."""
+    def note_skips(self, scenario: Scenario, trace: Trace) -> None:
+        """Note the connectors that ``trace`` shows the adapter not to offer."""
         for event in trace:
             if isinstance(event, Skip):
                 step = scenario.steps[event.step]
@@ -61,15 +61,15 @@ class Patience:
                 return Incident("untried", f"not tried: {operation} had met a {kind} before, and {reason}")
         return None
 
-    def is_worth_a_look(self, scenario: Scenario, kind: IncidentKind) -> bool:
-        """Is there something to learn from running ``scenario`` again after an incident of this kind?"""
-        if self._spent_looking < FREE_LOOKS * self.seconds:
+    def is_worth_confirming(self, scenario: Scenario, kind: IncidentKind) -> bool:
+        """Is ``scenario`` to be run again after an incident of this kind?"""
+        if self._spent_confirming < FREE_CONFIRMATIONS * self.seconds:
             return True
-        return not any(self._met[operation, kind] >= LOOKS for operation in _operations(scenario))
+        return not any(self._met[operation, kind] >= CONFIRMATIONS for operation in _operations(scenario))
 
-    def looked(self, seconds: float) -> None:
-        """A second look has taken so long."""
-        self._spent_looking += seconds
+    def spend_confirming(self, seconds: float) -> None:
+        """A further run after an incident has taken ``seconds``."""
+        self._spent_confirming += seconds
 
     def spend(self, seconds: float, scenario: Scenario, incident: Incident, trace: Trace) -> None:
         """An incident has taken ``seconds`` in all; ``trace`` is the known part of its trace."""

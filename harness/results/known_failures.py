@@ -7,6 +7,8 @@ list cannot outlive the defects it excuses. A known failure keeps its verdict in
 from __future__ import annotations
 
 import datetime
+import fnmatch
+import glob
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -68,19 +70,7 @@ def waiver_for(finding: Finding, known: Sequence[KnownFailure]) -> str:
 
 def _matches(pattern: str, text: str) -> bool:
     """Nothing but ``*`` is special: observations are full of brackets and question marks."""
-    first, *others = pattern.split("*")
-    if not others:
-        return text == pattern
-    *between, last = others
-    if not text.startswith(first):
-        return False
-    at = len(first)
-    for part in between:
-        found = text.find(part, at)
-        if found < 0:
-            return False
-        at = found + len(part)
-    return len(text) >= at + len(last) and text.endswith(last)
+    return fnmatch.fnmatchcase(text, "*".join(map(glob.escape, pattern.split("*"))))
 
 
 def all_known(report: Report) -> bool:

@@ -1,6 +1,6 @@
 """The vendor's statement: which parts are claimed and which readings taken (ICS), which times and tolerances hold (IXIT).
 
-What nobody states is as in ``default_statement``: everything is claimed, and of every option the first value holds.
+What the vendor does not state is as in ``default_statement``: everything is claimed, and the first value of every option holds.
 """
 
 from __future__ import annotations

@@ -158,7 +158,7 @@ class IncidentReport(Value, frozen=True):
 
 
 class Effort(Value, frozen=True):
-    """What was behind the verdicts: ``measures`` are what rules added up (overlaps provoked, calls stressed ...),
+    """What was behind the verdicts: ``measures`` are the sums that properties report (overlaps provoked, calls stressed ...),
     ``seconds`` where the time went, by clause.
     """
 

@@ -47,9 +47,9 @@ def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, st
         return None
     of_tests = [all(need.partition("=")[0] in HOOKS for need in needs) for needs in missing]
     verdict: Verdict = "inconclusive" if all(of_tests) else "not applicable"
-    telling = missing[of_tests.index(True)] if all(of_tests) else missing[of_tests.index(False)]
+    decisive = missing[of_tests.index(True)] if all(of_tests) else missing[of_tests.index(False)]
     said = f"{statement.source} says" if statement.source else "without a statement it holds that"
-    return verdict, f"{said} {' and '.join(dict.fromkeys(_told(need, statement) for need in telling))}"
+    return verdict, f"{said} {' and '.join(dict.fromkeys(_shown(need, statement) for need in decisive))}"
 
 
 def asked_in_vain(statement: Statement, profile: str) -> Mapping[str, str]:
@@ -69,7 +69,7 @@ _ON_COMPONENTS = "protected-active-applicability=onComponent"
 _WITH_MODELS = "core-models=shipped"
 
 
-def _told(need: str, statement: Statement) -> str:
+def _shown(need: str, statement: Statement) -> str:
     option = need.partition("=")[0]
     return f"{option} = {statement.readings[option]}" if option != need else f"{need} = false"
 

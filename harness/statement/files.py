@@ -40,14 +40,14 @@ class Identity(Protocol):
 
 def check_subject(statement: Statement, identity: Identity, profile: str) -> None:
     """Check that ``statement`` is about the product ``identity`` and about ``profile``. Raises ``WrongUse`` if not."""
-    for what, stated, told in (
+    for what, stated, actual in (
         ("product", statement.product, identity.product),
         ("version", statement.version, identity.version),
     ):
-        if stated and one_line(stated) != one_line(told):
+        if stated and one_line(stated) != one_line(actual):
             raise WrongUse(
-                f"{statement.source} is about {what} '{one_line(stated, 80)}', and the product under test says it is '{one_line(told, 80)}'; "
-                "check whom it is about and correct it there"
+                f"{statement.source} is about {what} '{one_line(stated, 80)}', and the product under test says it is '{one_line(actual, 80)}'; "
+                "correct the statement"
             )
     if profile not in statement.profiles:
         claimed = ", ".join(statement.profiles) or "none"

@@ -48,8 +48,8 @@ def _write(out: Path, known: Statement, identity: Identity, subject: str, force:
             f"'{out}' is there already; choose another file with --out, or --force to write over it"
         ) from None
     except (OSError, ValueError) as error:
-        told = getattr(error, "strerror", None) or error
-        raise WrongUse(f"'{out}' cannot be written: {told}; choose another file with --out") from None
+        problem = getattr(error, "strerror", None) or error
+        raise WrongUse(f"'{out}' cannot be written: {problem}; choose another file with --out") from None
 
 
 def to_toml(statement: Statement, adapter: str, file: str) -> str:

@@ -259,7 +259,7 @@ def test_example_scenario(here: Path) -> None:
     (command,) = [c for c in commands("ucm-cts replay") if "example.yaml" in c]
     outcome = ucm_cts(*command.split()[1:])
     assert (outcome.status, outcome.err) == (0, "")
-    assert "\nno rule was broken" in outcome.out
+    assert "\nno findings" in outcome.out
     (script,) = read_scripts(here / "example.yaml")
     scenario = to_scenario(script)
     trace = answer(m.Run(1, scenario)).events
@@ -336,14 +336,14 @@ def test_python_guide_other_ways(here: Path) -> None:
     write_files("docs/adapter-python.md")
     write_files("docs/scenarios.md")
     (debugged,) = [c for c in commands("ucm-cts replay") if "my_adapter" in c]
-    assert "no rule was broken" in shell(debugged.replace("FILE", "example.yaml"))
+    assert "no findings" in shell(debugged.replace("FILE", "example.yaml"))
     (served,) = commands("python -m ucm_cts.adapters.sdk.python.host")
     command = [sys.executable, *served.replace(":4000", ":0").split()[1:]]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         assert server.stdout
         address = server.stdout.readline().removeprefix("listening on ").strip()
         try:
-            assert "no rule was broken" in ucm_cts("replay", "example.yaml", address).out
+            assert "no findings" in ucm_cts("replay", "example.yaml", address).out
         finally:
             server.terminate()
     (toml,) = re.findall(r"(?ms)^```toml\n(.*?)^```$", text_of("docs/adapter-python.md"))

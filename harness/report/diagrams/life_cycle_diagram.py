@@ -24,7 +24,7 @@ LINE = 17
 LEVEL = 30
 """Height between two transitions that pass above each other."""
 
-_EXPLAIN = {"pass": "kept", "fail": "broken", "inconclusive": "never seen"}
+_EXPLAIN = {"pass": "kept", "fail": "broken", "inconclusive": "never exercised"}
 
 
 def to_svg(rows: Sequence[RowSeen]) -> Markup:
@@ -143,11 +143,11 @@ def _state(state: State, items: Sequence[Transition], top: int, box: int) -> Mar
 
 
 def _words(item: Transition, x: int, y: int) -> Markup:
-    told = _EXPLAIN[item.verdict] if item.chosen else "another permitted way was taken"
+    result = _EXPLAIN[item.verdict] if item.chosen else "another permitted outcome was observed"
     symbol = SYMBOLS[item.verdict] if item.chosen else "–"
     return Markup(
         '<a href="#lc-{operation}-{state}"><text class="op {css}" x="{x}" y="{y}"><tspan class="mark">{symbol}</tspan> '
-        "{operation}<title>{state} → {next}: {operation}, {told}, exercised {n} times</title></text></a>"
+        "{operation}<title>{state} → {next}: {operation}, {result}, exercised {n} times</title></text></a>"
     ).format(
         css=_class(item.verdict, [item]),
         operation=item.operation,
@@ -156,7 +156,7 @@ def _words(item: Transition, x: int, y: int) -> Markup:
         x=x,
         y=y,
         symbol=symbol,
-        told=told,
+        result=result,
         n=item.exercised,
     )
 

@@ -74,7 +74,7 @@ class Choice:
 
 
 def choices(rows: Sequence[RowSeen]) -> tuple[Choice, ...]:
-    """What the framework made of each freedom, in the table's order; readings are told as ``option=reading``."""
+    """What the framework made of each freedom, in the table's order; readings are written as ``option=reading``."""
     permitted: dict[str, dict[str, bool]] = {}
     for seen in rows:
         for outcome in seen.row.outcomes:

@@ -361,7 +361,7 @@ def _explains_itself(requirement: Requirement) -> None:
     text = " ".join(outcome.out.split())
     expected = [requirement.id, requirement.title, f"clause {requirement.clause},", requirement.meaning]
     expected += [requirement.untestable, requirement.pending, requirement.observed]
-    expected += [f"Rule {name}:" for name in requirement.rules]
+    expected += [f"Checked by {name}:" for name in requirement.rules]
     expected += [line for i in load_interpretations() if i.id in requirement.interpretations for line in i.lines]
     for words in expected:
         assert " ".join(words.split()) in text
@@ -387,13 +387,13 @@ def test_saved_failure_fails_again_the_same_way(failed: tuple[Outcome, Path]) ->
     saved = failed[1] / finding["replay"]
     again = ucm_cts("replay", saved, SUBJECT)
     assert (again.status, again.err) == (1, "")
-    assert "1 rule(s) broken" in again.out
+    assert "1 finding" in again.out
     assert len(json.loads(saved.read_text())["steps"]) == 4, "two members, start, stop"
     report = report_of(failed[1])
     assert len([r for r in report["requirements"] if r["verdict"] == "fail"]) == 1
     right = ucm_cts("replay", saved, "reference-py")
     assert (right.status, right.err) == (0, "")
-    assert "no rule was broken" in right.out
+    assert "no findings" in right.out
 
 
 @pytest.mark.parametrize("adapter", ["reference-py", "reference-cpp", "reference-cpp-module"])
@@ -405,7 +405,7 @@ def test_scripts_are_replayed_one_by_one_in_their_own_names(here: Path, adapter:
     assert "\ntwo on " in outcome.out
     assert "add_component server as second" in outcome.out
     assert 'add_component a "server"\\' in outcome.out
-    assert outcome.out.count("no rule was broken") == 2
+    assert outcome.out.count("no findings") == 2
 
 
 def test_replay_of_a_crash_shows_what_led_to_it(here: Path) -> None:

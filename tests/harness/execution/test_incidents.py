@@ -117,13 +117,13 @@ def test_patience_is_for_all_incidents_together() -> None:
 
 def test_second_looks_are_for_what_is_not_explained() -> None:
     patience = Patience(10)
-    patience.looked(5)
+    patience.spend_confirming(5)
     for _ in range(2):
-        assert patience.is_worth_a_look(STARTS, "crash")
+        assert patience.is_worth_confirming(STARTS, "crash")
         patience.spend(1, STARTS, CRASH, (Call(1, 0, 0, 0),))
-    assert not patience.is_worth_a_look(STOPS, "crash")
-    assert patience.is_worth_a_look(STOPS, "hang")
-    assert patience.is_worth_a_look(LISTS, "crash")
+    assert not patience.is_worth_confirming(STOPS, "crash")
+    assert patience.is_worth_confirming(STOPS, "hang")
+    assert patience.is_worth_confirming(LISTS, "crash")
 
 
 @pytest.mark.parametrize("connector", [s.SERVICE_CONNECTOR, s.MESSAGE_CONNECTOR])
@@ -131,7 +131,7 @@ def test_connector_that_is_not_offered_is_not_asked_for_again(connector: str) ->
     patience = Patience(60)
     asked = {kind: Scenario({}, (s.Link(kind, "any", "link"),)) for kind in (s.SERVICE_CONNECTOR, s.MESSAGE_CONNECTOR)}  # type: ignore[arg-type]
     assert patience.not_tried(asked[connector]) is None
-    patience.heard(asked[connector], (Call(1, 0, 0, 0), Skip(2, 0, 0, 0, "link")))
+    patience.note_skips(asked[connector], (Call(1, 0, 0, 0), Skip(2, 0, 0, 0, "link")))
     refused = patience.not_tried(asked[connector])
     assert refused is not None
     assert connector in refused.detail

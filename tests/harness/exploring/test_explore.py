@@ -92,7 +92,7 @@ def test_a_failure_is_told_once_with_its_shortest_scenario(found: Path) -> None:
 def test_the_saved_scenario_replays(found: Path) -> None:
     (failure,) = exploration(found)["failures"]
     wrong = ucm_cts("replay", found / failure["file"], SUBJECT)
-    assert (wrong.status, "1 rule(s) broken" in wrong.out) == (1, True)
+    assert (wrong.status, "1 finding" in wrong.out) == (1, True)
     assert ucm_cts("replay", found / failure["file"], REFERENCE).status == 0
     assert failure["replay"] == f"ucm-cts replay failures/{REQUIREMENT}.json {SUBJECT}"
 
