@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any
 
 import click
-from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.progress import Progress, TaskID, TimeElapsedColumn, TimeRemainingColumn
 
 from ucm_cts.harness.cli import options
-from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts
+from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.exploring.exploration import Exploration, Replayed
 from ucm_cts.harness.exploring.exploration import Progress as HowFar
@@ -130,7 +130,7 @@ def _explore(
     """The failures that are still there, the scenarios run, and whether the run was interrupted."""
     known: list[Replayed] = []
     far = HowFar(0, 0, 0, 0, 0)
-    with _progress(console) as progress:
+    with progress_of(console, TimeElapsedColumn(), TimeRemainingColumn()) as progress:
         task = progress.add_task("running remembered failures", total=budget.amount)
         try:
             known = exploration.replay()
@@ -147,11 +147,6 @@ def _explore(
         except KeyboardInterrupt:
             return known, far, True
     return known, far, False
-
-
-def _progress(console: Output) -> Progress:
-    columns = TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn()
-    return Progress(*columns, console=console, transient=True)
 
 
 def _show(progress: Progress, task: TaskID, far: HowFar, spent: float) -> None:

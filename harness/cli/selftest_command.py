@@ -13,12 +13,12 @@ from rich.table import Table
 from ucm_cts.harness.cli.options import out_folder
 from ucm_cts.harness.cli.terminal import Output, ends_like_interrupts, progress_of
 from ucm_cts.harness.hosting.locate import WrongUse
-from ucm_cts.harness.report.order import clause_key
 from ucm_cts.harness.report.write import prepare_folder
+from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.selftest.cheat_trials import all_cheats
-from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult, by_clause
+from ucm_cts.harness.selftest.matrix import Matrix, MutantResult, VariantResult
 from ucm_cts.harness.selftest.models_killing import all_models
-from ucm_cts.harness.selftest.page import write_matrix
+from ucm_cts.harness.selftest.page import rows, write_matrix
 from ucm_cts.harness.selftest.running import Result, SelfTest
 from ucm_cts.harness.selftest.toolchains import ToolChainSubject, all_subjects
 from ucm_cts.harness.selftest.trials import Subject, Thoroughness, all_mutants, all_variants, names
@@ -90,7 +90,7 @@ def selftest(
     interrupted = _conduct(conduct, console)
     write_matrix(conduct.matrix, out)
     console.print(summary(conduct.matrix))
-    _tell_the_rest(conduct.matrix, console)
+    _print_wrong(conduct.matrix, console)
     console.say(f"{out / 'matrix.html'} shows the kill matrix")
     if interrupted:
         console.print("interrupted: the matrix holds what was found so far")
@@ -135,13 +135,9 @@ def _conduct(conduct: SelfTest, console: Output) -> bool:
 def summary(matrix: Matrix) -> Table:
     """Mutants and requirements by clause."""
     table = Table("clause", "mutants", "killed", "spills", "requirements", "with a killed mutant", title="Kill matrix")
-    groups = by_clause(matrix.mutants)
-    killers = matrix.killers
-    for clause in sorted(groups, key=clause_key):
-        mutants = groups[clause]
-        due = [r for r in matrix.testable if r.removeprefix("R-").rpartition("-")[0] == clause]
-        table.add_row(clause, *_counts(mutants), str(len(due)), str(sum(bool(killers[r]) for r in due)))
-    all_due = [r for r in matrix.testable if killers[r]]
+    for row in rows(matrix):
+        table.add_row(row.clause, *_counts(row.mutants), str(row.requirements), str(row.covered))
+    all_due = [r for r in matrix.testable if matrix.killers[r]]
     table.add_section()
     table.add_row("all", *_counts(matrix.mutants), str(len(matrix.testable)), str(len(all_due)))
     spared = sum(variant.is_spared for variant in matrix.variants)
@@ -169,18 +165,8 @@ def _counts(mutants: Sequence[MutantResult]) -> tuple[str, str, str]:
     return str(len(mutants)), str(killed), str(sum(bool(mutant.spills) for mutant in mutants))
 
 
-def _tell_the_rest(matrix: Matrix, console: Output) -> None:
-    lines = [
-        *(f"{m.name} survives: {m.trouble or ', '.join(m.survives)}" for m in matrix.survivors),
-        *(f"{m.name} also fails {k.requirement}: {k.observed}" for m in matrix.spilling for k in m.spills),
-        *(f"{v.name} is conformant and fails {k.requirement}: {k.observed}" for v in matrix.wronged for k in v.failed),
-        *(
-            f"{c.name} cheats, and {', '.join(c.came_out) or 'nothing'} comes out: {c.trouble}"
-            for c in matrix.undetected
-        ),
-        *(f"{requirement} is broken by no mutant that was killed" for requirement in matrix.unproved),
-        *(f"{v.name} is conformant: {v.trouble or ', '.join(v.incidents)}" for v in matrix.wronged if not v.failed),
-    ]
+def _print_wrong(matrix: Matrix, console: Output) -> None:
+    lines = [one_line(f"{name} {text}", 300) for name, text in matrix.wrong]
     for line in lines[:LISTED]:
         console.say(line)
     if len(lines) > LISTED:

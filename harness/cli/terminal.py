@@ -12,7 +12,7 @@ from types import FrameType
 from typing import IO, NoReturn, cast
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeElapsedColumn
 
 _PLAIN = {
     ord(fine): plain
@@ -105,13 +105,9 @@ def ends_like_interrupts() -> Iterator[None]:
             signal.signal(number, before[number])
 
 
-def progress_of(console: Output) -> Progress:
-    """A progress bar; it disappears at the end."""
+def progress_of(console: Output, *columns: ProgressColumn) -> Progress:
+    """A progress bar with ``columns`` behind it, by default the number of finished ones; it disappears at the end."""
+    behind = columns or (MofNCompleteColumn(), TimeElapsedColumn())
     return Progress(
-        TextColumn("{task.description}", markup=False),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        console=console,
-        transient=True,
+        TextColumn("{task.description}", markup=False), BarColumn(), *behind, console=console, transient=True
     )

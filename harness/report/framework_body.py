@@ -55,29 +55,27 @@ class IncidentItem:
 
 
 @dataclass(frozen=True)
-class Cell:
-    """One cell of the life-cycle table: all conditions of one operation in one state."""
-
-    operation: str
-    state: State
-    rows: tuple[RowSeen, ...]
-
-    @property
-    def verdict(self) -> str:
-        """The worst verdict of the cell's rows."""
-        return worst([row.verdict for row in self.rows]) if self.rows else ""
-
-
-@dataclass(frozen=True)
 class FrameworkBody:
     """The sections of the page that only frameworks have."""
 
     incidents: tuple[IncidentItem, ...]
     rows: tuple[RowSeen, ...]
-    cells: tuple[tuple[str, list[Cell]], ...]
     choices: tuple[Choice, ...]
     diagram: Markup
     states: tuple[State, ...] = STATES
+
+    @property
+    def operations(self) -> list[str]:
+        """In the order of the table."""
+        return list(dict.fromkeys(seen.row.operation for seen in self.rows))
+
+    def cell(self, operation: str, state: State) -> list[RowSeen]:
+        """The rows of the table for all conditions of one operation in one state."""
+        return [seen for seen in self.rows if (seen.row.operation, seen.row.state) == (operation, state)]
+
+    def verdict(self, cell: Sequence[RowSeen]) -> str:
+        """The worst verdict of ``cell``; empty if it has no rows."""
+        return worst([seen.verdict for seen in cell]) if cell else ""
 
 
 def framework_body(report: FrameworkReport, table: LifeCycleTable) -> FrameworkBody:
@@ -85,9 +83,8 @@ def framework_body(report: FrameworkReport, table: LifeCycleTable) -> FrameworkB
     rows = rows_seen(table, report.transitions)
     return FrameworkBody(
         tuple(_incident(item, number, report) for number, item in enumerate(report.incidents)),
-        tuple(rows),
-        tuple(_cells(rows)),
-        tuple(choices(rows)),
+        rows,
+        choices(rows),
         life_cycle_diagram.to_svg(rows),
     )
 
@@ -117,18 +114,3 @@ def _incident(item: IncidentReport, number: int, report: FrameworkReport) -> Inc
     shown = excerpt(item.execution)
     name = one_line(f"What happened until the {item.incident.kind}")
     return IncidentItem(item, last, command, sequence_svg.to_svg(shown, name), to_text(shown))
-
-
-def _cells(rows: Sequence[RowSeen]) -> list[tuple[str, list[Cell]]]:
-    """The table's rows by operation and state, in the order in which operations first appear."""
-    operations = list(dict.fromkeys(seen.row.operation for seen in rows))
-    return [
-        (
-            operation,
-            [
-                Cell(operation, state, tuple(s for s in rows if (s.row.operation, s.row.state) == (operation, state)))
-                for state in STATES
-            ],
-        )
-        for operation in operations
-    ]

@@ -24,6 +24,11 @@ class Kill(Value, frozen=True):
     names_the_place: bool
     looked_at: int
 
+    @property
+    def text(self) -> str:
+        """Where it failed, and why."""
+        return f"{self.requirement} in {self.scenario}: expected {self.expected}; observed {self.observed}"
+
 
 class MutantResult(Value, frozen=True):
     """The result of one mutant.
@@ -136,6 +141,25 @@ class Matrix(Value, frozen=True):
     def wronged(self) -> tuple[VariantResult, ...]:
         """The conformant variants that something was held against."""
         return tuple(variant for variant in self.variants if not variant.is_spared)
+
+    @property
+    def wrong(self) -> list[tuple[str, str]]:
+        """All that is not as it should be: the name of a subject or a requirement, and what is wrong with it."""
+        return [
+            *((m.name, f"survives ({m.trouble or ', '.join(m.survives)}): {m.lie}") for m in self.survivors),
+            *((m.name, f"also fails {kill.text}") for m in self.spilling for kill in m.spills),
+            *(
+                (c.name, f"cheats, and {', '.join(c.came_out) or 'nothing'} comes out: {c.trouble or c.lie}")
+                for c in self.undetected
+            ),
+            *(
+                (variant.name, f"is conformant and fails {kill.text}")
+                for variant in self.wronged
+                for kill in variant.failed
+            ),
+            *((r, "is broken by no mutant that was killed") for r in self.unproved),
+            *((v.name, f"is conformant: {v.trouble or ', '.join(v.incidents)}") for v in self.wronged if not v.failed),
+        ]
 
     @property
     def killers(self) -> Mapping[str, Sequence[str]]:

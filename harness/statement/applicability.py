@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 import msgspec
@@ -18,7 +18,6 @@ from ucm_cts.harness.results.statement import HOOKS, Statement, default_statemen
 from ucm_cts.harness.results.values import Verdict
 
 Cases = tuple[tuple[str, Scenario], ...]
-Draw = Callable[[int, Mapping[str, str]], Cases]
 
 
 def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
@@ -92,12 +91,9 @@ def _all_purposes(statement: Statement, profile: str, extra_states: int = 0) -> 
 
 
 def _reduced(purpose: TestPurpose, statement: Statement) -> TestPurpose:
-    draw = functools.partial(_drawn, purpose.draw, statement) if purpose.draw is not None else None
-    return replace(purpose, scenarios=fitting(purpose.scenarios, statement), draw=draw)
-
-
-def _drawn(draw: Draw, statement: Statement, seed: int, readings: Mapping[str, str]) -> Cases:
-    return fitting(draw(seed, readings), statement)
+    draw = purpose.draw
+    fitted = draw and (lambda seed, readings: fitting(draw(seed, readings), statement))
+    return replace(purpose, scenarios=fitting(purpose.scenarios, statement), draw=fitted)
 
 
 def fitting(cases: Iterable[tuple[str, Scenario]], statement: Statement) -> Cases:

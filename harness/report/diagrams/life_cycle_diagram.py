@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from markupsafe import Markup
 
-from ucm_cts.harness.report.diagrams.svg_text import CHARACTER, columns
+from ucm_cts.harness.report.diagrams.svg_text import width_of
 from ucm_cts.harness.report.diagrams.transitions import STATES, RowSeen, Transition, transitions, worst
 from ucm_cts.harness.report.order import SYMBOLS
 from ucm_cts.reference_models.model.life_cycle import State
@@ -101,7 +101,7 @@ def _long_way(way: tuple[State, State], items: Sequence[Transition], edge: int, 
     )
     tip = f"M{end} {edge}l-4 {'-' if offset < 0 else ''}9h8z"
     # words stand near the source, where no other way crosses them
-    left = start + 14 if forward else start - 14 - max(_wide(item) for item in items)
+    left = start + 14 if forward else start - 14 - max(width_of(f"✓ {item.operation}") for item in items)
     lines = [_words(item, left, level - 6 - LINE * (len(items) - 1 - i)) for i, item in enumerate(items)]
     return Markup('<g class="way {}"><path d="{}"/><path class="tip" d="{}"/></g>{}').format(
         _class(verdict, items), path, tip, Markup("").join(lines)
@@ -159,10 +159,6 @@ def _words(item: Transition, x: int, y: int) -> Markup:
         result=result,
         n=item.exercised,
     )
-
-
-def _wide(item: Transition) -> int:
-    return round((columns(item.operation) + 2) * CHARACTER)
 
 
 def _class(verdict: str, items: Sequence[Transition]) -> str:

@@ -94,7 +94,8 @@ def lay_out(execution: Execution, suspects: Iterable[int] = ()) -> Diagram:
     if execution.incident is not None:
         detail = one_line(f"{execution.incident.kind}: {execution.incident.detail}", 90)
         walk.lines.append(Line("end", TEST, TEST, detail, style="offending"))
-    lines = _mark(walk.lines, frozenset(suspects))
+    marked = frozenset(suspects)
+    lines = [replace(one, style="offending") if marked.intersection(one.events) else one for one in walk.lines]
     return Diagram(walk.lanes(), tuple(_fold(lines)))
 
 
@@ -136,7 +137,12 @@ class _Walk:
 
     def follow(self, event: t.Event) -> None:
         """Append the lines of one event."""
-        getattr(self, f"_{t.kind_of(event)}")(event)
+        note = self._note(event)
+        if note is None:
+            getattr(self, f"_{t.kind_of(event)}")(event)
+            return
+        place = self._body(event.component, event.instance) if isinstance(event, t.Held | t.Pushed) else TEST
+        self._add("note", place, place, note, event)
 
     # the lanes
 
@@ -145,8 +151,7 @@ class _Walk:
             self.containers.append(name)
         return name
 
-    def _body(self, event: t.BodyEvent) -> str:
-        component, instance = event.component, event.instance
+    def _body(self, component: str, instance: int) -> str:
         if (component, instance) not in self.bodies:
             self.bodies.append((component, instance))
         return body_key(component, instance)
@@ -199,12 +204,8 @@ class _Walk:
         frame = self._begin(f"step {step}", TEST, words.reached(step) or "", words.step(step), event, value)
         frame.arrived = False
         if frame.target:
-            self._body_of(frame.target)
-
-    def _body_of(self, key: str) -> None:
-        component, _, instance = key.rpartition("#")
-        if (component, int(instance)) not in self.bodies:
-            self.bodies.append((component, int(instance)))
+            component, _, instance = frame.target.rpartition("#")
+            self._body(component, int(instance))
 
     def _return(self, event: t.Return) -> None:
         step = event.step
@@ -227,19 +228,15 @@ class _Walk:
             return
         self._add("note", TEST, TEST, f"skipped {what}: {name} was never bound", event)
 
-    def _timeout(self, event: t.Timeout) -> None:
-        what = self.words.step(event.step)
-        self._add("note", TEST, TEST, f"{what}: gave up after {self.words.patience} ms", event)
-
     def _create(self, event: t.Create) -> None:
         open_calls = [frame.what for frame in self.frames.get(event.thread, []) if frame.what.startswith("step ")]
         during = int(open_calls[-1][5:]) if open_calls else None
         self.words.created(event.component, event.instance, during)
         home = self._home(event)
-        self._add("call", home, self._body(event), "create", event)
+        self._add("call", home, self._body(event.component, event.instance), "create", event)
 
     def _enter(self, event: t.Enter) -> None:
-        body, hook = self._body(event), event.hook
+        body, hook = self._body(event.component, event.instance), event.hook
         what = f"{body} {hook}"
         label = self.words.hook(event)
         if hook not in ("exchange", "method"):
@@ -264,60 +261,56 @@ class _Walk:
             self._begin(what, caller.source, body, label, event)
 
     def _exit(self, event: t.Exit) -> None:
-        body, hook = self._body(event), event.hook
+        body, hook = self._body(event.component, event.instance), event.hook
         result = self.words.outcome(event)
         label = _came_back(event, result) if result else f"{hook} ends"
         self._end(f"{body} {hook}", label, result, event, body)
 
     def _request(self, event: t.Request) -> None:
-        body = self._body(event)
+        body = self._body(event.component, event.instance)
         sent = event.value if event.method is None else (event.method, event.arguments)
         frame = self._begin(f"{body} request {event.port}", body, "", self.words.request(event), event, sent)
         frame.arrived = False
 
     def _reply(self, event: t.Reply) -> None:
-        body = self._body(event)
+        body = self._body(event.component, event.instance)
         result = self.words.outcome(event)
         label = _came_back(event, result)
         self._end(f"{body} request {event.port}", label, result, event, body)
 
     def _siblings(self, event: t.Siblings) -> None:
         answer = "raises an exception" if event.raised else self.words.value(event.ids)
-        self._add("call", self._body(event), self._home(event), f"get_components ⇒ {answer}", event)
+        self._add(
+            "call", self._body(event.component, event.instance), self._home(event), f"get_components ⇒ {answer}", event
+        )
 
-    def _held(self, event: t.Held) -> None:
-        body = self._body(event)
-        self._add("note", body, body, f"held at {one_line(event.gate, 30)}", event)
-
-    def _opened(self, event: t.Opened) -> None:
-        self._add("note", TEST, TEST, f"opens {one_line(event.gate, 30)}", event)
-
-    def _pushed(self, event: t.Pushed) -> None:
-        body = self._body(event)
-        answers = ", ".join(f"{times} times {code}" for code, times in event.answers.items())
-        self._add("note", body, body, f"pushes {event.count} through {event.port}: {answers}", event)
-
-    def _counted(self, event: t.Counted) -> None:
-        counted = f"{event.received} messages received, {event.distinct} distinct, {event.disordered} out of order"
-        self._add("note", TEST, TEST, f"{lane(event.component, event.instance)}: {counted}", event)
-
-    def _stressed(self, event: t.Stressed) -> None:
-        control = f"{event.control_overlaps} in {event.control_calls} without protection"
-        self._add("note", TEST, TEST, f"{event.overlaps} overlaps in {event.calls} calls, {control}", event)
-
-    def _paused(self, event: t.Paused) -> None:
-        self._add("note", TEST, TEST, self.words.step(event.step), event)
-
-    def _settled(self, event: t.Settled) -> None:
-        self._add("note", TEST, TEST, f"{one_line(event.worker, 30)} is {event.where}", event)
+    def _note(self, event: t.Event) -> str | None:
+        """The text of an event that is no call and no answer; None for others."""
+        match event:
+            case t.Held():
+                return f"held at {one_line(event.gate, 30)}"
+            case t.Opened():
+                return f"opens {one_line(event.gate, 30)}"
+            case t.Pushed():
+                answers = ", ".join(f"{times} times {code}" for code, times in event.answers.items())
+                return f"pushes {event.count} through {event.port}: {answers}"
+            case t.Counted():
+                counted = f"{event.received} messages received, {event.distinct} distinct"
+                return f"{lane(event.component, event.instance)}: {counted}, {event.disordered} out of order"
+            case t.Stressed():
+                control = f"{event.control_overlaps} in {event.control_calls} without protection"
+                return f"{event.overlaps} overlaps in {event.calls} calls, {control}"
+            case t.Paused():
+                return self.words.step(event.step)
+            case t.Timeout():
+                return f"{self.words.step(event.step)}: gave up after {self.words.patience} ms"
+            case t.Settled():
+                return f"{one_line(event.worker, 30)} is {event.where}"
+        return None
 
 
 def _came_back(event: t.Exit | t.Reply, result: str) -> str:
     return f"raises {result}" if event.raised or event.exception is not None else f"returns {result}"
-
-
-def _mark(lines: Sequence[Line], suspects: frozenset[int]) -> list[Line]:
-    return [replace(line, style="offending") if suspects.intersection(line.events) else line for line in lines]
 
 
 def _fold(lines: Sequence[Line]) -> list[Line]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from markupsafe import Markup
 
 from ucm_cts.harness.report.diagrams.sequence import Diagram, Lane, Line
-from ucm_cts.harness.report.diagrams.svg_text import CHARACTER, columns, shortened
+from ucm_cts.harness.report.diagrams.svg_text import shortened, width_of
 
 ROW, HEAD, TOP = 27, 26, 6
 """Heights: of a line, of a lane's head, and of the margin above it."""
@@ -48,7 +48,7 @@ def _lane_positions(lanes: Sequence[Lane], gutter: int) -> dict[str, int]:
     positions: dict[str, int] = {}
     at, before = gutter, 0.0
     for lane in lanes:
-        half = (columns(shortened(lane.label, 20)) * CHARACTER + 18) / 2
+        half = (width_of(shortened(lane.label, 20)) + 18) / 2
         at = round(at + half + 6) if not positions else round(max(at + 92, at + before + half + 12))
         positions[lane.key] = at
         before = half
@@ -62,9 +62,8 @@ def _label_start(line: Line, x: dict[str, int]) -> int:
 
 
 def _label_end(line: Line, x: dict[str, int]) -> int:
-    if line.kind in ("gap", "end"):
-        return 60 + round(columns(shortened(line.label, LABEL)) * CHARACTER) + 60
-    return _label_start(line, x) + round(columns(shortened(line.label, LABEL)) * CHARACTER) + 12
+    start, margin = (60, 60) if line.kind in ("gap", "end") else (_label_start(line, x), 12)
+    return start + width_of(shortened(line.label, LABEL)) + margin
 
 
 def _band(line: Line, y: int, width: int) -> Markup:
@@ -77,7 +76,7 @@ def _lifeline(x: int, height: int) -> Markup:
 
 def _head(lane: Lane, x: int) -> Markup:
     label = shortened(lane.label, 20)
-    wide = round(columns(label) * CHARACTER + 18)
+    wide = width_of(label) + 18
     return Markup(
         '<g class="lane {kind}"><rect x="{left}" y="{top}" width="{wide}" height="{head}" rx="{round}"/>'
         '<text x="{x}" y="{base}">{label}</text>{title}</g>'

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum
@@ -121,7 +121,7 @@ class Wording:
         """A callback with its arguments."""
         match event.hook:
             case "on_init":
-                arguments = self._attributes(event.attributes or {})
+                arguments = ", ".join(f"{name}={value}" for name, value in (event.attributes or {}).items())
             case "on_startup":
                 arguments = ", ".join(
                     f"{dependency.port} → {', '.join(self.reference(r) for r in dependency.references) or 'nothing'}"
@@ -156,10 +156,6 @@ class Wording:
     def data(values: Sequence[Datum] | None) -> str:
         """Values of methods."""
         return ", ".join(one_line(str(value), 60) for value in values or ())
-
-    @staticmethod
-    def _attributes(attributes: Mapping[str, str]) -> str:
-        return ", ".join(f"{name}={value}" for name, value in attributes.items())
 
     @staticmethod
     def joined(request: str, port: str) -> str:
