@@ -79,10 +79,8 @@ class _Check(BodyChecks):
     def end(self) -> str | None:
         """What is wrong if nothing follows."""
         for number, step in enumerate(self.scenario.steps):
-            is_over = (
-                isinstance(step, s.Join) or self.is_over(number) if self.is_silent(number) else self.done.get(number)
-            )
-            if not is_over:
+            ended = isinstance(step, s.Join) or (self.done.get(number) if step.ends_with else not self.why_open(number))
+            if not ended:
                 return f"step {number} ({s.operation(step)}) is missing or not ended"
         return None
 
@@ -107,19 +105,23 @@ class _Check(BodyChecks):
         if problem or not self.order.passed:
             return problem
         for passed in self.order.passed:
-            if not self.is_over(passed):
+            why = self.why_open(passed)
+            if why is not None:
                 operation = s.operation(self.scenario.steps[passed])
-                return f"step {number} comes after step {passed} ({operation}), which is missing or not ended"
+                return f"step {number} comes after step {passed} ({operation}), {why}"
         return None
 
-    def is_over(self, number: int) -> bool:
-        """Has the step ended, by an event or because what it waits for has happened?"""
+    def why_open(self, number: int) -> str | None:
+        """Why the step cannot have ended, by an event or because what it waits for has happened; None if it can."""
         step = self.scenario.steps[number]
         if number in self.done:
-            return True
+            return None
         if isinstance(step, s.ReachGate):
-            return self.arrivals[step.gate] >= max(step.more, step.total, 1)
-        return isinstance(step, s.Join) and self.has_done_all(step.worker, number)
+            is_reached = self.arrivals[step.gate] >= max(step.more, step.total, 1)
+            return None if is_reached else f"which has not seen a body at gate {step.gate!r}"
+        if isinstance(step, s.Join):
+            return None if self.has_done_all(step.worker, number) else f"and '{step.worker}' is not done"
+        return "which is missing"
 
     def has_done_all(self, worker: str, number: int) -> bool:
         """Has ``worker`` done all its steps before step ``number``?"""
