@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract.metamodel.aspects import (
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.reference.toolchain.rules.circles import circle
+from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_complaint
 from ucm_cts.adapters.reference.toolchain.rules.inheritance import parents, redefined
 
 
@@ -54,10 +54,9 @@ def extends_a_definition(definition: TechnicalPolicyDefinition, scope: Scope) ->
 @rule("R-9.4.3.2-14", Model)
 def definitions_do_not_extend_themselves(_model: Model, root: Scope) -> Iterator[Complaint]:
     """Extending comes to an end."""
-    found = circle(root, TechnicalPolicyDefinition, parents)
-    if found:
-        way = " extends ".join(one.name for one in (*found, found[0]))
-        yield found[0], f"policy {way}; let it extend another one"
+    yield from circle_complaint(
+        circle(root, [TechnicalPolicyDefinition], parents), "extends", "policy ", "let it extend another one"
+    )
 
 
 @rule("R-9.4.3.2-12", TechnicalPolicyDefinition)

@@ -11,7 +11,7 @@ from ucm_cts.adapters.contract.metamodel.common import Element, Named
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionPattern, PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, Look, rule
 
 _NEED_NO_NAME = (mc.ConnectionEnd, mc.PortDelegation)
 _HAVE_RULES_OF_THEIR_OWN = (*MODULES, c.StructureField, c.UnionCase)
@@ -79,79 +79,53 @@ def declarations_of_one_kind_differ(_model: Model, root: Scope) -> Iterator[Comp
             waiting.extend(modules)
 
 
-@rule("R-9.2.4.3-05", c.Structure)
-def fields_differ(structure: c.Structure, _scope: Scope) -> Iterator[Complaint]:
-    """The identifier tells the fields of a structure apart."""
-    yield from repeated(structure.fields, f"fields of structure {structure.name}")
+Owners = tuple[type[Element], ...]
+
+_MEMBERS: tuple[tuple[str, str, Owners, dict[str, str]], ...] = (
+    ("fields_differ", "R-9.2.4.3-05", (c.Structure,), {"fields": "fields of structure"}),
+    ("cases_differ", "R-9.2.4.6-02", (c.Union,), {"cases": "cases of union"}),
+    ("enumerators_differ", "R-9.2.4.8-04", (c.Enumeration,), {"enumerators": "enumerators of"}),
+    (
+        "configuration_parameters_differ",
+        "R-9.1.4.1-02",
+        (c.AnnotationDefinition, ConnectorDefinition, TechnicalPolicyDefinition),
+        {"configuration_parameters": "configuration parameters of"},
+    ),
+    ("exception_fields_differ", "R-9.1.4.1-02", (c.Exception_,), {"fields": "fields of exception"}),
+    ("attributes_differ", "R-9.1.4.1-02", (c.Interface, mc.ComponentType), {"attributes": "attributes of"}),
+    ("parameters_differ", "R-9.1.4.1-02", (c.Method,), {"parameters": "parameters of method"}),
+    (
+        "roles_and_items_differ",
+        "R-9.1.4.1-02",
+        (InteractionPattern,),
+        {"roles": "roles of pattern", "items": "items of pattern"},
+    ),
+    ("connector_ports_differ", "R-9.1.4.1-02", (ConnectorDefinition,), {"ports": "ports of connector"}),
+    (
+        "port_elements_differ",
+        "R-9.1.4.1-02",
+        (PortType, TechnicalPolicyDefinition),
+        {"port_elements": "port elements of"},
+    ),
+    ("ports_differ", "R-9.1.4.1-02", (mc.ComponentType,), {"ports": "ports of component type"}),
+    ("parts_differ", "R-9.1.4.1-02", (mc.CompositeComponentImplementation,), {"parts": "parts of"}),
+)
+"""The rules that names of members differ: name, requirement, owners, and what messages call the members of each field."""
 
 
-@rule("R-9.2.4.6-02", c.Union)
-def cases_differ(union: c.Union, _scope: Scope) -> Iterator[Complaint]:
-    """The identifier tells the cases of a union apart."""
-    yield from repeated(union.cases, f"cases of union {union.name}")
+def _differ(name: str, fields: dict[str, str]) -> Look:
+    """The rule that no two members in one of ``fields`` have the same name."""
+
+    def look(owner: Named, _scope: Scope) -> Iterator[Complaint]:
+        for field, what in fields.items():
+            yield from repeated(getattr(owner, field), f"{what} {owner.name}")
+
+    look.__name__ = name
+    return look
 
 
-@rule("R-9.2.4.8-04", c.Enumeration)
-def enumerators_differ(enumeration: c.Enumeration, _scope: Scope) -> Iterator[Complaint]:
-    """An enumerator is a literal of its own."""
-    yield from repeated(enumeration.enumerators, f"enumerators of {enumeration.name}")
-
-
-@rule("R-9.1.4.1-02", c.AnnotationDefinition, ConnectorDefinition, TechnicalPolicyDefinition)
-def configuration_parameters_differ(
-    owner: c.AnnotationDefinition | ConnectorDefinition | TechnicalPolicyDefinition, _scope: Scope
-) -> Iterator[Complaint]:
-    """A value could not tell two parameters of one name apart."""
-    yield from repeated(owner.configuration_parameters, f"configuration parameters of {owner.name}")
-
-
-@rule("R-9.1.4.1-02", c.Exception_)
-def exception_fields_differ(exception: c.Exception_, _scope: Scope) -> Iterator[Complaint]:
-    """The identifier tells the fields of an exception apart."""
-    yield from repeated(exception.fields, f"fields of exception {exception.name}")
-
-
-@rule("R-9.1.4.1-02", c.Interface, mc.ComponentType)
-def attributes_differ(owner: c.Interface | mc.ComponentType, _scope: Scope) -> Iterator[Complaint]:
-    """The identifier tells the attributes of one owner apart."""
-    yield from repeated(owner.attributes, f"attributes of {owner.name}")
-
-
-@rule("R-9.1.4.1-02", c.Method)
-def parameters_differ(method: c.Method, _scope: Scope) -> Iterator[Complaint]:
-    """The identifier tells the parameters of a method apart."""
-    yield from repeated(method.parameters, f"parameters of method {method.name}")
-
-
-@rule("R-9.1.4.1-02", InteractionPattern)
-def roles_and_items_differ(pattern: InteractionPattern, _scope: Scope) -> Iterator[Complaint]:
-    """Connectors could not tell two roles, or two items, of one name apart."""
-    yield from repeated(pattern.roles, f"roles of pattern {pattern.name}")
-    yield from repeated(pattern.items, f"items of pattern {pattern.name}")
-
-
-@rule("R-9.1.4.1-02", ConnectorDefinition)
-def connector_ports_differ(connector: ConnectorDefinition, _scope: Scope) -> Iterator[Complaint]:
-    """The identifier tells the ports of a connector apart."""
-    yield from repeated(connector.ports, f"ports of connector {connector.name}")
-
-
-@rule("R-9.1.4.1-02", PortType, TechnicalPolicyDefinition)
-def port_elements_differ(owner: PortType | TechnicalPolicyDefinition, _scope: Scope) -> Iterator[Complaint]:
-    """Code could not tell two port elements of one name apart."""
-    yield from repeated(owner.port_elements, f"port elements of {owner.name}")
-
-
-@rule("R-9.1.4.1-02", mc.ComponentType)
-def ports_differ(component_type: mc.ComponentType, _scope: Scope) -> Iterator[Complaint]:
-    """Connections could not tell two ports of one name apart."""
-    yield from repeated(component_type.ports, f"ports of component type {component_type.name}")
-
-
-@rule("R-9.1.4.1-02", mc.CompositeComponentImplementation)
-def parts_differ(composite: mc.CompositeComponentImplementation, _scope: Scope) -> Iterator[Complaint]:
-    """Connections could not tell two parts of one name apart."""
-    yield from repeated(composite.parts, f"parts of {composite.name}")
+for _name, _requirement, _owners, _fields in _MEMBERS:
+    rule(_requirement, *_owners)(_differ(_name, _fields))
 
 
 def repeated(elements: Iterable[Named], what: str) -> Iterator[tuple[Element, str]]:

@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.metamodel.interactions import InteractionPattern,
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, member_of
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.reference.toolchain.rules.circles import circle
+from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_complaint
 from ucm_cts.adapters.reference.toolchain.rules.inheritance import parents, redefined
 
 ANY_NUMBER = -1
@@ -27,10 +27,9 @@ def extends_a_pattern(pattern: InteractionPattern, scope: Scope) -> Iterator[Com
 @rule("R-9.3.3.2-06", Model)
 def patterns_do_not_extend_themselves(model: Model, root: Scope) -> Iterator[Complaint]:
     """Extending comes to an end."""
-    found = circle(root, InteractionPattern, parents)
-    if found:
-        way = " extends ".join(one.name for one in (*found, found[0]))
-        yield found[0], f"pattern {way}; let it extend another one"
+    yield from circle_complaint(
+        circle(root, [InteractionPattern], parents), "extends", "pattern ", "let it extend another one"
+    )
 
 
 @rule("R-9.3.3.2-05", InteractionPattern)

@@ -8,7 +8,7 @@ from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope, lineage
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.reference.toolchain.rules.circles import circle
+from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_complaint
 from ucm_cts.adapters.reference.toolchain.rules.inheritance import parents
 
 
@@ -37,10 +37,9 @@ def refines_a_component_type(component: mc.ComponentType, scope: Scope) -> Itera
 @rule("R-9.5.3.1-11", Model)
 def types_do_not_refine_themselves(_model: Model, root: Scope) -> Iterator[Complaint]:
     """Refining comes to an end."""
-    found = circle(root, mc.ComponentType, parents)
-    if found:
-        way = " refines ".join(one.name for one in (*found, found[0]))
-        yield found[0], f"component type {way}; let it refine another one"
+    yield from circle_complaint(
+        circle(root, [mc.ComponentType], parents), "refines", "component type ", "let it refine another one"
+    )
 
 
 @rule("R-9.5.3.1-08", mc.ComponentType)

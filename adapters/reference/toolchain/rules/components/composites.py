@@ -9,7 +9,7 @@ from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.reference.toolchain.rules.circles import circle
+from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_complaint
 from ucm_cts.adapters.reference.toolchain.rules.components import part_ports
 
 
@@ -33,10 +33,12 @@ def parts_are_components(part: mc.AssemblyPart, scope: Scope) -> Iterator[Compla
 @rule("R-9.5.5.3-04", Model)
 def composites_do_not_contain_themselves(_model: Model, root: Scope) -> Iterator[Complaint]:
     """Containing comes to an end."""
-    found = circle(root, mc.CompositeComponentImplementation, _composite_parts)
-    if found:
-        way = " contains ".join(one.name for one in (*found, found[0]))
-        yield found[0], f"composite {way}; let one of the parts be something else"
+    yield from circle_complaint(
+        circle(root, [mc.CompositeComponentImplementation], _composite_parts),
+        "contains",
+        "composite ",
+        "let one of the parts be something else",
+    )
 
 
 def _composite_parts(composite: Declared) -> Iterator[Declared]:

@@ -8,7 +8,7 @@ from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
 from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.reference.toolchain.rules.circles import circle
+from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_complaint
 
 _DATA_TYPES = (c.DataType, c.AbstractDataType)
 
@@ -37,10 +37,9 @@ def inherits_from_interfaces(interface: c.Interface, scope: Scope) -> Iterator[C
 @rule("R-9.2.7.1-05", Model)
 def interfaces_do_not_inherit_from_themselves(model: Model, root: Scope) -> Iterator[Complaint]:
     """Inheriting comes to an end."""
-    found = circle(root, c.Interface, parents)
-    if found:
-        way = " inherits from ".join(one.name for one in (*found, found[0]))
-        yield found[0], f"interface {way}; let it inherit from others only"
+    yield from circle_complaint(
+        circle(root, [c.Interface], parents), "inherits from", "interface ", "let it inherit from others only"
+    )
 
 
 def parents(declared: Declared) -> Iterator[Declared]:

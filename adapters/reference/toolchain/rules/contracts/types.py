@@ -8,58 +8,53 @@ from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Named
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
-from ucm_cts.adapters.reference.toolchain.checking import Complaint, rule
-from ucm_cts.adapters.reference.toolchain.rules.circles import circle, declared_in, has_circle
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, Look, rule
+from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_complaint
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import DATA_TYPES, actual_type
 from ucm_cts.adapters.reference.toolchain.rules.contracts.references import index_kind
 
-
-@rule("R-9.2.4.3-02", c.Structure)
-def structures_have_fields(structure: c.Structure, _scope: Scope) -> Iterator[Complaint]:
-    """A structure groups at least one field."""
-    if not structure.fields:
-        yield structure, f"structure {structure.name} has no field; give it one"
-
-
-@rule("R-9.2.4.5-02", c.Union)
-def unions_have_cases(union: c.Union, _scope: Scope) -> Iterator[Complaint]:
-    """A union has at least one alternative."""
-    if not union.cases:
-        yield union, f"union {union.name} has no case; give it one"
+_HAVE_ONE: tuple[tuple[str, str, type[Named], str, str], ...] = (
+    ("structures_have_fields", "R-9.2.4.3-02", c.Structure, "fields", "field"),
+    ("unions_have_cases", "R-9.2.4.5-02", c.Union, "cases", "case"),
+    ("enumerations_have_enumerators", "R-9.2.4.7-02", c.Enumeration, "enumerators", "enumerator"),
+    ("arrays_have_dimensions", "R-9.2.4.9-02", c.Array, "dimensions", "dimension"),
+)
+"""The rules that a type has at least one member: name, requirement, kind, field, and what messages call a member."""
 
 
-@rule("R-9.2.4.7-02", c.Enumeration)
-def enumerations_have_enumerators(enumeration: c.Enumeration, _scope: Scope) -> Iterator[Complaint]:
-    """An enumeration has at least one value."""
-    if not enumeration.enumerators:
-        yield enumeration, f"enumeration {enumeration.name} has no enumerator; give it one"
+def _has_one(name: str, field: str, what: str) -> Look:
+    """The rule that a type has at least one ``what`` in ``field``."""
+
+    def look(owner: Named, _scope: Scope) -> Iterator[Complaint]:
+        if not getattr(owner, field):
+            yield owner, f"{type(owner).__name__.lower()} {owner.name} has no {what}; give it one"
+
+    look.__name__ = name
+    return look
 
 
-@rule("R-9.2.4.9-02", c.Array)
-def arrays_have_dimensions(array: c.Array, _scope: Scope) -> Iterator[Complaint]:
-    """An array has at least one dimension."""
-    if not array.dimensions:
-        yield array, f"array {array.name} has no dimension; give it one"
+for _name, _requirement, _kind, _field, _what in _HAVE_ONE:
+    rule(_requirement, _kind)(_has_one(_name, _field, _what))
 
 
 @rule("R-9.2.4.2-03", Model)
 def aliases_lead_to_other_types(_model: Model, root: Scope) -> Iterator[Complaint]:
     """An alias that leads back to itself names nothing."""
-    yield from _told(circle(root, c.Alias, _renamed), "names")
+    yield from circle_complaint(circle(root, [c.Alias], _renamed), "names")
 
 
 @rule("R-9.2.4.3-06", Model)
 def structures_are_finite(_model: Model, root: Scope) -> Iterator[Complaint]:
     """No structure's value contains a value of the same structure."""
     if not _all_are_finite(root):
-        yield from _told(circle(root, c.Structure, _structures_in), "contains")
+        yield from circle_complaint(circle(root, [c.Structure], _structures_in), "contains")
 
 
 @rule("R-9.2.4.9-01", Model)
 def arrays_are_finite(_model: Model, root: Scope) -> Iterator[Complaint]:
     """No array is an element of itself."""
     if not _all_are_finite(root):
-        yield from _told(circle(root, c.Array, _elements), "contains")
+        yield from circle_complaint(circle(root, [c.Array], _elements), "contains")
 
 
 @rule("R-9.2.4.3-06", Model, under="recursive-types=refused", also=("R-9.2.4.6-01",))
@@ -67,9 +62,11 @@ def sequences_and_unions_are_finite(_model: Model, root: Scope) -> Iterator[Comp
     """Neither does a type contain itself where a shorter value would do."""
     if _all_are_finite(root):
         return
-    plain = circle(root, c.Structure, _structures_in) or circle(root, c.Array, _elements)
+    plain = circle(root, [c.Structure], _structures_in) or circle(root, [c.Array], _elements)
     if not plain:
-        yield from _told(circle(root, c.Sequence, _sequences_in) or circle(root, c.Union, _unions_in), "contains")
+        yield from circle_complaint(
+            circle(root, [c.Sequence], _sequences_in) or circle(root, [c.Union], _unions_in), "contains"
+        )
 
 
 def _all_are_finite(root: Scope) -> bool:
@@ -77,13 +74,8 @@ def _all_are_finite(root: Scope) -> bool:
     kinds = (c.Structure, c.Array, c.Sequence, c.Union)
     return root.remembered(
         "all are finite",
-        lambda: not has_circle((d for kind in kinds for d in declared_in(root, kind)), lambda d: _parts(d, kinds)),
+        lambda: not circle(root, kinds, lambda d: _parts(d, kinds)),
     )
-
-
-def _told(found: list[Named], leads: str) -> Iterator[Complaint]:
-    if found:
-        yield found[0], f"{f' {leads} '.join(one.name for one in (*found, found[0]))}; break the circle"
 
 
 def _renamed(declared: Declared) -> Iterator[Declared]:
