@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+from collections import defaultdict
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any, get_args
@@ -39,7 +41,7 @@ class Monitor:
         self.ics = ics or Ics()
         self.row_selection = RowSelection(table)
         self.expected = ExpectedCallbacks(table)
-        self._tables: dict[frozenset[Feature], PropertyTable] = {}
+        self._table_for = functools.cache(PropertyTable)
 
     def judge(self, scenario: s.Scenario, trace: Iterable[t.Event]) -> Verdicts:
         """What the properties say about ``trace``, which may break off anywhere, and is read once, event by event.
@@ -47,10 +49,7 @@ class Monitor:
         Where two operations overlap, because one of them took too long, reading ends: who did what cannot be told.
         """
         features = features_of(scenario)
-        table = self._tables.get(features)
-        if table is None:
-            table = self._tables[features] = PropertyTable(features)
-        reader = _TraceReader(self, table, scenario, features)
+        reader = _TraceReader(self, self._table_for(features), scenario, features)
         interactions = reader.runtime.interactions
         interacting = "interactions" in features
         for event in trace:
@@ -92,7 +91,7 @@ class _TraceReader:
         self.steps = scenario.steps
         self.runtime = ObservedRuntime(scenario, monitor.ics, "interactions" in features)
         self.ongoing: OperationInProgress | None = None
-        self.histories: dict[tuple[str, int], CallbackHistory] = {}
+        self.histories = defaultdict[tuple[str, int], CallbackHistory](CallbackHistory)
         self.calls: list[list[BusinessCall]] = []
         self.threads: dict[int, _Thread] = {}
         self.executions = self.runtime.executions
@@ -218,9 +217,7 @@ class _TraceReader:
             self.enter_business(thread, event)
             return
         body = event.component, event.instance
-        history = self.histories.get(body)
-        if history is None:
-            history = self.histories[body] = CallbackHistory()
+        history = self.histories[body]
         ongoing, runtime = self.ongoing, self.runtime
         member = runtime.bodies.get(body)
         callback = Callback(event, member, ongoing, history)
@@ -266,12 +263,9 @@ class _TraceReader:
         else:
             call = None
         thread.served.append(call)
-        body = event.component, event.instance
-        thread.inside.append(body)
-        runtime = self.runtime
-        self.check("began", *self.executions.begin(event, call))
+        thread.inside.append((event.component, event.instance))
+        self.check("began", self.executions.begin(event, call))
         if hook == "run":
-            runtime.last_run[body] = event.n
             return
         if call is not None:
             call.entries.append((event, None))
@@ -279,7 +273,7 @@ class _TraceReader:
             self.check("delivered", delivery)
         else:
             self.evaluate(self.table.called[call.by if call is not None else "nobody"], self.ongoing, event, call)
-        member = runtime.bodies.get(body)
+        member = self.runtime.member_of(event.component, event.instance)
         if member is not None and member.operational:
             member.served = True
 

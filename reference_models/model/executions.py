@@ -45,33 +45,38 @@ Caller = Literal["test", "body", "nobody"]
 """Who made a call that led to an entry, if anybody did."""
 
 
+@dataclass(slots=True, eq=False)
 class BusinessCall:
-    """One call of the probes' business method: made by a body (``request``) or by the test (``step``).
+    """One call of the probes' business method.
 
-    ``caller`` is the execution that makes it, if a body does; ``waited`` says that it was seen waiting to get in.
-    ``entries`` are the bodies it entered, with how they were left. ``callee`` is whose port element ``port`` the test
-    called; ``possible`` says that all who could be called were operational when the call was made, and ``behind`` is what was
-    behind the port element since so many changes of the runtime.
+    ``value``, ``n``: the value sent, and the event that begins the call.
+    ``request``, ``step``: how it was made; by a body or by the test.
+    ``caller``, ``caller_hook``: the execution and the hook of the body that makes it.
+    ``waited``: it was seen waiting to get in.
+    ``entries``: the bodies it entered, with how they were left.
+    ``callee``, ``port``: the instance and port element that the test called.
+    ``possible``: all instances that could be called were operational when the call was made.
+    ``behind``, ``behind_since``: what was behind the port element after so many changes of the runtime.
     """
 
+    value: int
+    n: int
+    request: Request | None = None
+    step: s.Invoke | None = None
+    caller_hook: str = ""
     callee: Member | None = None
     port: str | None = None
-    possible = False
+    possible: bool = False
     behind: Behind | None = None
-    behind_since = 0
+    behind_since: int = 0
     caller: Execution | None = None
-    waited = False
+    waited: bool = False
+    entries: list[tuple[Enter, Exit | None]] = field(default_factory=list)
 
-    def __init__(
-        self, value: int, n: int, request: Request | None = None, step: s.Invoke | None = None, caller_hook: str = ""
-    ) -> None:
-        self.value = value
-        self.n = n
-        self.request = request
-        self.step = step
-        self.caller_hook = caller_hook
-        self.by: Caller = "body" if step is None else "test"
-        self.entries: list[tuple[Enter, Exit | None]] = []
+    @property
+    def by(self) -> Caller:
+        """Who made it."""
+        return "body" if self.step is None else "test"
 
     @property
     def worker(self) -> str | None:
@@ -106,12 +111,6 @@ class BusinessCall:
 
     def close(self, end: Exit) -> None:
         """The innermost entry of that body came to its end."""
-        if not self.entries:
-            return
-        enter, exit_ = self.entries[-1]
-        if exit_ is None and enter.component == end.component and enter.instance == end.instance:
-            self.entries[-1] = (enter, end)
-            return
         for index in range(len(self.entries) - 1, -1, -1):
             enter, exit_ = self.entries[index]
             if exit_ is None and (enter.component, enter.instance) == (end.component, end.instance):
@@ -121,10 +120,14 @@ class BusinessCall:
 
 @dataclass(slots=True, eq=False)
 class Execution:
-    """A body inside ``exchange`` or ``run``: how it was entered, by which call, and at which gate it is held.
+    """A body inside ``exchange`` or ``run``.
 
-    ``waited`` are calls that were seen waiting meanwhile; ``left`` is when it was over, ``end`` the event; ``earlier`` are the body's runs
-    before this one.
+    ``enter``, ``call``: how it was entered, and by which call.
+    ``gate``: where it is held.
+    ``waited``: calls that were seen waiting meanwhile.
+    ``over``, ``left``, ``end``: whether it has ended, when (``t``) and by which event (``n``).
+    ``earlier``: the body's runs before this one.
+    ``met``: other executions that were in the body when this one began, and not among its callers.
     """
 
     enter: Enter
@@ -135,6 +138,7 @@ class Execution:
     left: int = 0
     end: int = 0
     earlier: list[Execution] = field(default_factory=list)
+    met: list[Execution] = field(default_factory=list)
 
     @property
     def way(self) -> str:
@@ -177,8 +181,8 @@ class Executions:
         """The calls that have not entered a body yet and not come back."""
         return tuple(self._pending)
 
-    def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
-        """A body is entered: the execution, and those it meets there that are not its own callers."""
+    def begin(self, enter: Enter, call: BusinessCall | None) -> Execution:
+        """A body is entered."""
         inside = self._inside.setdefault((enter.component, enter.instance), [])
         execution = Execution(enter, call)
         if enter.hook == "run":
@@ -186,11 +190,11 @@ class Executions:
             execution.earlier = runs.copy()
             runs.append(execution)
         callers = {id(caller) for caller in call.callers()} if call is not None else set()
-        met = [other for other in inside if id(other) not in callers and other.enter.thread != enter.thread]
+        execution.met = [other for other in inside if id(other) not in callers and other.enter.thread != enter.thread]
         inside.append(execution)
         if call in self._pending:
             self._pending.remove(call)
-        return execution, met
+        return execution
 
     def innermost(self, thread: int) -> Execution | None:
         """The execution in progress on ``thread``."""
@@ -209,9 +213,11 @@ class Executions:
                 return execution
         return None
 
-    def runs(self, component: str, instance: int) -> tuple[Execution, ...]:
-        """The body's executions by ``run``, over or not, in the order in which they began."""
-        return tuple(self._runs.get((component, instance), ()))
+    def runs_since_start(self, component: str, instance: int) -> list[Execution]:
+        """The body's executions by ``run`` since its last on_startup, over or not, in the order in which they began."""
+        started = self._runtime.startups.get((component, instance))
+        runs = self._runs.get((component, instance), ())
+        return [run for run in runs if started is not None and run.enter.n > started[0]]
 
     def past(self, component: str, instance: int) -> tuple[Execution, ...]:
         """What a body has executed, in the order in which it ended."""
@@ -247,9 +253,9 @@ class Executions:
 class NoExecutions(Executions):
     """Stands for the executions of scenarios without policies: nothing is recorded, nobody waits."""
 
-    _NOTHING = Execution(Enter(0, 0, 0, "", 0, "exchange"), None), list[Execution]()
+    _NOTHING = Execution(Enter(0, 0, 0, "", 0, "exchange"), None)
 
-    def begin(self, enter: Enter, call: BusinessCall | None) -> tuple[Execution, list[Execution]]:
+    def begin(self, enter: Enter, call: BusinessCall | None) -> Execution:
         """Nothing is recorded."""
         return self._NOTHING
 
@@ -313,16 +319,10 @@ def goals_of(runtime: Runtime, call: BusinessCall) -> list[tuple[Member, str]]:
     if call.request is None:
         return [(call.callee, call.port)] if call.callee is not None and call.port is not None else []
     caller = runtime.member_of(call.request.component, call.request.instance)
-    if caller is None or not providers_of(runtime, call):
+    if caller is None or not behind(runtime, caller.component, call.request.instance, call.request.port).providers:
         return []
-    behind = connections_behind(caller, call.request.port)
-    return [(c.provider, c.provided) for c in behind if c.provider is not None]
-
-
-def providers_of(runtime: Runtime, call: BusinessCall) -> tuple[Member, ...]:
-    """The instances that the port element a body called through is connected to; empty if that is not known."""
-    request = call.request
-    return behind(runtime, request.component, request.instance, request.port).providers if request is not None else ()
+    connections = connections_behind(caller, call.request.port)
+    return [(c.provider, c.provided) for c in connections if c.provider is not None]
 
 
 _NOTHING_KNOWN = Behind((), True, frozenset())

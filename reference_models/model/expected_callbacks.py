@@ -54,8 +54,7 @@ class ExpectedCallbacks:
     def __init__(self, table: LifeCycleTable) -> None:
         self._table = table
         self._duties: dict[tuple[str, str], CallbackDuty] = {}
-        self._answers: dict[int, frozenset[str]] = {}
-        self._calls: dict[tuple[int, str], bool] = {}
+        self._answers = {id(row): frozenset(a for o in row.outcomes for a in o.answer) for row in table.rows}
         self._fits: dict[tuple[int, str, Listener, tuple[str, ...]], Fit | None] = {}
 
     def of(self, callback: str, operation: str) -> CallbackDuty:
@@ -69,18 +68,11 @@ class ExpectedCallbacks:
 
     def answers_to(self, row: Row) -> frozenset[str]:
         """The answers that ``row`` permits."""
-        known = self._answers.get(id(row))
-        if known is None:
-            known = self._answers[id(row)] = frozenset(a for outcome in row.outcomes for a in outcome.answer)
-        return known
+        return self._answers[id(row)]
 
     def always_calls(self, row: Row, hook: str) -> bool:
         """Does the instance receive ``hook`` in whichever way ``row`` lets the operation return?"""
-        known = self._calls.get((id(row), hook))
-        if known is None:
-            known = all(hook in outcome.callbacks for outcome in row.outcomes if "return" in outcome.answer)
-            self._calls[id(row), hook] = known
-        return known
+        return all(hook in outcome.callbacks for outcome in row.outcomes if "return" in outcome.answer)
 
     def fit(self, row: Row, answer: str, listener: Listener, hooks: tuple[str, ...]) -> Fit | None:
         """How ``hooks`` fits an outcome of ``row`` with this ``answer``; None if it does not."""

@@ -20,6 +20,9 @@ Fit = Literal["same", "altered", "repeated", "stray"]
 delivered here before; like none.
 """
 
+NEVER = 2**63
+"""The ``n`` of an event that has not happened: later than all others."""
+
 _WITHOUT_EFFECT = frozenset((s.Invoke, s.GetPortElement, s.GetComponents, s.ReadLog))
 """Operations that change nothing about who is operational."""
 
@@ -87,6 +90,11 @@ class MethodCall:
     def __post_init__(self) -> None:
         connector = self.link.connector if self.link is not None else ""
         self.is_message = connector == s.MESSAGE_CONNECTOR and self.request.method == s.PUSH
+
+    @property
+    def over(self) -> int:
+        """The event that ended it; later than all if none did."""
+        return self.reply.n if self.reply is not None else NEVER
 
     @property
     def code(self) -> object:

@@ -7,11 +7,11 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Raise, Reference, Return
-from ucm_cts.reference_models.model.operation import OperationInProgress
+from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import NO_ID, Connection, Container, Member, Runtime, raises
 
 
-def apply(runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def apply(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
     """Bring ``runtime`` up to date with the operation that just ended."""
     if ongoing.callbacks:
         _linger(runtime, ongoing, end)
@@ -29,7 +29,7 @@ def apply(runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -
                 _follow(ongoing, member)
 
 
-def _linger(runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise) -> None:
+def _linger(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
     """Whose on_shutdown raised, and the operation with it, may be operational still, until on_startup comes again or a stop returns."""
     for (component, instance), callbacks in ongoing.by_body.items():
         member = runtime.bodies.get((component, instance or 0))
@@ -43,7 +43,7 @@ def _linger(runtime: Runtime, ongoing: OperationInProgress, end: Return | Raise)
                 member.container.suspend()
 
 
-def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent, end: Return | Raise) -> None:
+def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent, end: Result) -> None:
     value = end.value if isinstance(end, Return) else None
     declaration = runtime.scenario.components.get(step.component)
     seen = [*((c.component, c.instance) for c in ongoing.callbacks), *ongoing.created]
@@ -88,7 +88,7 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
     ongoing.subject = member
 
 
-def _found(runtime: Runtime, ongoing: OperationInProgress, step: s.GetPortElement, end: Return | Raise) -> None:
+def _found(runtime: Runtime, ongoing: OperationInProgress, step: s.GetPortElement, end: Result) -> None:
     if isinstance(end, Return):
         recognised = isinstance(end.value, Reference) or end.value == "opaque"
         reference: MaybeReference = end.value if recognised else None  # type: ignore[assignment]
@@ -97,7 +97,7 @@ def _found(runtime: Runtime, ongoing: OperationInProgress, step: s.GetPortElemen
         runtime.ports[step.bind] = reference.port if isinstance(reference, Reference) and owner else step.port
 
 
-def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, end: Return | Raise) -> None:
+def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, end: Result) -> None:
     member = ongoing.subject
     if member is None:
         return
@@ -151,7 +151,7 @@ def _forget_start(member: Member) -> None:
         member.container.startup_order.remove(member)
 
 
-def _disconnected(runtime: Runtime, ongoing: OperationInProgress, step: s.Disconnect, end: Return | Raise) -> None:
+def _disconnected(runtime: Runtime, ongoing: OperationInProgress, step: s.Disconnect, end: Result) -> None:
     connection = ongoing.connection
     if connection is None:
         return
@@ -171,9 +171,7 @@ def _disconnected(runtime: Runtime, ongoing: OperationInProgress, step: s.Discon
         client.suspended = True
 
 
-def _component_removed(
-    runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveComponent, end: Return | Raise
-) -> None:
+def _component_removed(runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveComponent, end: Result) -> None:
     member = ongoing.subject
     if member is None:
         return
@@ -183,9 +181,7 @@ def _component_removed(
         _perhaps_removed(runtime, [member])
 
 
-def _container_created(
-    runtime: Runtime, ongoing: OperationInProgress, step: s.CreateContainer, end: Return | Raise
-) -> None:
+def _container_created(runtime: Runtime, ongoing: OperationInProgress, step: s.CreateContainer, end: Result) -> None:
     if isinstance(end, Return):
         earlier = runtime.containers.get(step.bind)
         if earlier is not None:  # the variable is bound anew; the container it held is still there
@@ -194,9 +190,7 @@ def _container_created(
         runtime.containers[step.bind] = Container(step.bind, started=None if cascading else False)
 
 
-def _container_removed(
-    runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveContainer, end: Return | Raise
-) -> None:
+def _container_removed(runtime: Runtime, ongoing: OperationInProgress, step: s.RemoveContainer, end: Result) -> None:
     container = runtime.containers.get(step.container)
     known = container is not None and not container.removed and container.name != s.MANAGER
     if not known or container is None:
@@ -210,7 +204,7 @@ def _container_removed(
         container.doubtful = True
 
 
-def _destroyed(runtime: Runtime, ongoing: OperationInProgress, step: s.Destroy, end: Return | Raise) -> None:
+def _destroyed(runtime: Runtime, ongoing: OperationInProgress, step: s.Destroy, end: Result) -> None:
     runtime.destroyed = True
     for container in runtime.containers.values():
         for member in container.members:
@@ -249,7 +243,7 @@ def _removed(runtime: Runtime, ongoing: OperationInProgress, removed: Sequence[M
         runtime.let_go(member)
 
 
-def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end: Return | Raise) -> None:
+def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end: Result) -> None:
     returned = isinstance(end, Return)
     container = ongoing.container
     everywhere = [m for c in runtime.containers.values() for m in c.live_members()] if ongoing.callbacks else []
@@ -285,7 +279,7 @@ def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end:
     container.started = True
 
 
-def _stopped(runtime: Runtime, ongoing: OperationInProgress, step: s.Stop, end: Return | Raise) -> None:
+def _stopped(runtime: Runtime, ongoing: OperationInProgress, step: s.Stop, end: Result) -> None:
     returned = isinstance(end, Return)
     container = ongoing.container
     _reached_unseen(runtime, container)
@@ -365,7 +359,7 @@ def _lose_track(ongoing: OperationInProgress) -> None:
             member.suspended = True
 
 
-_TAKEN_OVER: dict[str, Callable[[Runtime, OperationInProgress, Any, Return | Raise], None]] = {
+_TAKEN_OVER: dict[str, Callable[[Runtime, OperationInProgress, Any, Result], None]] = {
     "add_component": _added,
     "remove_component": _component_removed,
     "get_port_element": _found,

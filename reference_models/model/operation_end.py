@@ -6,19 +6,11 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Return
 from ucm_cts.reference_models.model import operation as op
 from ucm_cts.reference_models.model.expected_callbacks import LIFE_CYCLE_HOOKS, ExpectedCallbacks, Listener
-from ucm_cts.reference_models.model.row_selection import undone_by
+from ucm_cts.reference_models.model.row_selection import listener_of
 from ucm_cts.reference_models.model.runtime import Member, Runtime, lane
 
 OF_ALL_MEMBERS: dict[str, s.Hook] = {"start": "on_startup", "stop": "on_shutdown"}
 """The operations that call all members of a container, and what they call."""
-
-_ABSENT = Listener(False, False, 0)
-_LISTENERS = {
-    (connectable, fragment, undone): Listener(connectable, fragment, undone)
-    for connectable in (False, True)
-    for fragment in (False, True)
-    for undone in range(3)
-}
 
 
 def conclude(runtime: Runtime, ongoing: op.OperationInProgress, end: op.Result, expected: ExpectedCallbacks) -> None:
@@ -142,16 +134,15 @@ def _listener(
 ) -> tuple[str, int | None, Listener]:
     """The body that a role is about, and what decides which callbacks it gets; a new instance has no member yet."""
     if member is not None:
-        undone = len(undone_by(ongoing, member)) if member.connections else 0
-        declaration = member.declaration
-        listener = _LISTENERS.get((declaration.connectable, declaration.fragment, undone))
-        if listener is None:
-            listener = Listener(declaration.connectable, declaration.fragment, undone)
-        return member.component, member.instance, listener
+        return member.component, member.instance, listener_of(ongoing, member)
     if not isinstance(ongoing.step, s.AddComponent):
-        return "", None, _ABSENT
+        return "", None, listener_of(ongoing, None)
     component = ongoing.step.component
     wanted = runtime.scenario.components.get(component)
     fresh = (c.instance for c in ongoing.callbacks if c.component == component)
     instance = next((i for i in fresh if (component, i) not in runtime.bodies), None)
-    return component, instance, Listener(wanted.connectable, wanted.fragment, 0) if wanted is not None else _ABSENT
+    return (
+        component,
+        instance,
+        Listener(wanted.connectable, wanted.fragment, 0) if wanted is not None else listener_of(ongoing, None),
+    )

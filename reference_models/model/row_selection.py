@@ -7,7 +7,8 @@ from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.reference_models.model.executions import is_contradictory
-from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row, State
+from ucm_cts.reference_models.model.expected_callbacks import Listener
+from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Connection, Container, Member, raises
@@ -351,6 +352,9 @@ def undone_by(ongoing: OperationInProgress, member: Member) -> list[Connection]:
     return live
 
 
-def row_of(ongoing: OperationInProgress, member: Member | None) -> Row | None:
-    """The row that stands for ``member`` in ``ongoing``."""
-    return next((row for m, row in ongoing.roles if m is member), None)
+def listener_of(ongoing: OperationInProgress, member: Member | None) -> Listener:
+    """What decides which callbacks ``member`` gets from the operation; of no instance if it is None."""
+    if member is None:
+        return Listener(False, False, 0)
+    undone = len(undone_by(ongoing, member)) if member.connections else 0
+    return Listener(member.declaration.connectable, member.declaration.fragment, undone)

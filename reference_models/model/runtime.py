@@ -213,7 +213,7 @@ class Runtime:
     ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
     whose on_startup has returned during the operation in progress, ``starting_up`` those that are inside it because their
     container's start is in progress, each with its thread; ``in_vain`` are gates that were waited for until patience ran
-    out, ``opened`` those that were opened without that. ``last_run`` when run was entered last. ``inside`` are
+    out, ``opened`` those that were opened without that. ``inside`` are
     the bodies in which a thread is carrying out business methods or run, the innermost last. ``not_offered`` tells of
     operations that the adapter does not offer.
     ``behind`` is what executions.behind has worked out since anything ``changed``, and ``changes`` how often that was so.
@@ -232,7 +232,6 @@ class Runtime:
         self.starting_up: dict[tuple[str, int], int] = {}
         self.in_vain: set[str] = set()
         self.opened: set[str] = set()
-        self.last_run: dict[tuple[str, int], int] = {}
         self.inside: dict[int, list[tuple[str, int]]] = {}
         self.not_offered: list[Skip] = []
         self.connections: dict[str, Connection] = {}
@@ -277,11 +276,6 @@ class Runtime:
         first = self.startups.get((one.component, one.instance or 0))
         second = self.startups.get((other.component, other.instance or 0))
         return first is not None and second is not None and first[1] == second[1] and first[0] < second[0]
-
-    def runs_since_start(self, member: Member) -> bool:
-        """Has run been entered since its last on_startup?"""
-        body = member.component, member.instance or 0
-        return body in self.startups and self.last_run.get(body, 0) > self.startups[body][0]
 
     def may_run(self, member: Member) -> bool:
         """Has its last on_startup returned, and the stop that follows not?"""

@@ -9,9 +9,6 @@ from ucm_cts.adapters.contract.trace import Exit
 from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.links import End, LinkState
 
-NEVER = 2**63
-"""The ``n`` of an event that has not happened: later than all others."""
-
 
 @dataclass(frozen=True)
 class ServiceCall:
@@ -36,7 +33,7 @@ class ServiceCall:
     @property
     def over(self) -> int:
         """The event that ended it; later than all if none did."""
-        return self.call.reply.n if self.call.reply is not None else NEVER
+        return self.call.over
 
     @property
     def served(self) -> list[Delivery]:

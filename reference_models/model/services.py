@@ -8,11 +8,11 @@ from typing import Literal
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Interface
 from ucm_cts.adapters.contract.trace import Exit, Raise, Reply
-from ucm_cts.reference_models.model.interactions import Delivery, MethodCall, Operation
+from ucm_cts.reference_models.model.interactions import NEVER, Delivery, MethodCall, Operation
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import NO_ID, Member
-from ucm_cts.reference_models.model.service_call import NEVER, ServiceCall
+from ucm_cts.reference_models.model.service_call import ServiceCall
 
 Trouble = Literal[
     "", "not served", "elsewhere", "twice", "arguments", "results", "failed", "early", "swallowed", "translated"
@@ -73,22 +73,13 @@ def _serves_several(runtime: ObservedRuntime, member: Member | None, port: str |
 
 def _comes_back(call: MethodCall, server: Member) -> bool:
     """Is the server among those who wait for this call?"""
-    inside = call.business.caller
-    while inside is not None:
-        if (inside.enter.component, inside.enter.instance) == (server.component, server.instance):
-            return True
-        inside = inside.call.caller if inside.call is not None else None
-    return False
+    body = server.component, server.instance
+    return any((one.enter.component, one.enter.instance) == body for one in call.business.callers())
 
 
 def is_nested(one: ServiceCall) -> bool:
     """Did its client make it while it was called itself through a connector, or got a message?"""
-    inside = one.call.business.caller
-    while inside is not None:
-        if inside.enter.method is not None:
-            return True
-        inside = inside.call.caller if inside.call is not None else None
-    return False
+    return any(caller.enter.method is not None for caller in one.call.business.callers())
 
 
 def operations_beside(runtime: ObservedRuntime, one: ServiceCall) -> list[Operation]:

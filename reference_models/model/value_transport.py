@@ -65,7 +65,7 @@ class Difference:
         of, sent = self.part.of, self.part.value
         if not isinstance(of, d.Float) or not isinstance(sent, str) or not isinstance(self.got, str):
             return False
-        return len(sent) == len(self.got) and is_nan(of, sent) and not _misfits(of, self.got) and is_nan(of, self.got)
+        return len(sent) == len(self.got) and is_nan(of, sent) and not misfit(of, self.got) and is_nan(of, self.got)
 
 
 @dataclass
@@ -173,17 +173,13 @@ def _arrived(of: d.AnyType, sent: d.Datum, got: object) -> list[d.Datum] | None:
     if not isinstance(got, list) or len(got) != len(sent):
         return None
     if isinstance(of, d.Union):
-        of_another_case = _misfits(of, got) and not all(_misfits(case.of, got[1]) for case in of.cases)
+        of_another_case = misfit(of, got) and not all(misfit(case.of, got[1]) for case in of.cases)
         return None if got[0] != sent[0] or of_another_case else [got[1]]
     dimensions = len(of.sizes) if isinstance(of, d.Array) else 1
     if dimensions > 1 and _shape(got, dimensions) != _shape(sent, dimensions):
         return None
     arrived, wanted = flat(got, dimensions), flat(sent, dimensions)
     return None if _is_another_order(wanted, arrived) else arrived
-
-
-def _misfits(of: d.AnyType, value: object) -> bool:
-    return bool(misfit(of, value))
 
 
 def _shape(value: object, dimensions: int) -> object:

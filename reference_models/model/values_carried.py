@@ -17,7 +17,6 @@ from ucm_cts.reference_models.model.value_transport import Difference, Part, dif
 
 MESSAGE = "message"
 EXCEPTION = "field of an exception"
-_NEVER = 2**63
 _OVERWRITTEN_BY = 3
 """So many owners of one buffer may have overwritten it."""
 
@@ -149,12 +148,8 @@ def _meets_others(interactions: Interactions, call: MethodCall) -> bool:
     """Was a service called again before this call came back, or held?"""
     if call.is_message:
         return False
-    end = call.reply.n if call.reply is not None else _NEVER
     return any(delivery.was_held for delivery in call.deliveries) or any(
-        other is not call
-        and other.link is call.link
-        and other.request.n < end
-        and (other.reply is None or other.reply.n > call.request.n)
+        other is not call and other.link is call.link and other.request.n < call.over and other.over > call.request.n
         for other in interactions.calls
     )
 

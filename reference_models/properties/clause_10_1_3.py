@@ -85,14 +85,12 @@ def _is_active_twice(declaration: Declaration) -> bool:
 
 
 @property_at("began", _RUN_IS_CALLED)
-def runs_again(
-    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
-) -> Conclusions:
+def runs_again(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Conclusions:
     """run is called more than once a start, unless the vendor declares that it is called once."""
     enter = execution.enter
-    if execution.way != "run" or met:
+    if execution.way != "run" or execution.met:
         return
-    since = _runs_since_start(runtime, enter.component, enter.instance)
+    since = runtime.executions.runs_since_start(enter.component, enter.instance)
     if len(since) > 1 and not (yield from takes(runtime, "run-trigger", "repeated")):
         yield check.fail(
             "repeated",
@@ -110,7 +108,7 @@ def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> C
     if not isinstance(step, s.ReachGate):
         return
     for member in runtime.present:
-        runs = _runs_since_start(runtime, member.component, member.instance or 0)
+        runs = runtime.executions.runs_since_start(member.component, member.instance or 0)
         plan = member.declaration.plan.get("run", ())
         if not member.serving or len(runs) != 1 or s.HoldAtGate(step.gate) not in plan or s.RaiseError() in plan:
             continue
@@ -125,16 +123,8 @@ def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> C
             )
 
 
-def _runs_since_start(runtime: ObservedRuntime, component: str, instance: int) -> list[ex.Execution]:
-    started = runtime.startups.get((component, instance))
-    runs = runtime.executions.runs(component, instance)
-    return [run for run in runs if started is not None and run.enter.n > started[0]]
-
-
 @property_at("began", *ex.CALL_EXCLUSIONS)
-def circle_entered(
-    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
-) -> Concluded:
+def circle_entered(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
     """A call came back to the component whose execution waits for it, and was let in, which is the framework's choice."""
     body = execution.enter.component, execution.enter.instance
     callers = execution.call.callers() if execution.call is not None else ()

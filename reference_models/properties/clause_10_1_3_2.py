@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.scenario import Declaration, HoldAtGate
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measured, Taken, takes
 from ucm_cts.reference_models.model import executions as ex
-from ucm_cts.reference_models.model.interactions import Delivery
+from ucm_cts.reference_models.model.interactions import NEVER, Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import lane, raises
@@ -27,21 +27,17 @@ _SUPPORT = {
     "unprotected": "R-10.1.3.1-15",
 }
 _BY_ITSELF = {"passive": "R-10.1.3.2-14", "unprotected": "R-10.1.3.2-19"}
-_NOW = 2**63
-"""Later than all events so far."""
 
 _INTERVALS = 3
 """So many usual intervals a run must be held inside, and so many are needed to know what is usual."""
 
 
 @property_at("began", *ex.EXCLUSIONS)
-def no_reentry(
-    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
-) -> Conclusions:
+def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Conclusions:
     """A protected component is not entered while it is executed, unless the execution's own calls lead back into it."""
     enter = execution.enter
     declaration = runtime.scenario.components[enter.component]
-    for other in met:
+    for other in execution.met:
         requirement = ex.exclusion(declaration, runtime.ics, execution.way, other.way)
         if requirement:
             yield check.fail(
@@ -55,11 +51,9 @@ def no_reentry(
 
 
 @property_at("began", _REENTERED)
-def overlap_possible(
-    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
-) -> Concluded:
+def overlap_possible(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
     """Two callers may be inside an unprotected passive component, which is told and never demanded."""
-    if met and ex.protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
+    if execution.met and ex.protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
         return (Taken("unprotected-concurrency", "concurrent"), check.kept(), Measured("overlaps provoked"))
     return ()
 
@@ -120,12 +114,10 @@ def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execut
 
 
 @property_at("began", "R-10.1.3.2-05")
-def run_kept_out(
-    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
-) -> Concluded:
+def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
     """A run was held inside for several of the intervals at which run is called, and nobody came in."""
     runs = [run for run in execution.earlier if run.over]
-    if execution.way != "run" or met or len(runs) < _INTERVALS:
+    if execution.way != "run" or execution.met or len(runs) < _INTERVALS:
         return ()
     begun = [run.enter.t for run in (*runs, execution)]
     usual = statistics.median(later - earlier for earlier, later in itertools.pairwise(begun))
@@ -144,7 +136,7 @@ def waiting_calls_served(
         return ()
     if end and any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries):
         return check.kept()
-    ending = runtime.interactions.ends_phases(call.n, end or _NOW)
+    ending = runtime.interactions.ends_phases(call.n, end or NEVER)
     if ending or not all(member.serving for member, _ in ex.goals_of(runtime, call)):
         return ()  # who is being stopped serves nobody
     return check.fail(
@@ -248,9 +240,7 @@ def one_execution_policy(check: Property, runtime: ObservedRuntime, ongoing: Ope
 
 
 @property_at("began", _RUN_IS_CALLED, _RUN_PHASE, _UNPROMPTED)
-def run_phases(
-    check: Property, runtime: ObservedRuntime, execution: ex.Execution, met: list[ex.Execution]
-) -> Conclusions:
+def run_phases(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Conclusions:
     """run is called on an operational component, and needs neither connections nor callers."""
     enter = execution.enter
     member = runtime.member_of(enter.component, enter.instance)
@@ -279,7 +269,7 @@ def run_triggered(check: Property, runtime: ObservedRuntime, event: Timeout) -> 
     if not isinstance(step, s.ReachGate):
         return
     for member in runtime.present:
-        runs = runtime.runs_since_start(member)
+        runs = runtime.executions.runs_since_start(member.component, member.instance or 0)
         if member.serving and not runs and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
             unprompted = not member.connections and not member.served
             for requirement in (_RUN_IS_CALLED, *((_UNPROMPTED,) if unprompted else ())):

@@ -14,7 +14,7 @@ from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, Row
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.prediction import Way
-from ucm_cts.reference_models.model.row_selection import undone_by
+from ucm_cts.reference_models.model.row_selection import listener_of
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.properties.declared_choices import undeclared_choice
 
@@ -68,14 +68,6 @@ class Permission:
             yield " ".join((LISTS, *own))
         if below and self._ics.permits("manager-get-components", "recursive"):
             yield " ".join((LISTS, *every))
-
-
-def listener_of(ongoing: OperationInProgress, member: Member | None) -> Listener:
-    """The key that decides which callbacks an instance in a role of the operation gets."""
-    if member is not None:
-        declaration = member.declaration
-        return Listener(declaration.connectable, declaration.fragment, len(undone_by(ongoing, member)))
-    return Listener(False, False, 0)
 
 
 def _name(ongoing: OperationInProgress, member: Member | None) -> str:
