@@ -1,6 +1,6 @@
-"""UCM data types (9.2.3 to 9.2.5) and interfaces (9.2.7) as data, and how their values travel.
+"""UCM data types (9.2.3 to 9.2.5) and interfaces (9.2.7) as data, and the wire format of their values.
 
-A value travels as plain JSON that says nothing of its type; the interface does. Integers and characters (code points) are
+A value is plain JSON without its type; the interface has the type. Integers and characters (code points) are
 integers, booleans booleans, strings strings, enumerators their names; a structure is the list of its fields, a union
 ``[enumerator, value]``, arrays (dimension by dimension) and sequences are lists. A float is the hexadecimal digits of its
 IEEE 754 bits, most significant first, so that two values are the same exactly when they are written the same.
@@ -13,7 +13,7 @@ from typing import Any, Literal
 from ucm_cts.adapters.contract.value import Value
 
 Datum = bool | int | str | list[Any]
-"""A value as it travels."""
+"""A value on the wire."""
 
 IntegerKind = Literal["BYTE", "SHORT", "LONG", "LONGLONG", "UBYTE", "USHORT", "ULONG", "ULONGLONG"]
 """The integer kinds of 9.2.3.2."""
@@ -34,19 +34,28 @@ class DataType(Value, frozen=True, tag_field="type"):
 
 
 class Integer(DataType, frozen=True, tag="integer"):
-    """PrimitiveInteger."""
+    """PrimitiveInteger.
+
+    ``kind``: its size and sign.
+    """
 
     kind: IntegerKind
 
 
 class Float(DataType, frozen=True, tag="float"):
-    """PrimitiveFloat; LONGDOUBLE has no portable form and is not sent."""
+    """PrimitiveFloat.
+
+    ``kind``: FLOAT or DOUBLE; LONGDOUBLE has no portable form and is not sent.
+    """
 
     kind: Literal["FLOAT", "DOUBLE"]
 
 
 class Char(DataType, frozen=True, tag="char"):
-    """PrimitiveChar."""
+    """PrimitiveChar.
+
+    ``kind``: CHAR8 or CHAR32.
+    """
 
     kind: Literal["CHAR8", "CHAR32"]
 
@@ -56,14 +65,23 @@ class Boolean(DataType, frozen=True, tag="boolean"):
 
 
 class String(DataType, frozen=True, tag="string"):
-    """StringType; ``size`` -1 is unbounded. The characters of a CHAR8 string have code points below 256."""
+    """StringType.
+
+    ``base``: kind of its characters; those of CHAR8 have code points below 256.
+    ``size``: the greatest number of characters; -1 is unbounded.
+    """
 
     base: Literal["CHAR8", "CHAR32"]
     size: int = -1
 
 
 class Enumeration(DataType, frozen=True, tag="enumeration"):
-    """Enumerators and their index values, in order."""
+    """Enumeration.
+
+    ``name``: its name.
+    ``index``: type of the index values.
+    ``values``: index values by enumerator, in order.
+    """
 
     name: str
     index: IntegerKind
@@ -71,14 +89,24 @@ class Enumeration(DataType, frozen=True, tag="enumeration"):
 
 
 class Structure(DataType, frozen=True, tag="structure"):
-    """Named fields in order."""
+    """Structure, or a declared exception.
+
+    ``name``: its name.
+    ``fields``: types by field name, in order.
+    """
 
     name: str
     fields: dict[str, AnyType]
 
 
 class UnionCase(Value, frozen=True):
-    """One alternative: active for the ``selectors``, or as ``default`` for every enumerator no other case names."""
+    """An alternative of a union.
+
+    ``name``: its name.
+    ``of``: type of its value.
+    ``selectors``: the enumerators that select it.
+    ``default``: it is selected by every enumerator that no other case names.
+    """
 
     name: str
     of: AnyType
@@ -87,7 +115,12 @@ class UnionCase(Value, frozen=True):
 
 
 class Union(DataType, frozen=True, tag="union"):
-    """A value of the case that the enumerator selects."""
+    """Union: a value of the case that the enumerator selects.
+
+    ``name``: its name.
+    ``selector``: the type of the enumerators.
+    ``cases``: the alternatives, in order.
+    """
 
     name: str
     selector: Enumeration
@@ -95,21 +128,33 @@ class Union(DataType, frozen=True, tag="union"):
 
 
 class Array(DataType, frozen=True, tag="array"):
-    """Elements of one type, ``sizes`` dimension by dimension."""
+    """Array.
+
+    ``of``: type of the elements.
+    ``sizes``: number of elements in each dimension.
+    """
 
     of: AnyType
     sizes: tuple[int, ...]
 
 
 class Sequence(DataType, frozen=True, tag="sequence"):
-    """Up to ``size`` elements of one type; -1 is unbounded."""
+    """Sequence.
+
+    ``of``: type of the elements.
+    ``size``: the greatest number of elements; -1 is unbounded.
+    """
 
     of: AnyType
     size: int = -1
 
 
 class Alias(DataType, frozen=True, tag="alias"):
-    """Another name of a type."""
+    """Another name of a type.
+
+    ``name``: the name.
+    ``of``: the type.
+    """
 
     name: str
     of: AnyType
@@ -123,7 +168,12 @@ Direction = Literal["IN", "OUT", "INOUT", "RETURN"]
 
 
 class Parameter(Value, frozen=True):
-    """A parameter of a method."""
+    """A parameter of a method.
+
+    ``name``: its name.
+    ``direction``: which way its value goes.
+    ``of``: its type.
+    """
 
     name: str
     direction: Direction
@@ -131,7 +181,11 @@ class Parameter(Value, frozen=True):
 
 
 class Method(Value, frozen=True):
-    """Parameters in order, and the exceptions it may raise."""
+    """A method of an interface.
+
+    ``parameters``: in order.
+    ``raises``: the exceptions that it may raise.
+    """
 
     parameters: tuple[Parameter, ...] = ()
     raises: tuple[Structure, ...] = ()
@@ -148,7 +202,11 @@ class Method(Value, frozen=True):
 
 
 class Interface(Value, frozen=True):
-    """Methods by name, its own and those of the interfaces it inherits (9.2.7.2), whose names are ``inherited``."""
+    """An interface (9.2.7).
+
+    ``methods``: its own and inherited methods, by name.
+    ``inherited``: names of the interfaces that it inherits (9.2.7.2).
+    """
 
     methods: dict[str, Method]
     inherited: tuple[str, ...] = ()

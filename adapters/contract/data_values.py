@@ -1,4 +1,4 @@
-"""Which data are values of a UCM type (9.2.3 to 9.2.5), and what a value is made of."""
+"""Checks whether data are values of a UCM type (9.2.3 to 9.2.5), and takes values apart."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def case_of(union: d.Union, enumerator: str) -> d.UnionCase | None:
 
 
 def components_of(of: d.AnyType, value: d.Datum) -> list[tuple[str, d.AnyType, d.Datum]]:
-    """What a value of ``of`` is directly made of: place, type and value; nothing for scalars. An alias has what it names."""
+    """The direct components of a value of ``of``: place, type and value; none of scalars. An alias has one, the value itself."""
     match of:
         case d.Alias():
             return [("", of.of, value)]
@@ -150,7 +150,7 @@ def components_of(of: d.AnyType, value: d.Datum) -> list[tuple[str, d.AnyType, d
 
 
 def parts(of: d.AnyType, value: d.Datum) -> Iterator[tuple[d.AnyType, d.Datum]]:
-    """``value`` and everything inside it, each with its type; what contains comes before what is contained."""
+    """``value`` and everything inside it, each with its type, the outer before the inner."""
     yield of, value
     for _, part, one in components_of(of, value):
         yield from parts(part, one)
@@ -171,7 +171,7 @@ def _flat(value: d.Datum, dimensions: int) -> Iterator[tuple[tuple[int, ...], d.
 
 
 def spell(value: d.Datum) -> str:
-    """How a value stands where only text can: as the value of an attribute. It is JSON, like on its way."""
+    """A value as text, for attributes: JSON, as on the wire."""
     return msgspec.json.encode(value).decode()
 
 
@@ -184,7 +184,7 @@ def read_spelled(text: str | None) -> d.Datum | None:
 
 
 def kind_name(of: d.AnyType) -> str:
-    """What sort of type it is, in the words of 9.2: LONGLONG, CHAR8 string, enumeration, structure, ..."""
+    """The kind of the type, in the words of 9.2: LONGLONG, CHAR8 string, enumeration, structure, ..."""
     match of:
         case d.Integer() | d.Float() | d.Char():
             return of.kind

@@ -1,6 +1,6 @@
-"""Declarations: the probe bodies that a framework hosts in a scenario, and what each does in its hooks.
+"""Declarations: the probe bodies that a framework hosts in a scenario, and their actions in hooks.
 
-``adapters.contract.scenario`` gives all names of this module, too.
+``adapters.contract.scenario`` exports all names of this module.
 """
 
 from __future__ import annotations
@@ -20,31 +20,44 @@ class RaiseError(Value, frozen=True, tag_field="do", tag="raise"):
 
 
 class ReturnValue(Value, frozen=True, tag_field="do", tag="return"):
-    """The probe's ``exchange`` returns ``value`` instead of its own computation."""
+    """The probe's ``exchange`` returns a fixed value instead of its own computation.
+
+    ``value``: the value.
+    """
 
     value: Int32
 
 
 class CallPort(Value, frozen=True, tag_field="do", tag="call"):
-    """The probe calls ``exchange(value)`` on every reference it holds for its required port element ``port``."""
+    """The probe calls ``exchange`` on every reference that it holds for a required port element.
+
+    ``port``: the required port element.
+    ``value``: the argument.
+    """
 
     port: PortElementName
     value: Int32
 
 
 class HoldAtGate(Value, frozen=True, tag_field="do", tag="hold"):
-    """The probe waits inside the hook until the scenario opens ``gate``."""
+    """The probe waits inside the hook until the scenario opens a gate.
+
+    ``gate``: name of the gate.
+    """
 
     gate: str
 
 
 class QuerySiblings(Value, frozen=True, tag_field="do", tag="siblings"):
-    """A fragment asks the container interface it was given for ``get_components`` (11.2.1.4)."""
+    """A fragment calls ``get_components`` of its container interface (11.2.1.4)."""
 
 
 class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
-    """The probe calls ``method`` with ``arguments`` (IN and INOUT) on every reference it holds for required port element
-    ``port``: one of its own, or of a technical policy (its ``element``).
+    """The probe calls a method on every reference that it holds for a required port element.
+
+    ``port``: the required port element: one of its own, or the ``element`` of a technical policy.
+    ``method``: name of the method.
+    ``arguments``: values of the IN and INOUT parameters, in order.
     """
 
     port: PortElementName
@@ -53,10 +66,12 @@ class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
 
 
 class Answer(Value, frozen=True, tag_field="do", tag="answer"):
-    """How the probe answers ``method``: with ``results`` (OUT, INOUT and RETURN), with its own arguments if there are
-    none given, or with the declared ``exception`` whose fields are ``results``. Without an answer it gives no results.
+    """The probe answers a method. Without this action it gives no results.
 
-    With ``overwrite`` it then overwrites what it was given, as the owner of an IN parameter may.
+    ``method``: name of the method.
+    ``results``: values of the OUT, INOUT and RETURN parameters, or fields of the exception; by default the arguments.
+    ``exception``: name of the declared exception to raise.
+    ``overwrite``: afterwards overwrite the arguments, as the owner of an IN parameter may.
     """
 
     method: str
@@ -66,7 +81,12 @@ class Answer(Value, frozen=True, tag_field="do", tag="answer"):
 
 
 class Burst(Value, frozen=True, tag_field="do", tag="burst"):
-    """The probe pushes ``count`` messages through ``port``: the ULONGs ``first``, ``first + 1``, ... One event tells of all."""
+    """The probe pushes the messages ``first``, ``first + 1``, ... and records one event for all of them.
+
+    ``port``: the required port element.
+    ``first``: the first ULONG.
+    ``count``: how many messages.
+    """
 
     port: PortElementName
     first: Int64
@@ -74,7 +94,7 @@ class Burst(Value, frozen=True, tag_field="do", tag="burst"):
 
 
 class CountMessages(Value, frozen=True, tag_field="do", tag="count"):
-    """The probe counts the ULONGs that are pushed to it and records nothing of each; answers ``ok``."""
+    """The probe counts the ULONGs that are pushed to it, answers ``ok`` and records no event of each."""
 
 
 Action = RaiseError | ReturnValue | CallPort | HoldAtGate | QuerySiblings | CallMethod | Answer | Burst | CountMessages
@@ -127,10 +147,12 @@ METHODS_TO_TRACE, LOG_SEVERITY = "methods_to_trace", "log_severity"
 
 
 class Policy(Value, frozen=True):
-    """A technical policy of a component implementation (9.5.4.3): its ``definition`` and, of some, the ``port`` element.
+    """A technical policy of a component implementation (9.5.4.3).
 
-    ``element`` is the name under which the component gets the port element that it requires by the policy
-    (``REQUIRED_ELEMENTS``): the policy instance and the element.
+    ``definition``: name of the policy definition.
+    ``port``: the port element that it applies to; none if it applies to the component.
+    ``parameters``: values by parameter name.
+    ``element``: name of the port element that the component requires by the policy (``REQUIRED_ELEMENTS``): ``policy.element``.
     """
 
     definition: str
@@ -140,12 +162,16 @@ class Policy(Value, frozen=True):
 
 
 class Declaration(Value, frozen=True):
-    """One component implementation the framework shall be able to instantiate: a probe body and its plan.
+    """A component implementation that the framework must be able to instantiate: a probe body and its plan.
 
-    ``provides`` and ``requires`` list port element names; ``attributes`` maps attribute names to configured values;
-    ``connectable`` bodies implement Connectable (11.2.1.3), ``fragment`` bodies FragmentObject (11.2.1.4).
-    ``policies`` are its technical policies. ``plan`` lists, per hook, the actions the probe performs each time it is
-    entered there. ``ports`` names the interface of each port element that has one. No port element twice.
+    ``provides``: provided port elements.
+    ``requires``: required port elements; none may be provided too.
+    ``attributes``: configured values by attribute name.
+    ``connectable``: the body implements Connectable (11.2.1.3).
+    ``fragment``: the body implements FragmentObject (11.2.1.4).
+    ``plan``: the actions of the probe in each hook, each time it is entered there.
+    ``policies``: technical policies.
+    ``ports``: the interface of each port element that has one, by name.
     """
 
     provides: tuple[PortElementName, ...] = ()

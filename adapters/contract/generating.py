@@ -6,7 +6,9 @@ says why they are made here.
 
 from __future__ import annotations
 
+import inspect
 import json
+import re
 import textwrap
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -286,8 +288,11 @@ class Java:
 
 def comment(text: str, start: str, width: int = 120) -> str:
     """``text`` in lines that begin with ``start``."""
-    paragraphs = [" ".join(paragraph.split()) for paragraph in text.replace("``", "`").split("\n\n")]
-    lines = [line for one in paragraphs for line in (*textwrap.wrap(one, width - len(start)), "")][:-1]
+    joined = re.sub(
+        r"(?<!\n)\n(?!\n|``\w+``: )", " ", inspect.cleandoc(text)
+    )  # lines of one paragraph, or of one field
+    paragraphs = joined.replace("``", "`").split("\n")
+    lines = [line for one in paragraphs for line in textwrap.wrap(one, width - len(start)) or [""]]
     return "\n".join((start + line).rstrip() for line in lines)
 
 

@@ -1,8 +1,8 @@
 """The wire protocol: one JSON message a line, versioned; the types here are its schema.
 
 The harness sends ``hello`` once and then any number of ``run`` without waiting for answers; the host answers each in
-order. A whole scenario travels in one message and its whole trace comes back in one. With ``stream`` the host sends
-each event as it happens, before the trace message; the harness asks for that when it runs a scenario again after a crash.
+order. One message carries a whole scenario, and one its whole trace. With ``stream`` the host also sends each event as it
+happens, before the trace; the harness asks for that when it runs a scenario again after a crash.
 ``protocol.schema.json`` beside this file is generated from these types (``python -m ucm_cts.adapters.contract.messages``).
 """
 
@@ -26,15 +26,21 @@ class Message(Value, frozen=True, tag_field="type"):
 
 
 class Hello(Message, frozen=True, tag="hello"):
-    """Harness to host, first: the protocol version the harness speaks."""
+    """Harness to host, first.
+
+    ``protocol``: the version of the protocol that the harness speaks.
+    """
 
     protocol: Int64
 
 
 class Welcome(Message, frozen=True, tag="welcome"):
-    """Host to harness, answering hello: who is there.
+    """Host to harness, the answer to ``hello``.
 
-    ``port_element_name`` says how the framework spells port element names from ``{port}`` and ``{element}``.
+    ``protocol``: the version of the protocol that the host speaks.
+    ``product``: the framework's name.
+    ``version``: the framework's version.
+    ``port_element_name``: how the framework spells port element names, from ``{port}`` and ``{element}``.
     """
 
     protocol: Int64
@@ -44,7 +50,12 @@ class Welcome(Message, frozen=True, tag="welcome"):
 
 
 class Run(Message, frozen=True, tag="run"):
-    """Harness to host: run ``scenario`` on a fresh runtime; ``id`` comes back in the answer."""
+    """Harness to host: run a scenario on a new runtime.
+
+    ``id``: number of the run; the answer has it too.
+    ``scenario``: what to run.
+    ``stream``: send each event as it happens.
+    """
 
     id: Int64
     scenario: Scenario
@@ -52,7 +63,12 @@ class Run(Message, frozen=True, tag="run"):
 
 
 class Traced(Message, frozen=True, tag="trace"):
-    """Host to harness: what happened. ``stuck`` names the threads that never came back."""
+    """Host to harness, the answer to ``run``: the trace.
+
+    ``id``: number of the run.
+    ``events``: all events, in order.
+    ``stuck``: the threads that did not return.
+    """
 
     id: Int64
     events: tuple[Event, ...]
@@ -60,14 +76,22 @@ class Traced(Message, frozen=True, tag="trace"):
 
 
 class Happened(Message, frozen=True, tag="event"):
-    """Host to harness, streaming only: one event, as soon as it happened."""
+    """Host to harness, in a streamed run: one event, as soon as it happens.
+
+    ``id``: number of the run.
+    ``event``: the event.
+    """
 
     id: Int64
     event: Event
 
 
 class Refused(Message, frozen=True, tag="refused"):
-    """Host to harness: the message just received breaks the protocol, or the adapter could not set up its framework."""
+    """Host to harness: the last message breaks the protocol, or the adapter could not set up its framework.
+
+    ``reason``: what is wrong, for people.
+    ``id``: number of the run, if the message had one.
+    """
 
     reason: str
     id: Int64 | None = None
@@ -93,13 +117,13 @@ def from_host_decoder() -> msgspec.json.Decoder[FromHost]:
 
 
 class _Numbered(msgspec.Struct, frozen=True, tag_field="type", tag="run"):
-    """As much of a ``run`` message as it takes to answer it."""
+    """The part of a ``run`` message that an answer needs."""
 
     id: Int64
 
 
 def refusal(line: bytes, reason: str) -> Refused:
-    """The answer to a ``line`` that is no message, with the id of what it was to run if that can be read."""
+    """The answer to a ``line`` that is no message, with the number of the run if the line has one."""
     try:
         return Refused(reason, msgspec.json.decode(line, type=_Numbered).id)
     except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError):

@@ -27,7 +27,11 @@ class UcmError(Exception):
 
 
 class DeclaredException(Exception):
-    """An exception that the called method declares: its ``name`` and the values of its ``fields``."""
+    """An exception that the called method declares.
+
+    ``name``: its name.
+    ``fields``: values of its fields, in order.
+    """
 
     def __init__(self, name: str, fields: Sequence[Datum] = ()) -> None:
         super().__init__(name)
@@ -53,7 +57,11 @@ class PortElementObject(ABC):
 
 @dataclass(frozen=True)
 class PortConnection:
-    """One required port element and the references connected to it (12.10)."""
+    """A connected required port element (12.10).
+
+    ``from_port``: name of the required port element.
+    ``to_port``: the connected references.
+    """
 
     from_port: str
     to_port: Sequence[PortElementObject | None]
@@ -100,7 +108,7 @@ class ComponentObject(ABC):
 
 
 class Connectable(ABC):
-    """Bodies that want to hear of each connection (11.2.1.3)."""
+    """Bodies that are informed of each connection (11.2.1.3)."""
 
     @abstractmethod
     def on_connect(self, port_name: str, required: PortElementObject | None) -> None:
@@ -112,7 +120,7 @@ class Connectable(ABC):
 
 
 class ContainerInterface(Protocol):
-    """The least a fragment gets to see of its container (11.2.1.4)."""
+    """The part of the Container API that a fragment gets at least (11.2.1.4)."""
 
     def get_components(self) -> Sequence[int]:
         """Ids of the container's members."""
@@ -128,14 +136,17 @@ class FragmentObject(ABC):
 
 @dataclass(frozen=True)
 class Implementation:
-    """A component implementation a framework can instantiate: what its model says, and a factory for bodies.
+    """A component implementation that a framework can instantiate.
 
-    ``connectable`` bodies also implement Connectable, ``fragment`` bodies also FragmentObject. ``policies`` are the
-    technical policies that the container has to apply (10.1.3, 10.1.4). ``interfaces`` are those of the port elements
-    that have one; the others have ``exchange``.
-
-    The port element that a component requires by a policy is handed over in ``on_startup`` like any other, under the
-    name ``policy.element``, and takes ``call``.
+    ``name``: its name.
+    ``provides``: provided port elements.
+    ``requires``: required port elements. ``on_startup`` also gets those of policies, as ``policy.element``; they have ``call``.
+    ``attributes``: attribute names.
+    ``connectable``: the bodies implement Connectable.
+    ``fragment``: the bodies implement FragmentObject.
+    ``create``: makes a body.
+    ``policies``: technical policies that the container applies (10.1.3, 10.1.4).
+    ``interfaces``: the interface of each port element that has one; the others have ``exchange``.
     """
 
     name: str

@@ -3,8 +3,8 @@
 A scenario never says what to expect. Its component declarations describe the probe bodies the framework shall host;
 its steps are Container API calls (clause 12.10), stimuli through provided port elements, and gates.
 
-Variables are names bound by a step (``bind``) and used by later ones. Two are always there: ``UNKNOWN`` designates an
-identifier the framework never gave out, ``NIL`` a null reference. ``MANAGER`` is the runtime's root container.
+Variables are names bound by a step (``bind``) and used by later ones. Two always exist: ``UNKNOWN`` stands for an
+identifier that the framework never gave out, ``NIL`` a null reference. ``MANAGER`` is the runtime's root container.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ UsedConnection = Annotated[str, Uses("connection", (UNKNOWN,))]
 UsedReference = Annotated[str, Uses("reference", (NIL,))]
 UsedContainer = Annotated[str, Uses("container")]
 UsedLink = Annotated[str, Uses("link")]
-"""Variables that a step reads. ``traits`` tells what traits of fields are."""
+"""Variables that a step reads (see ``traits``)."""
 
 KnownAs = Callable[[str, Kind], str]
 
@@ -36,11 +36,13 @@ Returns = Literal["id", "ids", "reference", "value", "records"]
 
 
 class StepBase(Value, frozen=True, kw_only=True):
-    """Common to all steps. With ``thread`` the step runs on that worker thread and the scenario goes on at once."""
+    """Common to all steps.
+
+    ``thread``: the worker that runs the step while the scenario continues; none for the scenario's own thread."""
 
     ends_with: ClassVar[Ending] = "return"
     """The kind of event that ends the step. A step that ends with ``return`` is a call: ``call`` begins it, and it may end
-    with ``raise`` instead. Empty: no event tells that the step has succeeded."""
+    with ``raise`` instead. Empty: no event reports success."""
 
     returns: ClassVar[Returns | None] = None
     """What the call gives back."""
@@ -62,7 +64,7 @@ class StepBase(Value, frozen=True, kw_only=True):
         return ""
 
     def words(self, known_as: KnownAs = lambda variable, kind: variable) -> str:
-        """The arguments as people read them; ``known_as`` says how they know a variable that holds a thing of a kind."""
+        """The arguments as people read them; ``known_as`` names, for readers, what a variable holds."""
         read = {field: getattr(self, field) for field in self.__struct_fields__}
         for field, trait in fields(type(self)):
             if isinstance(trait, Uses):
@@ -72,9 +74,11 @@ class StepBase(Value, frozen=True, kw_only=True):
 
 
 class AddComponent(StepBase, frozen=True, tag_field="op", tag="add_component"):
-    """``add_component`` for an instance of declaration ``component``; the id is bound to ``bind`` or ``component``.
+    """``add_component``.
 
-    A ``component`` that the scenario does not declare asks for an implementation nobody registered.
+    ``component``: the declaration to instantiate; one that the scenario does not declare asks for an unknown implementation.
+    ``container``: where.
+    ``bind``: variable for the id; by default the name of the component.
     """
 
     returns = "id"
@@ -89,7 +93,11 @@ class AddComponent(StepBase, frozen=True, tag_field="op", tag="add_component"):
 
 
 class RemoveComponent(StepBase, frozen=True, tag_field="op", tag="remove_component"):
-    """``remove_component`` of the component bound to ``id``."""
+    """``remove_component``.
+
+    ``id``: the component.
+    ``container``: where.
+    """
 
     wording = "{id}"
 
@@ -98,7 +106,13 @@ class RemoveComponent(StepBase, frozen=True, tag_field="op", tag="remove_compone
 
 
 class GetPortElement(StepBase, frozen=True, tag_field="op", tag="get_port_element"):
-    """``get_port_element``; the reference is bound to ``bind``."""
+    """``get_port_element``.
+
+    ``id``: the component.
+    ``port``: the port element.
+    ``bind``: variable for the reference.
+    ``container``: where.
+    """
 
     returns = "reference"
     wording = "{id}.{port}"
@@ -110,7 +124,14 @@ class GetPortElement(StepBase, frozen=True, tag_field="op", tag="get_port_elemen
 
 
 class Connect(StepBase, frozen=True, tag_field="op", tag="connect"):
-    """``connect`` required port element ``port`` of ``id`` to the reference bound to ``to``; binds the connection id."""
+    """``connect``.
+
+    ``id``: the component that requires.
+    ``port``: its required port element.
+    ``to``: the reference.
+    ``bind``: variable for the id of the connection.
+    ``container``: where.
+    """
 
     returns = "id"
     wording = "{id}.{port} → {to}"
@@ -123,7 +144,11 @@ class Connect(StepBase, frozen=True, tag_field="op", tag="connect"):
 
 
 class Disconnect(StepBase, frozen=True, tag_field="op", tag="disconnect"):
-    """``disconnect`` the connection bound to ``connection``."""
+    """``disconnect``.
+
+    ``connection``: the connection.
+    ``container``: where.
+    """
 
     wording = "{connection}"
 
@@ -152,7 +177,10 @@ class GetComponents(StepBase, frozen=True, tag_field="op", tag="get_components")
 
 
 class CreateContainer(StepBase, frozen=True, tag_field="op", tag="create_container"):
-    """``create_container`` on the manager; the new container is bound to ``bind``."""
+    """``create_container`` of the manager.
+
+    ``bind``: variable for the new container.
+    """
 
     wording = "{bind}"
 
@@ -160,7 +188,10 @@ class CreateContainer(StepBase, frozen=True, tag_field="op", tag="create_contain
 
 
 class RemoveContainer(StepBase, frozen=True, tag_field="op", tag="remove_container"):
-    """``remove_container`` of the container bound to ``container``."""
+    """``remove_container`` of the manager.
+
+    ``container``: the container to remove.
+    """
 
     wording = "{container}"
 
@@ -172,7 +203,11 @@ class Destroy(StepBase, frozen=True, tag_field="op", tag="destroy"):
 
 
 class Invoke(StepBase, frozen=True, tag_field="op", tag="invoke"):
-    """Stimulus: call ``exchange(value)`` on the provided port element reference bound to ``ref``."""
+    """Stimulus: call ``exchange`` of a provided port element.
+
+    ``ref``: the reference.
+    ``value``: the argument.
+    """
 
     returns = "value"
     wording = "{ref} exchange({value})"
@@ -182,7 +217,10 @@ class Invoke(StepBase, frozen=True, tag_field="op", tag="invoke"):
 
 
 class OpenGate(StepBase, frozen=True, tag_field="op", tag="open"):
-    """Let every probe held at ``gate`` go on, now and later."""
+    """Let every probe at a gate continue, now and later.
+
+    ``gate``: name of the gate.
+    """
 
     ends_with = "opened"
     wording = "{gate}"
@@ -191,9 +229,11 @@ class OpenGate(StepBase, frozen=True, tag_field="op", tag="open"):
 
 
 class ReachGate(StepBase, frozen=True, tag_field="op", tag="reach"):
-    """Wait until some probe has arrived at ``gate``, open or not, for at most the scenario's patience.
+    """Wait until a probe has arrived at a gate, open or not, for at most the scenario's patience.
 
-    With ``more`` so many must arrive after the step has begun, with ``total`` since the scenario has begun.
+    ``gate``: name of the gate.
+    ``more``: how many must arrive after the step has begun; 0 asks for nothing more.
+    ``total``: how many must have arrived since the scenario began; 0 asks for nothing more.
     """
 
     ends_with = ""
@@ -206,7 +246,10 @@ class ReachGate(StepBase, frozen=True, tag_field="op", tag="reach"):
 
 
 class Settle(StepBase, frozen=True, tag_field="op", tag="settle"):
-    """Wait until worker ``worker`` is done, held at a gate or seen to be blocked, at most the scenario's patience."""
+    """Wait until a worker is done, held at a gate or blocked, for at most the scenario's patience.
+
+    ``worker``: the worker.
+    """
 
     ends_with = "settled"
     waits = 1
@@ -216,7 +259,10 @@ class Settle(StepBase, frozen=True, tag_field="op", tag="settle"):
 
 
 class Join(StepBase, frozen=True, tag_field="op", tag="join"):
-    """Wait until worker ``worker`` has done all its steps, for at most the scenario's patience."""
+    """Wait until a worker has done all its steps, for at most the scenario's patience.
+
+    ``worker``: the worker.
+    """
 
     ends_with = ""
     waits = 1
@@ -226,9 +272,11 @@ class Join(StepBase, frozen=True, tag_field="op", tag="join"):
 
 
 class Link(StepBase, frozen=True, tag_field="op", tag="link"):
-    """Make a connection (9.5.5.4) with a core ``connector``, bound to ``interface``; it has no ends yet.
+    """Make a connection without ends (9.5.5.4) with a core connector.
 
-    Of the message connector ``interface`` is message_intf bound to a type: ``push`` alone.
+    ``connector``: the connector of 10.1.
+    ``interface``: what it is bound to; of the message connector: message_intf bound to a type, with ``push`` alone.
+    ``bind``: variable for the link.
     """
 
     optional = True
@@ -245,8 +293,13 @@ class Link(StepBase, frozen=True, tag_field="op", tag="link"):
 
 
 class Attach(StepBase, frozen=True, tag_field="op", tag="attach"):
-    """Make ``port`` of ``id`` an end of the connection bound to ``link``; clients and emitters have it as required port
-    element, servers and receivers as provided one.
+    """Make a port element an end of a link.
+
+    ``link``: the link.
+    ``role``: clients and emitters require the port element, servers and receivers provide it.
+    ``id``: the component.
+    ``port``: its port element.
+    ``container``: where.
     """
 
     optional = True
@@ -260,7 +313,13 @@ class Attach(StepBase, frozen=True, tag_field="op", tag="attach"):
 
 
 class Detach(StepBase, frozen=True, tag_field="op", tag="detach"):
-    """``port`` of ``id`` is no longer an end of ``link``."""
+    """A port element is no longer an end of a link.
+
+    ``link``: the link.
+    ``id``: the component.
+    ``port``: its port element.
+    ``container``: where.
+    """
 
     optional = True
     wording = "{id}.{port} from {link}"
@@ -272,7 +331,11 @@ class Detach(StepBase, frozen=True, tag_field="op", tag="detach"):
 
 
 class Break(StepBase, frozen=True, tag_field="op", tag="break"):
-    """Break ``link``: its ``transport``, so that nothing can be transmitted, or the connector ``inside``."""
+    """Break a link.
+
+    ``link``: the link.
+    ``where``: the ``transport``, so that nothing can be transmitted, or the connector ``inside``.
+    """
 
     optional = True
     wording = "{where} of {link}"
@@ -287,7 +350,10 @@ class Break(StepBase, frozen=True, tag_field="op", tag="break"):
 
 
 class Mend(StepBase, frozen=True, tag_field="op", tag="mend"):
-    """Mend what was broken in ``link``."""
+    """Mend what was broken in a link.
+
+    ``link``: the link.
+    """
 
     optional = True
     wording = "{link}"
@@ -296,7 +362,10 @@ class Mend(StepBase, frozen=True, tag_field="op", tag="mend"):
 
 
 class ReadLog(StepBase, frozen=True, tag_field="op", tag="read_log"):
-    """Read the trace (10.1.4.2) back, again and again until it has ``records`` records or patience runs out."""
+    """Read the log (10.1.4.2), again and again until patience ends.
+
+    ``records``: how many records end the waiting.
+    """
 
     returns = "records"
     optional = True
@@ -310,7 +379,10 @@ class ReadLog(StepBase, frozen=True, tag_field="op", tag="read_log"):
 
 
 class Pause(StepBase, frozen=True, tag_field="op", tag="pause"):
-    """Let time pass: clocks are to be compared."""
+    """Let time pass, to compare clocks.
+
+    ``milliseconds``: how long.
+    """
 
     ends_with = "paused"
     wording = "{milliseconds} ms"
@@ -319,7 +391,12 @@ class Pause(StepBase, frozen=True, tag_field="op", tag="pause"):
 
 
 class AwaitMessages(StepBase, frozen=True, tag_field="op", tag="await_messages"):
-    """Wait until ``instance`` of ``component`` has counted ``count`` messages, at most patience; tells what it counted."""
+    """Wait until a body has counted messages, for at most the scenario's patience; then report its counters.
+
+    ``component``: name of the declaration.
+    ``count``: how many messages.
+    ``instance``: number of the body, from 1.
+    """
 
     ends_with = "counted"
     waits = 1
@@ -331,8 +408,12 @@ class AwaitMessages(StepBase, frozen=True, tag_field="op", tag="await_messages")
 
 
 class Stress(StepBase, frozen=True, tag_field="op", tag="stress"):
-    """For ``milliseconds`` call ``exchange`` through each of ``refs`` on a thread of its own, as fast as it can, and do the
-    same beside it to a body that nobody protects. Bodies count who meets whom and record nothing.
+    """Call ``exchange`` as fast as possible, one thread for each reference; then do the same with a body without protection.
+
+    Bodies count overlaps and record no events.
+
+    ``refs``: the references.
+    ``milliseconds``: how long, each time.
     """
 
     ends_with = "stressed"
@@ -344,7 +425,10 @@ class Stress(StepBase, frozen=True, tag_field="op", tag="stress"):
 
 
 class Advance(StepBase, frozen=True, tag_field="op", tag="advance"):
-    """Let virtual time pass: all times that components read go on by so many ``milliseconds``, at once."""
+    """Let virtual time pass: all times that components read increase at once.
+
+    ``milliseconds``: by how much.
+    """
 
     optional = True
     claim = "virtual-time=hook"
@@ -388,8 +472,13 @@ Step = (
 
 
 class Scenario(Value, frozen=True):
-    """Component declarations by name, steps in order, ``patience``: milliseconds a wait step may take, and ``interfaces``
-    by name. Workers in ``may_stay`` need not come back; no host is told so.
+    """A scenario.
+
+    ``components``: declarations by name.
+    ``steps``: in order.
+    ``patience``: how long a wait step may wait, in milliseconds.
+    ``interfaces``: by name.
+    ``may_stay``: workers that need not return; hosts ignore it.
     """
 
     components: dict[str, Declaration]

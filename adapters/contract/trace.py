@@ -1,8 +1,4 @@
-"""Trace: the totally ordered events that really happened while a scenario ran.
-
-Every event has ``n``, drawn from ONE atomic counter of the host process and starting at 1 in each trace, so that order
-means happened-before; ``t``, the host's monotonic clock in nanoseconds; and ``thread``, 0 for the scenario's own thread.
-"""
+"""Trace: the events of a scenario, in the order in which they happened."""
 
 from __future__ import annotations
 
@@ -20,7 +16,12 @@ ErrorName = Literal["NOT_FOUND", "BAD_PARAMETER", "UCM_ERROR", "UNDECLARED"]
 
 
 class Reference(Value, frozen=True):
-    """A provided port element that the SDK recognised: ``port`` of the ``instance``-th body made for ``component``."""
+    """A provided port element that the SDK recognised.
+
+    ``component``: name of the declaration.
+    ``instance``: number of the body among those made for ``component``, from 1.
+    ``port``: the port element.
+    """
 
     component: str
     instance: Int64
@@ -34,14 +35,23 @@ MaybeReference = Reference | Opaque | None
 
 
 class Dependency(Value, frozen=True):
-    """One PortConnection of ``on_startup``: the name the framework used and the references it handed over."""
+    """A PortConnection of ``on_startup``.
+
+    ``port``: the required port element, as the framework named it.
+    ``references``: the references that the framework passed.
+    """
 
     port: PortElementName
     references: tuple[MaybeReference, ...]
 
 
 class EventBase(Value, frozen=True, tag_field="kind"):
-    """Common to all events."""
+    """Common to all events.
+
+    ``n``: number from one atomic counter of the host process, from 1 in each trace: lower happened before.
+    ``t``: the host's monotonic clock, in nanoseconds.
+    ``thread``: number of the thread; 0 is the scenario's own.
+    """
 
     n: Int64
     t: Int64
@@ -49,25 +59,34 @@ class EventBase(Value, frozen=True, tag_field="kind"):
 
 
 class StepEvent(EventBase, frozen=True):
-    """Common to events about scenario step number ``step`` (from 0)."""
+    """Common to events about a step.
+
+    ``step``: number of the step, from 0.
+    """
 
     step: Int64
 
 
 class Call(StepEvent, frozen=True, tag="call"):
-    """Scenario step number ``step`` (from 0) is handed to the framework."""
+    """The step is passed to the framework."""
 
 
 class LogRecord(Value, frozen=True):
-    """One record of the trace (10.1.4.2): ``severity`` is an enumerator of log_severity_t."""
+    """A record of the trace of 10.1.4.2.
+
+    ``severity``: enumerator of log_severity_t.
+    ``message``: its text.
+    """
 
     severity: str
     message: str
 
 
 class Return(StepEvent, frozen=True, tag="return"):
-    """The step's operation came back; ``value`` is an id, a list of ids, a reference, or a business result, ``records``
-    what was read from the trace.
+    """The operation of the step returned.
+
+    ``value``: an id, a list of ids, a reference or a business result.
+    ``records``: the records that were read from the log.
     """
 
     value: Int64 | tuple[Int64, ...] | Reference | Opaque | None = None
@@ -75,26 +94,35 @@ class Return(StepEvent, frozen=True, tag="return"):
 
 
 class Raise(StepEvent, frozen=True, tag="raise"):
-    """The step's operation ended with an exception; ``detail`` is its text, for people."""
+    """The operation of the step ended with an exception.
+
+    ``error``: which one.
+    ``detail``: its text, for people.
+    """
 
     error: ErrorName
     detail: str = ""
 
 
 class Skip(StepEvent, frozen=True, tag="skip"):
-    """The step was not tried, because ``variable`` was never bound, or the adapter does not offer the operation of that
-    name.
+    """The step was not run.
+
+    ``variable``: the variable that was not bound, or the operation that the adapter does not offer.
     """
 
     variable: str
 
 
 class Timeout(StepEvent, frozen=True, tag="timeout"):
-    """A wait step ran out of patience."""
+    """Patience ended before what the step waits for happened."""
 
 
 class BodyEvent(EventBase, frozen=True):
-    """Common to events inside the ``instance``-th body (from 1) that the framework made for ``component``."""
+    """Common to events of a body.
+
+    ``component``: name of the declaration.
+    ``instance``: number of the body among those made for ``component``, from 1.
+    """
 
     component: str
     instance: Int64
@@ -105,11 +133,16 @@ class Create(BodyEvent, frozen=True, tag="create"):
 
 
 class Enter(BodyEvent, frozen=True, tag="enter"):
-    """The framework entered the body at ``hook``.
+    """The framework entered the body.
 
-    ``port`` and ``reference`` are the arguments of the Connectable callbacks, ``port`` and ``value`` those of
-    ``exchange``, ``dependencies`` that of ``on_startup``; ``attributes`` are the values the body holds at ``on_init``;
-    ``port``, ``method`` and ``arguments`` belong to ``method``.
+    ``hook``: where.
+    ``port``: argument of Connectable callbacks; the port element of ``exchange`` and ``method``.
+    ``value``: argument of ``exchange``.
+    ``reference``: argument of ``on_connect``.
+    ``dependencies``: argument of ``on_startup``.
+    ``attributes``: the values that the body has at ``on_init``.
+    ``method``: name of the method.
+    ``arguments``: IN and INOUT values of the method.
     """
 
     hook: Hook
@@ -123,9 +156,13 @@ class Enter(BodyEvent, frozen=True, tag="enter"):
 
 
 class Exit(BodyEvent, frozen=True, tag="exit"):
-    """The body left ``hook``: with ``value``, or with an exception when ``raised``.
+    """The body left a hook.
 
-    ``method`` is left with ``results``; ``exception`` names a declared exception, whose fields are ``results``.
+    ``hook``: where.
+    ``value``: result of ``exchange``.
+    ``raised``: it left with an exception.
+    ``results``: OUT, INOUT and RETURN values of a method, or fields of ``exception``.
+    ``exception``: name of the declared exception.
     """
 
     hook: Hook
@@ -136,8 +173,12 @@ class Exit(BodyEvent, frozen=True, tag="exit"):
 
 
 class Request(BodyEvent, frozen=True, tag="request"):
-    """The body is about to call ``exchange(value)``, or ``method`` with ``arguments``, through its required port element
-    ``port``.
+    """The body is about to call ``exchange`` or a method.
+
+    ``port``: the required port element.
+    ``value``: argument of ``exchange``.
+    ``method``: name of the method; none for ``exchange``.
+    ``arguments``: IN and INOUT values of the method.
     """
 
     port: PortElementName
@@ -147,9 +188,13 @@ class Request(BodyEvent, frozen=True, tag="request"):
 
 
 class Reply(BodyEvent, frozen=True, tag="reply"):
-    """That call came back with ``value``, or with an exception when ``raised``.
+    """The call of the last ``Request`` of this body and thread came back.
 
-    A method comes back with ``results``; ``exception`` names a declared exception, whose fields are ``results``.
+    ``port``: the required port element.
+    ``value``: result of ``exchange``.
+    ``raised``: it came back with an exception.
+    ``results``: OUT, INOUT and RETURN values of a method, or fields of ``exception``.
+    ``exception``: name of the declared exception.
     """
 
     port: PortElementName
@@ -160,8 +205,12 @@ class Reply(BodyEvent, frozen=True, tag="reply"):
 
 
 class Pushed(BodyEvent, frozen=True, tag="pushed"):
-    """The body has pushed a burst of ``count`` messages, from ``first`` on; ``answers`` says how often it got which
-    return code, and under ``raised`` how many pushes ended with an exception.
+    """The body has pushed a burst of messages.
+
+    ``port``: the required port element.
+    ``first``: the first number.
+    ``count``: how many messages.
+    ``answers``: how many pushes got each return code; ``raised``: how many ended with an exception.
     """
 
     port: PortElementName
@@ -171,27 +220,40 @@ class Pushed(BodyEvent, frozen=True, tag="pushed"):
 
 
 class Siblings(BodyEvent, frozen=True, tag="siblings"):
-    """A fragment asked its container interface for ``get_components``: the ids, or an exception when ``raised``."""
+    """A fragment called ``get_components`` of its container interface.
+
+    ``ids``: the result.
+    ``raised``: it ended with an exception.
+    """
 
     ids: tuple[Int64, ...] = ()
     raised: bool = False
 
 
 class Held(BodyEvent, frozen=True, tag="held"):
-    """The body waits at ``gate``."""
+    """The body waits at a gate.
+
+    ``gate``: name of the gate.
+    """
 
     gate: str
 
 
 class Opened(EventBase, frozen=True, tag="opened"):
-    """The scenario opened ``gate``."""
+    """The scenario opened a gate.
+
+    ``gate``: name of the gate.
+    """
 
     gate: str
 
 
 class Settled(EventBase, frozen=True, tag="settled"):
-    """Where a worker was found: its steps ``done``, its body ``held`` at a gate, the thread ``blocked`` by the operating
-    system, or still ``running`` when patience ran out.
+    """The state of a worker.
+
+    ``worker``: its name.
+    ``where``: ``done`` with its steps, ``held`` by a body at a gate, ``blocked`` by the operating system, or still ``running``
+    when patience ended.
     """
 
     worker: str
@@ -199,9 +261,15 @@ class Settled(EventBase, frozen=True, tag="settled"):
 
 
 class Counted(StepEvent, frozen=True, tag="counted"):
-    """What ``instance`` of ``component`` had counted when step ``step`` was done: how many messages it ``received``, how
-    many of them for the first time (``distinct``), how many after a greater one (``disordered``), and the least and the
-    greatest.
+    """The messages that a body has counted.
+
+    ``component``: name of the declaration.
+    ``instance``: number of the body, from 1.
+    ``received``: how many messages.
+    ``distinct``: how many different ones.
+    ``disordered``: how many came after a greater one.
+    ``least``: the least number.
+    ``greatest``: the greatest number.
     """
 
     component: str
@@ -214,14 +282,22 @@ class Counted(StepEvent, frozen=True, tag="counted"):
 
 
 class Paused(StepEvent, frozen=True, tag="paused"):
-    """Time has passed. ``calendar`` is the host's calendar clock in nanoseconds, read together with ``t``."""
+    """Time has passed.
+
+    ``calendar``: the host's calendar clock in nanoseconds, read together with ``t``.
+    """
 
     calendar: Int64
 
 
 class Stressed(StepEvent, frozen=True, tag="stressed"):
-    """What a stress found: ``calls`` made through the framework, how many ``failed``, how many ``overlaps`` bodies
-    counted, and the same for the body that nobody protects.
+    """The result of a stress.
+
+    ``calls``: calls through the framework.
+    ``overlaps``: overlaps that the bodies counted.
+    ``control_calls``: calls of a body without protection, for comparison.
+    ``control_overlaps``: overlaps in that body.
+    ``failed``: calls that failed.
     """
 
     calls: Int64
@@ -256,5 +332,5 @@ Trace = tuple[Event, ...]
 
 
 def kind_of(event: Event) -> str:
-    """How the kind of ``event`` is called on the wire."""
+    """The name of the kind of ``event`` on the wire."""
     return str(type(event).__struct_config__.tag)

@@ -1,4 +1,4 @@
-"""Traits: what the fields of a step mean, said once where the step is defined and read wherever steps are handled.
+"""Traits: the meaning of a step's fields, declared with the step and read by everything that handles steps.
 
     id: Annotated[str, Uses("component")]
     bind: Annotated[str, Binds("connection")]
@@ -77,7 +77,7 @@ def fields(step: type[Value]) -> tuple[tuple[str, Trait], ...]:
 
 
 def uses(step: Value) -> tuple[tuple[str, Uses], ...]:
-    """The variables that ``step`` reads, each with what it must hold."""
+    """The variables that ``step`` reads, each with the trait of its field."""
     found: list[tuple[str, Uses]] = []
     for field, trait in fields(type(step)):
         if isinstance(trait, Uses):

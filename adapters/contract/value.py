@@ -1,4 +1,4 @@
-"""What all values of the contract have in common."""
+"""The base class of all values of the contract, and its integers."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 import msgspec
 
 Int32 = Annotated[int, msgspec.Meta(ge=-(2**31), le=2**31 - 1)]
-"""A payload: what every framework's integers hold."""
+"""A payload: an integer that every framework can hold."""
 
 Int64 = Annotated[int, msgspec.Meta(ge=-(2**63), le=2**63 - 1)]
 """Any other integer on the wire."""

@@ -14,7 +14,7 @@
 namespace ucm_cts {
 namespace events {
 
-/// Scenario step number `step` (from 0) is handed to the framework.
+/// The step is passed to the framework.
 class Call : public Event {
   public:
     explicit Call(std::int64_t step)
@@ -23,8 +23,10 @@ class Call : public Event {
     }
 };
 
-/// The step's operation came back; `value` is an id, a list of ids, a reference, or a business result, `records` what
-/// was read from the trace.
+/// The operation of the step returned.
+///
+/// `value`: an id, a list of ids, a reference or a business result.
+/// `records`: the records that were read from the log.
 class Return : public Event {
   public:
     explicit Return(std::int64_t step)
@@ -49,7 +51,10 @@ class Return : public Event {
     }
 };
 
-/// The step's operation ended with an exception; `detail` is its text, for people.
+/// The operation of the step ended with an exception.
+///
+/// `error`: which one.
+/// `detail`: its text, for people.
 class Raise : public Event {
   public:
     Raise(std::int64_t step, const std::string& error)
@@ -63,8 +68,9 @@ class Raise : public Event {
     }
 };
 
-/// The step was not tried, because `variable` was never bound, or the adapter does not offer the operation of that
-/// name.
+/// The step was not run.
+///
+/// `variable`: the variable that was not bound, or the operation that the adapter does not offer.
 class Skip : public Event {
   public:
     Skip(std::int64_t step, const std::string& variable)
@@ -74,7 +80,7 @@ class Skip : public Event {
     }
 };
 
-/// A wait step ran out of patience.
+/// Patience ended before what the step waits for happened.
 class Timeout : public Event {
   public:
     explicit Timeout(std::int64_t step)
@@ -93,11 +99,16 @@ class Create : public Event {
     }
 };
 
-/// The framework entered the body at `hook`.
+/// The framework entered the body.
 ///
-/// `port` and `reference` are the arguments of the Connectable callbacks, `port` and `value` those of `exchange`,
-/// `dependencies` that of `on_startup`; `attributes` are the values the body holds at `on_init`; `port`, `method` and
-/// `arguments` belong to `method`.
+/// `hook`: where.
+/// `port`: argument of Connectable callbacks; the port element of `exchange` and `method`.
+/// `value`: argument of `exchange`.
+/// `reference`: argument of `on_connect`.
+/// `dependencies`: argument of `on_startup`.
+/// `attributes`: the values that the body has at `on_init`.
+/// `method`: name of the method.
+/// `arguments`: IN and INOUT values of the method.
 class Enter : public Event {
   public:
     Enter(const std::string& component, std::int64_t instance, Hook hook)
@@ -136,9 +147,13 @@ class Enter : public Event {
     }
 };
 
-/// The body left `hook`: with `value`, or with an exception when `raised`.
+/// The body left a hook.
 ///
-/// `method` is left with `results`; `exception` names a declared exception, whose fields are `results`.
+/// `hook`: where.
+/// `value`: result of `exchange`.
+/// `raised`: it left with an exception.
+/// `results`: OUT, INOUT and RETURN values of a method, or fields of `exception`.
+/// `exception`: name of the declared exception.
 class Exit : public Event {
   public:
     Exit(const std::string& component, std::int64_t instance, Hook hook)
@@ -165,7 +180,12 @@ class Exit : public Event {
     }
 };
 
-/// The body is about to call `exchange(value)`, or `method` with `arguments`, through its required port element `port`.
+/// The body is about to call `exchange` or a method.
+///
+/// `port`: the required port element.
+/// `value`: argument of `exchange`.
+/// `method`: name of the method; none for `exchange`.
+/// `arguments`: IN and INOUT values of the method.
 class Request : public Event {
   public:
     Request(const std::string& component, std::int64_t instance, const std::string& port)
@@ -188,9 +208,13 @@ class Request : public Event {
     }
 };
 
-/// That call came back with `value`, or with an exception when `raised`.
+/// The call of the last `Request` of this body and thread came back.
 ///
-/// A method comes back with `results`; `exception` names a declared exception, whose fields are `results`.
+/// `port`: the required port element.
+/// `value`: result of `exchange`.
+/// `raised`: it came back with an exception.
+/// `results`: OUT, INOUT and RETURN values of a method, or fields of `exception`.
+/// `exception`: name of the declared exception.
 class Reply : public Event {
   public:
     Reply(const std::string& component, std::int64_t instance, const std::string& port)
@@ -217,7 +241,10 @@ class Reply : public Event {
     }
 };
 
-/// A fragment asked its container interface for `get_components`: the ids, or an exception when `raised`.
+/// A fragment called `get_components` of its container interface.
+///
+/// `ids`: the result.
+/// `raised`: it ended with an exception.
 class Siblings : public Event {
   public:
     Siblings(const std::string& component, std::int64_t instance)
@@ -235,7 +262,9 @@ class Siblings : public Event {
     }
 };
 
-/// The body waits at `gate`.
+/// The body waits at a gate.
+///
+/// `gate`: name of the gate.
 class Held : public Event {
   public:
     Held(const std::string& component, std::int64_t instance, const std::string& gate)
@@ -246,7 +275,9 @@ class Held : public Event {
     }
 };
 
-/// The scenario opened `gate`.
+/// The scenario opened a gate.
+///
+/// `gate`: name of the gate.
 class Opened : public Event {
   public:
     explicit Opened(const std::string& gate)
@@ -255,8 +286,11 @@ class Opened : public Event {
     }
 };
 
-/// Where a worker was found: its steps `done`, its body `held` at a gate, the thread `blocked` by the operating system,
-/// or still `running` when patience ran out.
+/// The state of a worker.
+///
+/// `worker`: its name.
+/// `where`: `done` with its steps, `held` by a body at a gate, `blocked` by the operating system, or still `running`
+/// when patience ended.
 class Settled : public Event {
   public:
     Settled(const std::string& worker, const std::string& where)
@@ -266,8 +300,12 @@ class Settled : public Event {
     }
 };
 
-/// The body has pushed a burst of `count` messages, from `first` on; `answers` says how often it got which return code,
-/// and under `raised` how many pushes ended with an exception.
+/// The body has pushed a burst of messages.
+///
+/// `port`: the required port element.
+/// `first`: the first number.
+/// `count`: how many messages.
+/// `answers`: how many pushes got each return code; `raised`: how many ended with an exception.
 class Pushed : public Event {
   public:
     Pushed(const std::string& component, std::int64_t instance, const std::string& port, std::int64_t first, std::int64_t count, const std::map<std::string, std::int64_t>& answers)
@@ -281,8 +319,15 @@ class Pushed : public Event {
     }
 };
 
-/// What `instance` of `component` had counted when step `step` was done: how many messages it `received`, how many of
-/// them for the first time (`distinct`), how many after a greater one (`disordered`), and the least and the greatest.
+/// The messages that a body has counted.
+///
+/// `component`: name of the declaration.
+/// `instance`: number of the body, from 1.
+/// `received`: how many messages.
+/// `distinct`: how many different ones.
+/// `disordered`: how many came after a greater one.
+/// `least`: the least number.
+/// `greatest`: the greatest number.
 class Counted : public Event {
   public:
     Counted(std::int64_t step, const std::string& component, std::int64_t instance, std::int64_t received, std::int64_t distinct, std::int64_t disordered)
@@ -304,7 +349,9 @@ class Counted : public Event {
     }
 };
 
-/// Time has passed. `calendar` is the host's calendar clock in nanoseconds, read together with `t`.
+/// Time has passed.
+///
+/// `calendar`: the host's calendar clock in nanoseconds, read together with `t`.
 class Paused : public Event {
   public:
     Paused(std::int64_t step, std::int64_t calendar)
@@ -314,8 +361,13 @@ class Paused : public Event {
     }
 };
 
-/// What a stress found: `calls` made through the framework, how many `failed`, how many `overlaps` bodies counted, and
-/// the same for the body that nobody protects.
+/// The result of a stress.
+///
+/// `calls`: calls through the framework.
+/// `overlaps`: overlaps that the bodies counted.
+/// `control_calls`: calls of a body without protection, for comparison.
+/// `control_overlaps`: overlaps in that body.
+/// `failed`: calls that failed.
 class Stressed : public Event {
   public:
     Stressed(std::int64_t step, std::int64_t calls, std::int64_t overlaps, std::int64_t control_calls, std::int64_t control_overlaps)
@@ -332,9 +384,12 @@ class Stressed : public Event {
     }
 };
 
-/// Host to harness, answering hello: who is there.
+/// Host to harness, the answer to `hello`.
 ///
-/// `port_element_name` says how the framework spells port element names from `{port}` and `{element}`.
+/// `protocol`: the version of the protocol that the host speaks.
+/// `product`: the framework's name.
+/// `version`: the framework's version.
+/// `port_element_name`: how the framework spells port element names, from `{port}` and `{element}`.
 class Welcome : public Answer {
   public:
     Welcome(std::int64_t protocol, const std::string& product, const std::string& version)
@@ -349,7 +404,11 @@ class Welcome : public Answer {
     }
 };
 
-/// Host to harness: what happened. `stuck` names the threads that never came back.
+/// Host to harness, the answer to `run`: the trace.
+///
+/// `id`: number of the run.
+/// `events`: all events, in order.
+/// `stuck`: the threads that did not return.
 class Traced : public Answer {
   public:
     Traced(std::int64_t id, const json::Written& events)
@@ -363,7 +422,10 @@ class Traced : public Answer {
     }
 };
 
-/// Host to harness, streaming only: one event, as soon as it happened.
+/// Host to harness, in a streamed run: one event, as soon as it happens.
+///
+/// `id`: number of the run.
+/// `event`: the event.
 class Happened : public Answer {
   public:
     Happened(std::int64_t id, const json::Written& event)
@@ -373,7 +435,10 @@ class Happened : public Answer {
     }
 };
 
-/// Host to harness: the message just received breaks the protocol, or the adapter could not set up its framework.
+/// Host to harness: the last message breaks the protocol, or the adapter could not set up its framework.
+///
+/// `reason`: what is wrong, for people.
+/// `id`: number of the run, if the message had one.
 class Refused : public Answer {
   public:
     explicit Refused(const std::string& reason)

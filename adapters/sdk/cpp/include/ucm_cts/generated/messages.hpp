@@ -26,7 +26,9 @@ typedef std::shared_ptr<const DataType> SharedType;
 struct Interface;
 typedef std::shared_ptr<const Interface> SharedInterface;
 
-/// Harness to host, first: the protocol version the harness speaks.
+/// Harness to host, first.
+///
+/// `protocol`: the version of the protocol that the harness speaks.
 struct Hello {
     std::int64_t protocol = 0;
 };
@@ -93,10 +95,13 @@ inline Words words_of(Hook) {
     return Words{words, 10};
 }
 
-/// A technical policy of a component implementation (9.5.4.3): its `definition` and, of some, the `port` element.
+/// A technical policy of a component implementation (9.5.4.3).
 ///
-/// `element` is the name under which the component gets the port element that it requires by the policy
-/// (`REQUIRED_ELEMENTS`): the policy instance and the element.
+/// `definition`: name of the policy definition.
+/// `port`: the port element that it applies to; none if it applies to the component.
+/// `parameters`: values by parameter name.
+/// `element`: name of the port element that the component requires by the policy (`REQUIRED_ELEMENTS`):
+/// `policy.element`.
 struct Policy {
     std::string definition;
     std::string port;
@@ -104,12 +109,16 @@ struct Policy {
     std::string element;
 };
 
-/// One component implementation the framework shall be able to instantiate: a probe body and its plan.
+/// A component implementation that the framework must be able to instantiate: a probe body and its plan.
 ///
-/// `provides` and `requires` list port element names; `attributes` maps attribute names to configured values;
-/// `connectable` bodies implement Connectable (11.2.1.3), `fragment` bodies FragmentObject (11.2.1.4). `policies` are
-/// its technical policies. `plan` lists, per hook, the actions the probe performs each time it is entered there.
-/// `ports` names the interface of each port element that has one. No port element twice.
+/// `provides`: provided port elements.
+/// `requires`: required port elements; none may be provided too.
+/// `attributes`: configured values by attribute name.
+/// `connectable`: the body implements Connectable (11.2.1.3).
+/// `fragment`: the body implements FragmentObject (11.2.1.4).
+/// `plan`: the actions of the probe in each hook, each time it is entered there.
+/// `policies`: technical policies.
+/// `ports`: the interface of each port element that has one, by name.
 struct Declaration {
     std::vector<std::string> provided;
     std::vector<std::string> required;
@@ -227,7 +236,12 @@ inline Words words_of(Direction) {
     return Words{words, 4};
 }
 
-/// One alternative: active for the `selectors`, or as `default` for every enumerator no other case names.
+/// An alternative of a union.
+///
+/// `name`: its name.
+/// `of`: type of its value.
+/// `selectors`: the enumerators that select it.
+/// `default`: it is selected by every enumerator that no other case names.
 struct UnionCase {
     std::string name;
     SharedType of;
@@ -278,13 +292,20 @@ struct DataType {
 };
 
 /// A parameter of a method.
+///
+/// `name`: its name.
+/// `direction`: which way its value goes.
+/// `of`: its type.
 struct Parameter {
     std::string name;
     Direction direction = Direction();
     SharedType of;
 };
 
-/// Parameters in order, and the exceptions it may raise.
+/// A method of an interface.
+///
+/// `parameters`: in order.
+/// `raises`: the exceptions that it may raise.
 struct Method {
     std::vector<Parameter> parameters;
     std::vector<SharedType> raises;
@@ -296,14 +317,22 @@ struct Method {
     std::vector<Parameter> results() const;
 };
 
-/// Methods by name, its own and those of the interfaces it inherits (9.2.7.2), whose names are `inherited`.
+/// An interface (9.2.7).
+///
+/// `methods`: its own and inherited methods, by name.
+/// `inherited`: names of the interfaces that it inherits (9.2.7.2).
 struct Interface {
     std::map<std::string, Method> methods;
     std::vector<std::string> inherited;
 };
 
-/// Component declarations by name, steps in order, `patience`: milliseconds a wait step may take, and `interfaces` by
-/// name. Workers in `may_stay` need not come back; no host is told so.
+/// A scenario.
+///
+/// `components`: declarations by name.
+/// `steps`: in order.
+/// `patience`: how long a wait step may wait, in milliseconds.
+/// `interfaces`: by name.
+/// `may_stay`: workers that need not return; hosts ignore it.
 struct Scenario {
     std::vector<std::pair<std::string, Declaration>> components;
     std::vector<Step> steps;
@@ -312,7 +341,11 @@ struct Scenario {
     std::vector<std::string> may_stay;
 };
 
-/// Harness to host: run `scenario` on a fresh runtime; `id` comes back in the answer.
+/// Harness to host: run a scenario on a new runtime.
+///
+/// `id`: number of the run; the answer has it too.
+/// `scenario`: what to run.
+/// `stream`: send each event as it happens.
 struct Run {
     std::int64_t id = 0;
     Scenario scenario;

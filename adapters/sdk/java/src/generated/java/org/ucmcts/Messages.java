@@ -127,10 +127,13 @@ final class Messages {
             may("element", orNull(TEXT), null));
 
     /**
-     * A technical policy of a component implementation (9.5.4.3): its `definition` and, of some, the `port` element.
+     * A technical policy of a component implementation (9.5.4.3).
      *
-     * `element` is the name under which the component gets the port element that it requires by the policy
-     * (`REQUIRED_ELEMENTS`): the policy instance and the element.
+     * `definition`: name of the policy definition.
+     * `port`: the port element that it applies to; none if it applies to the component.
+     * `parameters`: values by parameter name.
+     * `element`: name of the port element that the component requires by the policy (`REQUIRED_ELEMENTS`):
+     * `policy.element`.
      */
     static final class Policy extends Node {
         private Policy(Map<String, Object> fields) {
@@ -169,12 +172,16 @@ final class Messages {
             may("ports", map(TEXT, TEXT), new Node(Map.of())));
 
     /**
-     * One component implementation the framework shall be able to instantiate: a probe body and its plan.
+     * A component implementation that the framework must be able to instantiate: a probe body and its plan.
      *
-     * `provides` and `requires` list port element names; `attributes` maps attribute names to configured values;
-     * `connectable` bodies implement Connectable (11.2.1.3), `fragment` bodies FragmentObject (11.2.1.4). `policies`
-     * are its technical policies. `plan` lists, per hook, the actions the probe performs each time it is entered there.
-     * `ports` names the interface of each port element that has one. No port element twice.
+     * `provides`: provided port elements.
+     * `requires`: required port elements; none may be provided too.
+     * `attributes`: configured values by attribute name.
+     * `connectable`: the body implements Connectable (11.2.1.3).
+     * `fragment`: the body implements FragmentObject (11.2.1.4).
+     * `plan`: the actions of the probe in each hook, each time it is entered there.
+     * `policies`: technical policies.
+     * `ports`: the interface of each port element that has one, by name.
      */
     static final class Declaration extends Node {
         private Declaration(Map<String, Object> fields) {
@@ -474,7 +481,12 @@ final class Messages {
             may("default", FLAG, false));
 
     /**
-     * One alternative: active for the `selectors`, or as `default` for every enumerator no other case names.
+     * An alternative of a union.
+     *
+     * `name`: its name.
+     * `of`: type of its value.
+     * `selectors`: the enumerators that select it.
+     * `default`: it is selected by every enumerator that no other case names.
      */
     static final class UnionCase extends Node {
         private UnionCase(Map<String, Object> fields) {
@@ -634,6 +646,10 @@ final class Messages {
 
     /**
      * A parameter of a method.
+     *
+     * `name`: its name.
+     * `direction`: which way its value goes.
+     * `of`: its type.
      */
     static final class Parameter extends Node {
         private Parameter(Map<String, Object> fields) {
@@ -662,7 +678,10 @@ final class Messages {
             may("raises", list(Messages::readStructure), List.of()));
 
     /**
-     * Parameters in order, and the exceptions it may raise.
+     * A method of an interface.
+     *
+     * `parameters`: in order.
+     * `raises`: the exceptions that it may raise.
      */
     static final class Method extends Node {
         private Method(Map<String, Object> fields) {
@@ -687,7 +706,10 @@ final class Messages {
             may("inherited", list(TEXT), List.of()));
 
     /**
-     * Methods by name, its own and those of the interfaces it inherits (9.2.7.2), whose names are `inherited`.
+     * An interface (9.2.7).
+     *
+     * `methods`: its own and inherited methods, by name.
+     * `inherited`: names of the interfaces that it inherits (9.2.7.2).
      */
     static final class Interface extends Node {
         private Interface(Map<String, Object> fields) {
@@ -715,8 +737,13 @@ final class Messages {
             may("may_stay", list(TEXT), List.of()));
 
     /**
-     * Component declarations by name, steps in order, `patience`: milliseconds a wait step may take, and `interfaces`
-     * by name. Workers in `may_stay` need not come back; no host is told so.
+     * A scenario.
+     *
+     * `components`: declarations by name.
+     * `steps`: in order.
+     * `patience`: how long a wait step may wait, in milliseconds.
+     * `interfaces`: by name.
+     * `may_stay`: workers that need not return; hosts ignore it.
      */
     static final class Scenario extends Node {
         private Scenario(Map<String, Object> fields) {
