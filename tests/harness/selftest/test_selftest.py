@@ -196,7 +196,7 @@ def test_page_names_what_is_not_as_it_should_be() -> None:
     assert "0 of 1 mutants killed" in page
     assert "survives (R-11.2.1.2-01)" in page
     assert "also fails R-11.2.1.2-04" in page
-    assert "<code>&lt;b&gt;</code> is conformant; fails R-11.2.1.2-04" in page
+    assert "<code>&lt;b&gt;</code> is conformant and fails R-11.2.1.2-04" in page
     assert page.count('class="missed"') == page.count('class="spill"') == 2  # one of each is the key's
 
 
