@@ -29,7 +29,7 @@ def judged(adapter: str, times: int = 1) -> tuple[Counter[str], dict[str, set[st
     monitor = Monitor(load_life_cycle())
     exercised: Counter[str] = Counter()
     broken: dict[str, set[str]] = {}
-    alone = [p for p in load_purposes("core") if p.id == "self-executing/alone"]
+    alone = [p for p in load_purposes("core") if p.id in ("self-executing/alone", "two execution policies")]
     cases = [case for purpose in (*overlap_purposes(), *alone) if not purpose.under for case in purpose.scenarios]
     for seed in range(times):
         with Driver(locate(adapter), seed=seed) as driver:
