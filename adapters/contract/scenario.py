@@ -53,6 +53,9 @@ class StepBase(Value, frozen=True, kw_only=True):
     waits: ClassVar[int] = 0
     """How many times the host may let patience pass before the step ends."""
 
+    reads_only: ClassVar[bool] = False
+    """The call changes nothing about containers, components and connections."""
+
     wording: ClassVar[str] = ""
     """The arguments as people read them, a format of the fields. Variables are replaced by what they hold."""
 
@@ -115,6 +118,7 @@ class GetPortElement(StepBase, frozen=True, tag_field="op", tag="get_port_elemen
     """
 
     returns = "reference"
+    reads_only = True
     wording = "{id}.{port}"
 
     id: UsedComponent
@@ -172,6 +176,7 @@ class GetComponents(StepBase, frozen=True, tag_field="op", tag="get_components")
     """``get_components`` of the container."""
 
     returns = "ids"
+    reads_only = True
 
     container: UsedContainer = MANAGER
 
@@ -210,6 +215,7 @@ class Invoke(StepBase, frozen=True, tag_field="op", tag="invoke"):
     """
 
     returns = "value"
+    reads_only = True
     wording = "{ref} exchange({value})"
 
     ref: UsedReference
@@ -368,6 +374,7 @@ class ReadLog(StepBase, frozen=True, tag_field="op", tag="read_log"):
     """
 
     returns = "records"
+    reads_only = True
     optional = True
     waits = 1
 

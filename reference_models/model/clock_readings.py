@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Paused, Return
-from ucm_cts.reference_models.model.interactions import Interactions, MethodCall
+from ucm_cts.reference_models.model.interactions import Interactions
+from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.runtime import Container
 from ucm_cts.reference_models.model.service_policies import policy_elements
 

@@ -15,7 +15,8 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Declaration, Policy
 from ucm_cts.adapters.contract.trace import Call, LogRecord, Return
 from ucm_cts.reference_models.model.ics import Ics
-from ucm_cts.reference_models.model.interactions import Interactions, MethodCall
+from ucm_cts.reference_models.model.interactions import Interactions
+from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.service_policies import policy_elements, port_traces
 

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Timeout
-from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.links import End
+from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from ucm_cts.adapters.contract.data_types import Interface, Method
 from ucm_cts.adapters.contract.trace import Exit
-from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.links import End, LinkState
+from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 
 
 @dataclass(frozen=True)

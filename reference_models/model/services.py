@@ -8,8 +8,8 @@ from typing import Literal
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Interface
 from ucm_cts.adapters.contract.trace import Exit, Raise, Reply
-from ucm_cts.reference_models.model.interactions import NEVER, Delivery, MethodCall, Operation
 from ucm_cts.reference_models.model.links import LinkState
+from ucm_cts.reference_models.model.method_calls import NEVER, Delivery, MethodCall, Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import NO_ID, Member
 from ucm_cts.reference_models.model.service_call import ServiceCall

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 from ucm_cts.adapters.contract.data_types import AnyType, Datum, Method, Parameter
 from ucm_cts.adapters.contract.data_values import misfit
-from ucm_cts.reference_models.model.interactions import Delivery, Interactions, MethodCall
+from ucm_cts.reference_models.model.interactions import Interactions
+from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.value_transport import Difference, Part, differences
 

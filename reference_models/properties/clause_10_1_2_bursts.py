@@ -8,9 +8,9 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Counted, Pushed
 from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
-from ucm_cts.reference_models.model.interactions import PushedBurst
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.messages import CODES, OK, is_well
+from ucm_cts.reference_models.model.method_calls import PushedBurst
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member
 from ucm_cts.reference_models.properties.declaration import Property, property_at

@@ -7,7 +7,7 @@ from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Raise, Return, Stressed, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measured, takes
 from ucm_cts.reference_models.model import executions as ex
-from ucm_cts.reference_models.model.interactions import MethodCall
+from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import Member, lane, raises

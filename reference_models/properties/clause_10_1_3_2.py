@@ -10,7 +10,7 @@ from ucm_cts.adapters.contract.scenario import Declaration, HoldAtGate
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Measured, Taken, takes
 from ucm_cts.reference_models.model import executions as ex
-from ucm_cts.reference_models.model.interactions import NEVER, Delivery
+from ucm_cts.reference_models.model.method_calls import NEVER, Delivery
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import lane, raises

@@ -9,7 +9,7 @@ from ucm_cts.adapters.contract.trace import Raise
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import clock_readings as clocks
-from ucm_cts.reference_models.model.interactions import MethodCall
+from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import lane

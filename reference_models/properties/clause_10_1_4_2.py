@@ -10,7 +10,7 @@ from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, 
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import log_contents as logs
 from ucm_cts.reference_models.model.callback_history import Callback
-from ucm_cts.reference_models.model.interactions import MethodCall
+from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress
 from ucm_cts.reference_models.model.runtime import lane

@@ -7,8 +7,8 @@ from ucm_cts.adapters.contract.trace import Raise, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import messages as msg
-from ucm_cts.reference_models.model.interactions import Delivery, MethodCall
 from ucm_cts.reference_models.model.links import End, LinkState
+from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member

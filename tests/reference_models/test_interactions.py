@@ -21,7 +21,8 @@ from ucm_cts.harness.purposes.selection import load_purposes, select
 from ucm_cts.harness.selftest.generated.python_programs import HOME
 from ucm_cts.harness.statement.files import read_statement
 from ucm_cts.reference_models.model.executions import BusinessCall
-from ucm_cts.reference_models.model.interactions import Delivery, Interactions, MethodCall
+from ucm_cts.reference_models.model.interactions import Interactions
+from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.runtime import Container, Member, Runtime
 from ucm_cts.reference_models.monitor import Monitor
 
