@@ -8,13 +8,23 @@ from ucm_cts.adapters.contract.metamodel.interactions import PortElement
 
 
 class TechnicalAspect(Named, frozen=True, kw_only=True):
-    """``multiplicity`` is anyNumber, atMostOne, exactlyOne or atLeastOne (9.4.3.1)."""
+    """A technical aspect (9.4.3.1).
+
+    ``multiplicity``: anyNumber, atMostOne, exactlyOne or atLeastOne.
+    """
 
     multiplicity: str = ""
 
 
 class TechnicalPolicyDefinition(Named, frozen=True, kw_only=True):
-    """``applicability`` is onComponent, onPort or onBoth; ``extends`` is empty if there is no ancestor (9.4.3.2)."""
+    """A technical policy definition (9.4.3.2).
+
+    ``technical_aspect``: reference to its aspect.
+    ``applicability``: onComponent, onPort or onBoth.
+    ``extends``: reference to its parent, empty if there is none.
+    ``port_elements``: what it provides to and requires from components.
+    ``configuration_parameters``: its settings.
+    """
 
     technical_aspect: str = ""
     applicability: str = ""

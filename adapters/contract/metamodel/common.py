@@ -10,9 +10,9 @@ import msgspec
 
 
 class Element(msgspec.Struct, frozen=True, kw_only=True, gc=False):
-    """Anything that a model holds. ``line`` is where it begins in the model's file, counted from 1; 0 if nobody knows.
+    """Anything that a model holds. Elements do not know their container, and equal elements at different places are equal.
 
-    An element never knows what contains it, and two equal elements at different places are equal.
+    ``line``: where it begins in the model's file, counted from 1; 0 if unknown.
     """
 
     line: int = 0
@@ -28,7 +28,11 @@ class SimpleComment(Element, frozen=True, kw_only=True):
 
 
 class Named(Element, frozen=True, kw_only=True):
-    """Anything with a name, which the text calls identifier (9.1.4.1). An empty ``name`` is an error that checking tells."""
+    """Anything with a name, which the text calls identifier (9.1.4.1).
+
+    ``name``: the identifier; an empty one is an error that a check reports, not the reader.
+    ``comments``: its comments, in the model's order.
+    """
 
     name: str = ""
     comments: tuple[SimpleComment, ...] = ()

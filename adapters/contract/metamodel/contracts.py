@@ -24,14 +24,22 @@ UNBOUNDED = -1
 
 
 class ConfigurationParameterValue(Element, frozen=True, kw_only=True):
-    """A value for a parameter, ``value`` in the syntax of IDL constants (9.2.9.2)."""
+    """A value for a parameter (9.2.9.2).
+
+    ``configuration_parameter``: reference to the parameter, as ``definition.parameter``.
+    ``value``: in the syntax of IDL constants.
+    """
 
     configuration_parameter: str = ""
     value: str = ""
 
 
 class Annotation(Element, frozen=True, kw_only=True):
-    """Sets values of an annotation definition (9.2.9.4)."""
+    """The use of an annotation definition (9.2.9.4).
+
+    ``annotation_definition``: reference to the definition.
+    ``configuration_values``: the values of the definition's parameters.
+    """
 
     annotation_definition: str = ""
     configuration_values: tuple[ConfigurationParameterValue, ...] = ()
@@ -44,7 +52,11 @@ class Annotable(Named, frozen=True, kw_only=True):
 
 
 class ConfigurationParameter(Named, frozen=True, kw_only=True):
-    """A setting of a platform element or of an annotation (9.2.9.1). ``default_value`` is None where there is none."""
+    """A setting of a platform element or of an annotation (9.2.9.1).
+
+    ``type``: reference to its data type.
+    ``default_value``: in the syntax of IDL constants; None if there is none.
+    """
 
     type: str = ""
     default_value: str | None = None
@@ -107,7 +119,12 @@ class SelectorValue(Element, frozen=True, kw_only=True):
 
 
 class UnionCase(Annotable, frozen=True, kw_only=True):
-    """What a union holds for some values of its selector (9.2.4.6)."""
+    """What a union holds for some values of its selector (9.2.4.6).
+
+    ``type``: reference to the data type.
+    ``selector_values``: the enumerators that select it.
+    ``default_case``: whether all other enumerators select it, too.
+    """
 
     type: str = ""
     selector_values: tuple[SelectorValue, ...] = ()
@@ -115,7 +132,12 @@ class UnionCase(Annotable, frozen=True, kw_only=True):
 
 
 class Union(DataType, frozen=True, kw_only=True):
-    """At least one case, told apart by an enumeration (9.2.4.5)."""
+    """A union; at least one case in a legal model (9.2.4.5).
+
+    ``selector_name``: the name of the selector.
+    ``selector_type``: reference to an enumeration.
+    ``cases``: its alternatives.
+    """
 
     selector_name: str = ""
     selector_type: str = ""
@@ -123,20 +145,31 @@ class Union(DataType, frozen=True, kw_only=True):
 
 
 class Enumerator(Named, frozen=True, kw_only=True):
-    """A value of an enumeration; ``value`` is its index, None if the model gives none (9.2.4.8)."""
+    """A value of an enumeration (9.2.4.8).
+
+    ``value``: its index; None if the model gives none.
+    """
 
     value: int | None = None
 
 
 class Enumeration(DataType, frozen=True, kw_only=True):
-    """At least one enumerator. ``index_type`` is an integer kind, or refers to a PrimitiveInteger (9.2.4.7)."""
+    """An enumeration; at least one enumerator in a legal model (9.2.4.7).
+
+    ``index_type``: an integer kind, or reference to a PrimitiveInteger.
+    ``enumerators``: its values.
+    """
 
     index_type: str = ""
     enumerators: tuple[Enumerator, ...] = ()
 
 
 class ArrayDimension(Element, frozen=True, kw_only=True):
-    """How many elements, and which integer kind counts them; ``size`` is None if the model gives none (9.2.4.11)."""
+    """One dimension of an array (9.2.4.11).
+
+    ``size``: the number of elements; None if the model gives none.
+    ``index_type``: an integer kind, or reference to a PrimitiveInteger.
+    """
 
     size: int | None = None
     index_type: str = ""
@@ -150,20 +183,32 @@ class Array(DataType, frozen=True, kw_only=True):
 
 
 class StringType(DataType, frozen=True, kw_only=True):
-    """``char_base`` is one of ``CHAR_KINDS``; ``max_size`` may be ``UNBOUNDED``, and is None if the model gives none (9.2.5.2)."""
+    """A string (9.2.5.2).
+
+    ``char_base``: one of ``CHAR_KINDS``.
+    ``max_size``: the greatest number of characters; may be ``UNBOUNDED``, None if the model gives none.
+    """
 
     char_base: str = ""
     max_size: int | None = None
 
 
 class NativeType(DataType, frozen=True, kw_only=True):
-    """A type of the programming language, ``max_size`` bytes at most (9.2.5.3)."""
+    """A type of the programming language (9.2.5.3).
+
+    ``max_size``: the greatest number of bytes; None if the model gives none.
+    """
 
     max_size: int | None = None
 
 
 class Sequence(DataType, frozen=True, kw_only=True):
-    """From 0 to ``max_size`` elements of one type (9.2.5.4)."""
+    """Elements of one type (9.2.5.4).
+
+    ``type``: reference to the type of its elements.
+    ``index_type``: an integer kind, or reference to a PrimitiveInteger.
+    ``max_size``: the greatest number of elements; may be ``UNBOUNDED``, None if the model gives none.
+    """
 
     type: str = ""
     index_type: str = ""
@@ -190,7 +235,11 @@ class Exception_(Named, frozen=True, kw_only=True):
 
 
 class Parameter(Named, frozen=True, kw_only=True):
-    """``direction`` is IN, OUT, INOUT or RETURN (9.2.7.3)."""
+    """A parameter of a method (9.2.7.3).
+
+    ``direction``: IN, OUT, INOUT or RETURN.
+    ``type``: reference to a data type or an interface.
+    """
 
     direction: str = ""
     type: str = ""
@@ -210,7 +259,12 @@ class Method(Annotable, frozen=True, kw_only=True):
 
 
 class Attribute(Annotable, frozen=True, kw_only=True):
-    """``mode`` is READ or READWRITE, empty if the model gives none; a component type or an interface has it (9.2.7.4)."""
+    """An attribute of a component type or an interface (9.2.7.4).
+
+    ``type``: reference to its data type.
+    ``mode``: READ or READWRITE, empty if the model gives none.
+    ``default_value``: in the syntax of IDL constants; None if there is none.
+    """
 
     type: str = ""
     mode: str = ""
@@ -240,7 +294,15 @@ class AbstractInterface(Named, frozen=True, kw_only=True):
 
 
 class ContractModule(Named, frozen=True, kw_only=True):
-    """Declarations of contracts (9.2.2.15); ``data_types`` has abstract ones, too, and ``interfaces`` abstract interfaces."""
+    """Declarations of contracts (9.2.2.15).
+
+    ``contract_modules``: modules inside it.
+    ``data_types``: data types, also abstract ones.
+    ``constants``: constants.
+    ``exceptions``: exceptions.
+    ``interfaces``: interfaces, also abstract ones.
+    ``annotation_definitions``: annotation definitions.
+    """
 
     contract_modules: tuple[ContractModule, ...] = ()
     data_types: tuple[DataType | AbstractDataType, ...] = ()

@@ -7,7 +7,10 @@ from ucm_cts.adapters.contract.metamodel.contracts import ConfigurationParameter
 
 
 class InteractionItem(Named, frozen=True, kw_only=True):
-    """What an interaction carries; ``nature`` is DATA or INTERFACE (9.3.3.3)."""
+    """What an interaction carries (9.3.3.3).
+
+    ``nature``: DATA or INTERFACE.
+    """
 
     nature: str = ""
 
@@ -19,7 +22,12 @@ class InvolvedItem(Element, frozen=True, kw_only=True):
 
 
 class InteractionRole(Named, frozen=True, kw_only=True):
-    """How many may play it; an ``upper_multiplicity`` of -1 is no limit, None means that the model gives none (9.3.3.4)."""
+    """A role of a pattern (9.3.3.4).
+
+    ``lower_multiplicity``: the least number of ports that play it; None if the model gives none.
+    ``upper_multiplicity``: the greatest number; -1 is no limit, None if the model gives none.
+    ``involved_items``: the items that it handles.
+    """
 
     lower_multiplicity: int | None = None
     upper_multiplicity: int | None = None
@@ -27,7 +35,12 @@ class InteractionRole(Named, frozen=True, kw_only=True):
 
 
 class InteractionPattern(Named, frozen=True, kw_only=True):
-    """Roles and items, and those of the pattern that it extends (9.3.3.2)."""
+    """An interaction pattern (9.3.3.2).
+
+    ``extends``: reference to its parent, whose roles and items it inherits; empty if there is none.
+    ``roles``: its own roles.
+    ``items``: its own items.
+    """
 
     extends: str = ""
     roles: tuple[InteractionRole, ...] = ()
@@ -35,14 +48,22 @@ class InteractionPattern(Named, frozen=True, kw_only=True):
 
 
 class ConnectorPort(Named, frozen=True, kw_only=True):
-    """A role with an API: ``port_role`` is ``pattern.role``, ``api`` a port type, empty if none is given (9.3.4.6)."""
+    """A role with an API (9.3.4.6).
+
+    ``port_role``: reference to the role, as ``pattern.role``.
+    ``api``: reference to a port type, empty if none is given.
+    """
 
     port_role: str = ""
     api: str = ""
 
 
 class ItemBinding(Element, frozen=True, kw_only=True):
-    """Which type of the API stands for an item: ``interaction_item`` is ``pattern.item`` (9.3.4.6)."""
+    """The type that stands for an item (9.3.4.6).
+
+    ``interaction_item``: reference to the item, as ``pattern.item``.
+    ``connector_item``: reference to the type.
+    """
 
     interaction_item: str = ""
     connector_item: str = ""
@@ -58,7 +79,11 @@ class ConnectorDefinition(Named, frozen=True, kw_only=True):
 
 
 class PortElement(Named, frozen=True, kw_only=True):
-    """``kind`` is PROVIDED or REQUIRED, as the component sees it (9.3.5.2)."""
+    """An interface of a port (9.3.5.2).
+
+    ``interface``: reference to the interface.
+    ``kind``: PROVIDED or REQUIRED, as the component sees it.
+    """
 
     interface: str = ""
     kind: str = ""
