@@ -10,116 +10,26 @@ import msgspec
 
 from ucm_cts.adapters.contract.metamodel.common import Element
 from ucm_cts.adapters.contract.metamodel.modules import MODULES
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.adapters.mutants.toolchain import rewriting as rw
-from ucm_cts.adapters.mutants.toolchain.registry import Derive, named, variant
+from ucm_cts.adapters.mutants.toolchain.registry import named, variant
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 
-def _variant(name: str, derive: Derive, *declares: str) -> None:
-    variant(task="idl", declares=declares)(named(derive, name))
+class Freedom(Value, frozen=True):
+    """``edits`` of the IDL in ``file``, ``*`` for every file; ``declares`` are the readings that the tool chain claims."""
+
+    edits: dict[str, str]
+    file: str = rw.MODEL
+    declares: tuple[str, ...] = ()
 
 
-for _name, _edits in rw.table("variants/idl.yaml", dict[str, dict[str, str]]).items():
-    _variant(_name, rw.replacing(_edits))
-_variant(
-    "values_in_hexadecimal",
-    rw.replaced(r'@DefaultValue\(val="(\d+)"\)', lambda m: f'@DefaultValue(val="0x{int(m[1]):X}")'),
-)
+for _name, _freedom in rw.table("variants/idl.yaml", dict[str, Freedom]).items():
+    _derive = rw.edited("idl", _freedom.edits) if _freedom.file == "*" else rw.replacing(_freedom.edits, _freedom.file)
+    variant(task="idl", declares=_freedom.declares)(named(_derive, _name))
 
-DEFINITIONS = {"Drive": "self_executing", "Day_Duty": "self_running", "Night": "stoppable", "Meter": "sampled"}
-"""The policy definitions, as IDL spells them, by the policies that use them."""
-
-
-def _definition(match: re.Match[str]) -> str:
-    return f"get_tp_{DEFINITIONS[match[1]]}_"
-
-
-_SAME = rw.replaced(rw.GUARD, f"\n{rw.GUARD}")
-
-for _reading in (
-    "native-types=supported",
-    "idl-attribute-defaults=annotated",
-    "idl-interface-attributes=attributes",
-    "idl-standard-files=generated",
-    "standard-idl=printed",
-    "standard-idl=printed-with-timers",
-    "standard-idl=model",
-    "idl-enumerator-values=observed",
-    "idl-enumerator-values=default-value",
-):
-    _variant(f"declared_{_reading.replace('-', '_').replace('=', '_as_')}", _SAME, _reading)
-_variant("footprint_by_another_name", rw.replaced(r"unsigned long max;", "uint32 max;", rw.STANDARD))
-_variant(
-    "ids_written_out",
-    rw.replaced(r"\bcomponentId (?=\w+[(,)])|\bconnectionId (?=\w+[(,)])", "long ", rw.STANDARD),
-    "idl-standard-files=generated",
-)
-_variant("hyphens_are_underscores", _SAME, "idl-hyphens=underscore")
-_variant("all_index_types_declared", _SAME, "index-annotations=always")
-_variant("capitals_declared", _SAME, "idl-template-names=upper")
-_variant("direct_templates_declared", _SAME, "idl-template-propagation=direct")
-_variant("instances_declared", _SAME, "idl-policy-getters=instance")
-_variant(
-    "unsigned_long_declared",
-    rw.replaced("typedef unsigned long long ", "typedef unsigned long "),
-    "idl-ulonglong=unsigned-long",
-)
-_variant("bool_declared", rw.replaced("typedef boolean ", "typedef bool "), "idl-boolean=bool")
-_variant(
-    "definitions_declared",
-    rw.replaced(r"get_tp_(Drive|Day_Duty|Night|Meter)_", _definition),
-    "idl-policy-getters=definition",
-)
-_variant(
-    "equivalent_syntax_besides",
-    rw.appended("porttype asking_port { provides PortElementObject api; };\ncomponent Extra { port asking_port p; };"),
-    "idl-output=both",
-)
-_variant(
-    "annotations_defined_as_printed",
-    rw.replaced(
-        r"@annotation (\w+) \{\n *string (\w+);\n\};", r"@Annotation \1 {\n    attribute String \2;\n}", rw.STANDARD
-    ),
-)
-
-
-HEADS: dict[str, tuple[str, tuple[tuple[str, rw.Replacement], ...]]] = {
-    "macros_for_numbers": (
-        "#define UCM_N_8 8\n#define UCM_N_16 \\\n  (UCM_N_8 * 2) /* twice\n as much */\n#define UCM_1 1\n#undef UCM_1\n",
-        ((r"string<16>", "string<UCM_N_16>"), (r"sequence<([^<>,]*), 8>", r"sequence<\1, UCM_N_8>")),
-    ),
-    "macros_for_keywords": (
-        "#define UCM_LOCAL local\n#define UCM_NOTHING\n#define UCM_INDEX(t) @IndexType(typeid=#t)\n#define UCM_IF(x) x ## face\n",
-        (
-            (r"\binterface (?=\w+(?: :| \{|;))", "UCM_NOTHING UCM_LOCAL UCM_IF(inter) "),
-            (r'@IndexType\(typeid="([^"]*)"\)', r"UCM_INDEX(\n  \1\n)"),
-        ),
-    ),
-    "branches_that_are_not_taken": (
-        "#if 0\nDon't read this; module {\n# if 1\n#  error no\n# else\n# endif\n#elif defined UCM_OLD && UCM_OLD > 2\n#error no\n"
-        "#else\n#define UCM_NEW (1 << 3)\n#endif\n#ifdef __OTHER_COMPILER__\n#include <other.idl>\n#endif\n",
-        ((r"\n( *)(interface )", r"\n#if UCM_NEW == 8 && !defined(UCM_OLD)\n\1\2\n#else\n\1}\n#endif\n"),),
-    ),
-    "guards_of_another_kind": (
-        "#pragma once\n",
-        ((r"#ifndef (\w+)\n", r"#if !defined(\1)\n"), (r"\n#endif\n$", "\n#endif // guard\n")),
-    ),
-    "no_guards": ("", ((r"#ifndef (\w+)\n#define \1\n", "\n\n"), (r"\n#endif\n$", "\n"))),
-}
-"""By the variant's name: what stands first in each file, and patterns with what stands instead."""
-
-
-def _with_directives(head: str, changes: tuple[tuple[str, rw.Replacement], ...]) -> Derive:
-    def rewrite(text: str) -> str:
-        for pattern, replacement in changes:
-            text = re.sub(pattern, replacement, text)
-        return f"{head}{text}"
-
-    return lambda program: rw.rewritten(program, lambda files: {name: rewrite(text) for name, text in files.items()})
-
-
-for _name, (_head, _changes) in HEADS.items():
-    _variant(_name, _with_directives(_head, _changes))
+_derive = rw.replaced(r'@DefaultValue\(val="(\d+)"\)', lambda m: f'@DefaultValue(val="0x{int(m[1]):X}")')
+variant(task="idl")(named(_derive, "values_in_hexadecimal"))
 
 
 @variant(task="idl")
