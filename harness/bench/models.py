@@ -1,5 +1,5 @@
 """Measures reading and checking a large model, beside parsing it with lxml: ``python -m
-ucm_cts.harness.bench.models``. Each way is gone in a process of its own, so that memory is its own, too.
+ucm_cts.harness.bench.models``. Each way runs in a process of its own, which has its own memory.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def main(make: bool, way: str | None, elements: int, path: Path | None) -> None:
 
 
 def _measured(way: Callable[[Path], None], path: Path) -> tuple[float, float]:
-    """Seconds of processor time, and megabytes at most, as the program itself runs: without looking for garbage."""
+    """Seconds of processor time, and megabytes at most, as the program itself runs: without garbage collection."""
     gc.disable()
     began = time.process_time()
     way(path)

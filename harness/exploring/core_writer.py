@@ -1,8 +1,8 @@
 """Random scenarios of 10.1: components with policies, joined by both connectors, started, called, stopped, taken apart; with
 clocks and traces, and with transports that break.
 
-One thread operates containers and tells components what to do. Messages are waited for where it is certain that they come;
-where they may be lost, because somebody is stopped or detached meanwhile, nothing more is waited for.
+One thread operates containers and calls components. Scenarios wait for messages that are certain to come; where a component is
+stopped or detached meanwhile, messages may be lost, and scenarios wait for no further ones.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ _CLOCK_API = "clock.clock_api"
 _TRACE_API = "trace.trace_api"
 _SEVERITIES = ("debug", "info", "warning", "error")
 _OPERATIONS = (
-    *["tell"] * 10,
+    *["call"] * 10,
     *["restart", "stop", "start"] * 2,
     "remove_end",
     "add_end",
     "add_end",
     "remove",
-    "look",
+    "list_members",
     "meet",
     "cut",
 )
@@ -195,8 +195,8 @@ class CoreWriter:
 
     # operations
 
-    def tell(self) -> None:
-        """Somebody calls or pushes; what is pushed is waited for where it has to come."""
+    def call(self) -> None:
+        """A component calls or pushes; the scenario waits for pushed messages that have to come."""
         ready = [name for name in self.pushes if name in self.ends]
         if not ready:
             return
@@ -282,7 +282,7 @@ class CoreWriter:
         if self.started[box]:
             self.steps += [s.Stop(box), s.Start(box)]
 
-    def look(self) -> None:
+    def list_members(self) -> None:
         self.steps.append(s.GetComponents(self.choose(tuple(self.started))))
 
     def remove_end(self) -> None:

@@ -1,6 +1,6 @@
 """Exploration: generates scenarios one after the other and sends them, many at a time, through the ordinary pipeline.
 
-Of a few candidates the one is sent whose transitions of the life-cycle model are the rarest so far. What shows events in an
+Of a few candidates the one is sent whose transitions of the life-cycle model are the rarest so far. A scenario that shows events in an
 order not seen before is changed and becomes a candidate again.
 """
 
@@ -104,7 +104,7 @@ class Exploration:
         for _ in range(TRIES):
             again = (_purpose(f"known {n}", one.scenario) for n, one in enumerate(missing, 1))
             for one, checked in zip(missing, self._check(again), strict=True) if missing else ():
-                if _is_told(one, checked):
+                if _is_decided(one, checked):
                     answered.add(one.identity)
             missing = [one for one in missing if not self._is_shown(one)]
         gone = answered & {one.identity for one in missing}
@@ -141,7 +141,7 @@ class Exploration:
 
     def _check(self, purposes: Iterator[TestPurpose]) -> Iterator[Checked]:
         for checked in self._campaign.check(purposes):
-            self._campaign.checked.clear()  # there is no end to them
+            self._campaign.checked.clear()  # an exploration has no end
             for finding, execution in checked.failures:
                 if finding is not None:
                     self._causes.add(cause_of(finding))
@@ -179,8 +179,8 @@ class Exploration:
             self._new.append((self._run, answer.scenario))
 
 
-def _is_told(one: Remembered, checked: Checked) -> bool:
-    """Does an execution of its scenario tell whether ``one`` is still there? Not if something else came in between."""
+def _is_decided(one: Remembered, checked: Checked) -> bool:
+    """Does an execution of its scenario show whether ``one`` is still there? Not if another incident came first."""
     met = [execution for _, execution in checked.failures if execution.incident is not None]
     if one.incident is None or not met:
         return not met
@@ -195,4 +195,4 @@ def _fate(is_missing: bool, is_gone: bool) -> Fate:
 
 
 def _purpose(name: str, scenario: Scenario) -> TestPurpose:
-    return TestPurpose(name, "explored", "Nobody knows beforehand what this shows.", (), ((name, scenario),))
+    return TestPurpose(name, "explored", "A random scenario, drawn for this run.", (), ((name, scenario),))

@@ -30,7 +30,7 @@ class Guide:
         return len(self._taken)
 
     def choose(self, candidates: Sequence[Scenario]) -> Scenario:
-        """The one that promises most for its length; its transitions count as taken from now on."""
+        """The one with the most new transitions for its length; they count as taken from now on."""
         foreseen = [transitions(self._table, candidate) for candidate in candidates]
         worth = [self._worth(f, c) for f, c in zip(foreseen, candidates, strict=True)]
         best = worth.index(max(worth))

@@ -1,4 +1,4 @@
-"""What a scenario would do if all went well: the transitions of the life-cycle model that it takes instances through.
+"""Predicted coverage: the transitions of the life-cycle model that a scenario takes if the framework is conformant.
 
 The reference model carries the scenario out itself, so that thousands can be compared before one is sent.
 """
@@ -35,9 +35,9 @@ def transitions(table: LifeCycleTable, scenario: Scenario) -> frozenset[Transiti
                 latest[id(member)] = row.id
     for before, after in pairwise(scenario.steps):
         if not all(isinstance(step, (*_CALLS, s.Invoke)) for step in (before, after)):
-            found.add(("steps", _told(before), _told(after)))
+            found.add(("steps", _name_of(before), _name_of(after)))
     return frozenset(found)
 
 
-def _told(step: Step) -> str:
+def _name_of(step: Step) -> str:
     return f"{s.operation(step)} {getattr(step, 'role', '')}"

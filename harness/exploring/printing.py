@@ -203,11 +203,11 @@ def _observed(replayed: Replayed) -> str:
 def found_text(report: v.FrameworkReport, far: Progress, out: Path) -> RenderableType:
     """The end of an exploration: how much was run, then each cause of failure in a few lines."""
     failures = _failures(report)
-    standing = [failure for failure in failures if not failure.unstable]
+    confirmed = [failure for failure in failures if not failure.unstable]
     incidents = mishaps(report)
-    found = f"{len(standing)} causes of failure" if standing else "nothing found"
+    found = f"{len(confirmed)} causes of failure" if confirmed else "nothing found"
     if incidents:
-        found = f"{len(standing)} causes of failure, {len(incidents)} of incidents"
+        found = f"{len(confirmed)} causes of failure, {len(incidents)} of incidents"
     left_out = sum(item.occurrences for item in report.incidents if item.incident.kind == "untried")
     drawn = f"{far.scenarios} scenarios{f' ({left_out} not tried)' if left_out else ''}"
     covered = f"{far.rows} of {far.of} rows of the life-cycle table, {far.events} pairs of events"
@@ -217,10 +217,10 @@ def found_text(report: v.FrameworkReport, far: Progress, out: Path) -> Renderabl
             f"  in {drawn}: {covered}",
         )
     ]
-    for failure in standing[:SHOWN]:
-        lines += [Text(), *_told(failure, report, out)]
-    if len(standing) > SHOWN:
-        lines += [Text(), Text(f"and {len(standing) - SHOWN} more causes of failure")]
+    for failure in confirmed[:SHOWN]:
+        lines += [Text(), *_lines_of(failure, report, out)]
+    if len(confirmed) > SHOWN:
+        lines += [Text(), Text(f"and {len(confirmed) - SHOWN} more causes of failure")]
     lines += [
         cut(Text.assemble(("? ", "yellow"), (f.requirement, "bold"), f"  {one_line(f.unstable, 300)}"))
         for f in failures
@@ -245,7 +245,7 @@ def found_text(report: v.FrameworkReport, far: Progress, out: Path) -> Renderabl
     return Group(*lines)
 
 
-def _told(failure: Failure, report: v.FrameworkReport, out: Path) -> list[Text]:
+def _lines_of(failure: Failure, report: v.FrameworkReport, out: Path) -> list[Text]:
     steps = ", ".join(failure.steps[:_STEPS]) + (", ..." if len(failure.steps) > _STEPS else "")
     statement = f" --ics {shlex.quote(str(out / 'failures' / 'ics.toml'))}" if report.statement.source else ""
     replay = f"ucm-cts replay {shlex.quote(str(out / failure.file))} {shlex.quote(one_line(report.adapter))}{statement}"

@@ -36,7 +36,7 @@ _OPERATIONS = (
 
 
 def scenarios() -> SearchStrategy[Scenario]:
-    """Scenarios for hypothesis, which is not loaded by those who do without."""
+    """Scenarios for hypothesis, which is imported only here."""
     from hypothesis import strategies as st
 
     return st.composite(lambda draw: Writer(lambda options: draw(st.sampled_from(options))).scenario())()

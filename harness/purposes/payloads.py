@@ -1,7 +1,7 @@
 """Which payloads a scenario carries in a run: also negative ones, and those at the edges of the payload type.
 
 The numbers in scripts only say which payloads are the same. The disguise makes random long numbers of them and keeps
-their sign; the edges are too short, or too well known, to be told from other numbers and stand for themselves.
+their sign; the edges are too short, or too well known, to be distinguished from other numbers and are not replaced.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ EDGES = (0, -1, -2, SMALLEST, LARGEST)
 
 
 class Payloads:
-    """Deals payloads out, in an order drawn from ``seed``: every edge has its turn before any comes again."""
+    """Deals payloads out, in an order drawn from ``seed``: every edge is dealt before any is dealt again."""
 
     def __init__(self, seed: int) -> None:
         self._random = random.Random(f"payloads of {seed}")

@@ -1,7 +1,7 @@
 """Where the trace of a mutant parts from that of the framework it was made from: what a finding has to be about.
 
-Both have run the same scenario. Ids, as long as they are none too large, times and threads are each framework's own affair; all
-else is compared.
+Both have run the same scenario. Ids in the permitted range, times and threads may differ;
+everything else is compared.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ucm_cts.reference_models.findings import Finding
 IDS = range(-(2**31), 2**31)
 """What an id may be (12.10)."""
 
-_OWN_AFFAIR = ("n", "t", "thread", "detail")
+_MAY_DIFFER = ("n", "t", "thread", "detail")
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ def divergence(scenario: Scenario, right: Trace, wrong: Trace) -> Divergence:
     step_of = _steps(wrong)
     events: set[int] = set()
     steps: set[int] = set()
-    compared = difflib.SequenceMatcher(None, _told(scenario, right), _told(scenario, wrong), autojunk=False)
+    compared = difflib.SequenceMatcher(None, _comparable(scenario, right), _comparable(scenario, wrong), autojunk=False)
     for kind, _, _, begin, end in compared.get_opcodes():
         if kind == "equal":
             continue
@@ -66,20 +66,20 @@ def _steps(trace: Trace) -> tuple[int, ...]:
     return tuple(steps)
 
 
-def _told(scenario: Scenario, trace: Trace) -> Sequence[bytes]:
-    """Each event without what is the framework's own affair; ids by the order in which they were given out."""
+def _comparable(scenario: Scenario, trace: Trace) -> Sequence[bytes]:
+    """Each event without what may differ; ids by the order in which they were given out."""
     ids: dict[int, int] = {}
     return [_plain(scenario, event, ids) for event in trace]
 
 
 def _plain(scenario: Scenario, event: Event, ids: dict[int, int]) -> bytes:
-    told = msgspec.to_builtins(event)
-    for field in _OWN_AFFAIR:
-        told.pop(field, None)
+    fields = msgspec.to_builtins(event)
+    for field in _MAY_DIFFER:
+        fields.pop(field, None)
     if isinstance(event, Return) and 0 <= event.step < len(scenario.steps):
         step = scenario.steps[event.step]
         if isinstance(event.value, int) and isinstance(step, s.AddComponent | s.Connect):
-            told["value"] = ids.setdefault(event.value, len(ids)), event.value in IDS
+            fields["value"] = ids.setdefault(event.value, len(ids)), event.value in IDS
         elif isinstance(event.value, tuple):
-            told["value"] = sorted(ids.get(each, -1) for each in event.value)
-    return msgspec.json.encode(told)
+            fields["value"] = sorted(ids.get(each, -1) for each in event.value)
+    return msgspec.json.encode(fields)

@@ -34,7 +34,7 @@ class Found:
         self.runs += 1
         self.times += result.is_killed
         self.failed.update(kill.requirement for kill in result.kills)
-        self.incidents.update({told.partition(":")[0] for told in result.incidents})
+        self.incidents.update({incident.partition(":")[0] for incident in result.incidents})
         self.spills.update(kill.requirement for kill in result.spills)
 
     @property
@@ -42,7 +42,7 @@ class Found:
         """Was it killed often enough, and for nothing else?"""
         return self.times >= OFTEN_ENOUGH * self.runs and not self.spills
 
-    def told(self, name: str) -> str:
+    def line(self, name: str) -> str:
         """One line."""
         spilled = f"; also fails {', '.join(sorted(self.spills))}" if self.spills else ""
         times = ", ".join(f"{requirement} {n}" for requirement, n in sorted(self.failed.items()))
@@ -70,7 +70,7 @@ def main() -> None:
         for seed in range(1, options.runs + 1):
             found.add(examine_mutant(native_subject(known[name], options.command), Thoroughness(seed)))
         well = well and found.is_well
-        print(found.told(name), flush=True)
+        print(found.line(name), flush=True)
     sys.exit(0 if well else 1)
 
 

@@ -46,19 +46,19 @@ class SelfTest:
     _done: dict[str, Result] = field(default_factory=dict)
     _began: float = field(default_factory=time.monotonic)
 
-    def run(self, tell: Callable[[Result], None]) -> None:
-        """Examine all subjects; ``tell`` is called with each result."""
+    def run(self, report: Callable[[Result], None]) -> None:
+        """Examine all subjects; ``report`` is called with each result."""
         for requirement in self.models:
             spoilt = examine_models(requirement)
             self._done[spoilt.name] = spoilt
-            tell(spoilt)
-        self._examine_all([*self.mutants, *self.variants], tell)
-        self._examine_all(self.cheats, tell, uses=1)  # they run beside the harness, and may leave anything behind
+            report(spoilt)
+        self._examine_all([*self.mutants, *self.variants], report)
+        self._examine_all(self.cheats, report, uses=1)  # they run beside the harness, and may leave anything behind
 
     def _examine_all(
         self,
         subjects: Sequence[Subject | ToolChainSubject | str],
-        tell: Callable[[Result], None],
+        report: Callable[[Result], None],
         uses: int | None = None,
     ) -> None:
         """Examine ``subjects``, several at a time; a process examines at most ``uses`` of them."""
@@ -73,7 +73,7 @@ class SelfTest:
                     for future in done:
                         result = _result(future, owners[future])
                         self._done[result.name] = result
-                        tell(result)
+                        report(result)
             except BaseException:
                 for worker in multiprocessing.active_children():  # what they do takes long, and is not needed any more
                     worker.terminate()

@@ -53,20 +53,20 @@ class SeriesRun:
 )
 def main(adapter: str, profile: str, runs: int, variants: Sequence[str], busy: int, out: Path | None) -> None:
     """Run PROFILE on ADAPTER again and again. Exit status 1 if a run is not conformant or a verdict flips."""
-    told: list[SeriesRun] = []
+    done: list[SeriesRun] = []
     console = Console(stderr=True)
     with keeping_busy(busy):
         cases = [(variant, number) for variant in variants or ("",) for number in range(1, runs + 1)]
         for variant, number in track(cases, "running", console=console, transient=True):
-            told.append(one_run(adapter, profile, variant, number))
+            done.append(one_run(adapter, profile, variant, number))
             if not console.is_terminal:
-                click.echo(f"{len(told)} of {len(cases)}: {told[-1].verdict}, {told[-1].seconds:.1f} s", err=True)
-    title = f"{adapter}, profile {profile}, {len(told)} runs{f', {busy} busy processors' if busy else ''}"
-    Console(width=WIDTH).print(table(title, told))
+                click.echo(f"{len(done)} of {len(cases)}: {done[-1].verdict}, {done[-1].seconds:.1f} s", err=True)
+    title = f"{adapter}, profile {profile}, {len(done)} runs{f', {busy} busy processors' if busy else ''}"
+    Console(width=WIDTH).print(table(title, done))
     if out is not None:
-        out.write_text(markdown(title, told), encoding="utf-8")
-    steady = all(run.verdict == "conformant" and not run.flips(told[0]) for run in told)
-    sys.exit(0 if steady or (variants and all(run.verdict == "conformant" for run in told)) else 1)
+        out.write_text(markdown(title, done), encoding="utf-8")
+    steady = all(run.verdict == "conformant" and not run.flips(done[0]) for run in done)
+    sys.exit(0 if steady or (variants and all(run.verdict == "conformant" for run in done)) else 1)
 
 
 def one_run(adapter: str, profile: str, variant: str, number: int) -> SeriesRun:
@@ -106,29 +106,29 @@ def _compute() -> None:
         sum(range(10_000))
 
 
-def _rows(told: Sequence[SeriesRun]) -> Iterator[tuple[str, ...]]:
-    for run in told:
+def _rows(done: Sequence[SeriesRun]) -> Iterator[tuple[str, ...]]:
+    for run in done:
         counts = Counter(run.verdicts.values())
         figures = [str(counts[verdict]) for verdict in ("pass", "fail", "inconclusive", "not applicable")]
-        flips = ", ".join(run.flips(told[0])) or "none"
+        flips = ", ".join(run.flips(done[0])) or "none"
         yield run.name, run.verdict, *figures, str(run.incidents), f"{run.seconds:.1f}", flips
 
 
 _COLUMNS = ("run", "verdict", "pass", "fail", "inconclusive", "n/a", "incidents", "s", "other than in the first run")
 
 
-def table(title: str, told: Sequence[SeriesRun]) -> Table:
+def table(title: str, done: Sequence[SeriesRun]) -> Table:
     """The series for the terminal."""
     shown = Table(*_COLUMNS, title=title)
-    for row in _rows(told):
+    for row in _rows(done):
         shown.add_row(*row)
     return shown
 
 
-def markdown(title: str, told: Sequence[SeriesRun]) -> str:
+def markdown(title: str, done: Sequence[SeriesRun]) -> str:
     """The series as a page without times: a row for all runs that came out alike."""
     names: dict[tuple[str, ...], list[str]] = {}
-    for name, *figures, _, flips in _rows(told):
+    for name, *figures, _, flips in _rows(done):
         names.setdefault((*figures, flips), []).append(name)
     columns = (*_COLUMNS[1:-2], _COLUMNS[-1], "runs", "names")
     rows = [(*figures, str(len(alike)), "; ".join(alike)) for figures, alike in names.items()]

@@ -178,7 +178,7 @@ def _run(subject: Subject, how: Thoroughness) -> _Trial:
                 ran.scenarios += checked.executions
                 if how.quick and subject.breaks and _is_enough(ran, subject):
                     break
-            ran.incidents = _told(campaign)
+            ran.incidents = _incidents_of(campaign)
     except (HostUnavailable, WrongUse) as problem:
         ran.trouble = str(problem)
     ran.seconds = round(time.monotonic() - began, 3)
@@ -195,7 +195,7 @@ def _is_enough(ran: _Trial, subject: Subject) -> bool:
     )
 
 
-def _told(campaign: Campaign) -> tuple[str, ...]:
+def _incidents_of(campaign: Campaign) -> tuple[str, ...]:
     incidents = (item.incident for item in campaign.report().incidents)
     return tuple(dict.fromkeys(f"{incident.kind}: {incident.detail.splitlines()[0]}" for incident in incidents))
 
@@ -214,8 +214,8 @@ def _statement(subject: Subject) -> Statement:
 
 
 def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_at: int) -> Kill:
-    told = finding.expected, finding.observed, finding.events
-    return Kill(finding.requirement, execution.name, finding.rule, *told, names_the_place, looked_at)
+    shown = finding.expected, finding.observed, finding.events
+    return Kill(finding.requirement, execution.name, finding.rule, *shown, names_the_place, looked_at)
 
 
 def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: Execution) -> bool:

@@ -102,7 +102,7 @@ class Occupancy(metaclass=KeptClass):
 
 @contextmanager
 def switching_often() -> Iterator[None]:
-    """Threads take turns as often as they can."""
+    """Switch between threads as often as possible."""
     usual = sys.getswitchinterval()
     sys.setswitchinterval(_OFTEN)
     try:

@@ -402,4 +402,4 @@ def sealed() -> Seal:
 
 
 SEAL = sealed()
-"""Of what an adapter might change to tell something else than what happened; made before any adapter is loaded."""
+"""The parts of the SDK that an adapter might change to falsify a trace; made before any adapter is loaded."""

@@ -88,7 +88,7 @@ def _import(name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name and (name == error.name or name.startswith(error.name + ".")):
             raise CannotLoad(
-                f"there is no module {error.name}; it is looked for in {os.getcwd()}, on PYTHONPATH and among the "
+                f"there is no module {error.name}; searched: {os.getcwd()}, on PYTHONPATH and among the "
                 f"packages of {sys.prefix}"
             ) from None
         raise CannotLoad(f"importing {name} failed: {error}; install what it needs beside ucm-cts") from error

@@ -330,7 +330,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
 
 
 class ConnectableProbe(Probe, pm.Connectable):
-    """A probe that wants to hear of each connection."""
+    """A probe that is informed of each connection."""
 
     def on_connect(self, port_name: str, required: pm.PortElementObject | None) -> None:
         if self._is_text("on_connect", port_name):
@@ -350,7 +350,7 @@ class FragmentProbe(Probe, pm.FragmentObject):
 
 
 class ConnectableFragmentProbe(ConnectableProbe, FragmentProbe):
-    """A fragment that wants to hear of each connection."""
+    """A fragment that is informed of each connection."""
 
 
 _KINDS: dict[tuple[bool, bool], type[Probe]] = {

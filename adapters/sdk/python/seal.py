@@ -1,8 +1,8 @@
-"""Is the SDK still what it was? An adapter runs in the same process as the SDK and can change it.
+"""Detects changes of the SDK: an adapter runs in the same process and can change it.
 
-``Kept`` refuses, and ``Seal`` tells of, functions that are replaced, in classes, modules or single objects, and state of the
-SDK that is set by others. Code that controls a process can in the end hide everything from them; that is looked for in the
-adapter's source (docs/honesty.md).
+``Kept`` refuses, and ``Seal`` reports, replaced functions of classes, modules and objects, and state of the SDK that is set from
+outside. Code that controls a process can in the end hide everything from them; a reading of the adapter's source finds that
+(docs/honesty.md).
 """
 
 from __future__ import annotations

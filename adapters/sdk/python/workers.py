@@ -16,10 +16,10 @@ Task = Callable[[], None]
 
 Where = Literal["done", "held", "blocked", "running"]
 
-_LOOKS = 5
+_SAMPLES = 5
 """How often a thread must be found asleep, without having been awake in between, to count as blocked."""
 
-_BETWEEN_LOOKS = 0.0005
+_BETWEEN_SAMPLES = 0.0005
 """Seconds. The sampling thread releases the interpreter's lock meanwhile, so that a thread that only waits for that lock wakes up."""
 
 
@@ -92,18 +92,18 @@ class Workers(metaclass=KeptClass):
         with self._lock:
             worker = self._workers.get(name)
         deadline = time.monotonic() + self._patience
-        before, looks = None, 0
+        before, samples = None, 0
         while worker and not worker.wait_until_idle(0):
             if is_held(worker.thread):
                 return "held"
             sleeps = _sleeps(worker.thread)
-            looks = looks + 1 if sleeps is not None and sleeps == before else 1
+            samples = samples + 1 if sleeps is not None and sleeps == before else 1
             before = sleeps
-            if before is not None and looks >= _LOOKS:
+            if before is not None and samples >= _SAMPLES:
                 return "blocked"
             if time.monotonic() >= deadline:
                 return "running"
-            time.sleep(_BETWEEN_LOOKS)
+            time.sleep(_BETWEEN_SAMPLES)
         return "done"
 
     def finish(self) -> tuple[str, ...]:

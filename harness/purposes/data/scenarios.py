@@ -1,7 +1,7 @@
 """Scenarios in which both connectors carry values of every type, in every direction (10.1.1).
 
-Each type has a client and a server, or an emitter and a receiver, of its own. What a value is made of is carried as well, and
-before it, so that a value that goes wrong only inside others is told from one that goes wrong anywhere.
+Each type has a client and a server, or an emitter and a receiver, of its own. The parts of a value are carried before it, so
+that a part that goes wrong everywhere is distinguished from one that goes wrong only inside other values.
 """
 
 from __future__ import annotations
@@ -67,14 +67,14 @@ def _scenarios(
     for name, of in types.types.items():
         drawn = draw(of, DRAWN, f"{types.sort}/{name} of {seed}", readings) if seed is not None else []
         loads.append(Load(name, of, tuple(corners(of, readings) + drawn)))
-    pushed = [Load(load.name, load.of, (*_some(load.of, load.values), _telling(load))) for load in loads]
+    pushed = [Load(load.name, load.of, (*_some(load.of, load.values), _distinct(load))) for load in loads]
     return (
         (f"data/{types.sort}/services", services(with_parts(loads))),
         (f"data/{types.sort}/messages", messages(with_parts(pushed))),
     )
 
 
-def _telling(load: Load) -> d.Datum:
+def _distinct(load: Load) -> d.Datum:
     """A value that is hardly like that of another type, even when it was altered."""
     return draw(load.of, 1, f"the message of {load.name}")[0]
 

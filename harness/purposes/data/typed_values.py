@@ -42,7 +42,7 @@ def values(
 ) -> st.SearchStrategy[d.Datum]:
     """All values of ``of`` within the readings; corner values come often.
 
-    Where smaller ones than a value ``around`` are looked for, strings and sequences get as long as in it, and corner values,
+    To find smaller values than ``around``, strings and sequences get as long as in it, and corner values,
     which do not shrink, are left out.
     """
     from hypothesis import strategies as st  # it takes a while, and runs without a failure do without

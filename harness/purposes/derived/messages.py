@@ -1,7 +1,7 @@
 """Scenarios of messages: emitters and receivers in all small numbers and places, one by one and at once (10.1.6).
 
-Receivers tell of each arrival at a gate that is open, so that a scenario waits for messages and never sleeps. What must not
-come is looked for by waiting for something else that was pushed later, on the same way.
+Receivers pass an open gate at each arrival, so that a scenario waits for messages and never sleeps. To see that a message does
+not come, the scenario waits for another one that was pushed later, on the same way.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _INTERFACES = {_NUMBERS: message_interface(_NUMBER), _NOTES: message_interface(_
 
 @dataclass
 class _Configuration:
-    """A scenario in the making: its components, the steps that set it up, and where each component is."""
+    """A scenario under construction: its components, the steps that set it up, and the container of each component."""
 
     is_spread: bool
     components: dict[str, Declaration] = field(default_factory=dict)
@@ -89,7 +89,7 @@ def emitter(messages: Sequence[Datum], interface: str = _NUMBERS) -> Declaration
 
 
 def receiver(gate: str, interface: str = _NUMBERS, overwrite: bool = False) -> Declaration:
-    """Tells of each message at ``gate`` and answers ok."""
+    """Passes ``gate`` at each message and answers ok."""
     plan = (s.HoldAtGate(gate), s.Answer(s.PUSH, ("ok",), overwrite=overwrite))
     return Declaration(("in.api",), plan={"method": plan}, ports={"in.api": interface})
 
@@ -120,13 +120,13 @@ def _group(emitters: int, receivers: int, is_spread: bool, at_once: bool) -> Sce
     for number, name in enumerate(names):
         configuration.add_emitter(name, "link", emitter([10 * (number + 1) + k for k in range(_MESSAGES)]))
     due = emitters * _MESSAGES * receivers
-    calls = [s.OpenGate("got"), *_told(names, at_once), s.ReachGate("got", total=due)]
+    calls = [s.OpenGate("got"), *_pushes(names, at_once), s.ReachGate("got", total=due)]
     return configuration.scenario(
-        [*calls, *_told(names[:1], False), s.ReachGate("got", total=due + _MESSAGES * receivers)]
+        [*calls, *_pushes(names[:1], False), s.ReachGate("got", total=due + _MESSAGES * receivers)]
     )
 
 
-def _told(names: Sequence[str], at_once: bool) -> list[Step]:
+def _pushes(names: Sequence[str], at_once: bool) -> list[Step]:
     """Make each emitter push."""
     if not at_once:
         return [s.Invoke(f"tell {name}", number + 1) for number, name in enumerate(names)]
@@ -177,7 +177,7 @@ def _two_connections(second: str, count: int, is_spread: bool, at_once: bool) ->
     calls: list[Step] = [s.OpenGate("got left"), s.OpenGate("got right")]
     for round_ in (1, 2):  # a late message of the first round has arrived by the end of the second
         due = round_ * count * count * _MESSAGES
-        calls += [*_told(names, at_once), s.ReachGate("got left", total=due), s.ReachGate("got right", total=due)]
+        calls += [*_pushes(names, at_once), s.ReachGate("got left", total=due), s.ReachGate("got right", total=due)]
     return configuration.scenario(calls)
 
 
@@ -202,7 +202,7 @@ def _receiver_of_two(second: str) -> Scenario:
     configuration.steps.append(s.GetPortElement("emitter", "in.api", "tell emitter"))
     calls: list[Step] = [s.OpenGate("got")]
     for round_ in (1, 2):
-        calls += [*_told(["emitter"], False), s.ReachGate("got", total=2 * round_)]
+        calls += [*_pushes(["emitter"], False), s.ReachGate("got", total=2 * round_)]
     return configuration.scenario(calls)
 
 
@@ -262,7 +262,7 @@ def _burst(emitters: int, receivers: int, count: int) -> Scenario:
         burst = Declaration(("in.api",), ("out.api",), plan=plan, ports={"out.api": _NUMBERS})  # type: ignore[arg-type]
         configuration.add_emitter(name, "link", burst)
     waits: list[Step] = [s.AwaitMessages(f"receiver {number}", emitters * count) for number in range(receivers)]
-    return configuration.scenario([*_told(names, True), *waits], 10_000, tuple(_worker_of(name) for name in names))
+    return configuration.scenario([*_pushes(names, True), *waits], 10_000, tuple(_worker_of(name) for name in names))
 
 
 def _purpose(

@@ -1,7 +1,7 @@
 """Gate schedules: scenarios that provoke overlap in a component with an execution policy, all orders of few callers (10.1.3.2).
 
-The first caller is held inside at a gate. Each of the others is sent off and looked for, so that it is known to be inside or
-to wait; then the gate is opened and everybody must come back.
+The first caller is held inside at a gate. Each of the others calls, and the scenario waits until it is inside or waits itself;
+then the gate opens and all must return.
 """
 
 from __future__ import annotations
@@ -202,7 +202,7 @@ def _meeting_with_run(way: _Way) -> Scenario:
 def _server(
     ways: tuple[_Way, ...], plan: dict[s.Hook, tuple[s.Action, ...]], policies: tuple[Policy, ...]
 ) -> Declaration:
-    """It has a service, and gets messages, only where somebody calls or pushes."""
+    """It has a service, and gets messages, only where a client calls or pushes."""
     ports = {port: name for port, name in _INTERFACE_OF.items() if any(way.port == port for way in ways)}
     if not ports:
         plan = {hook: actions for hook, actions in plan.items() if hook != "method"}

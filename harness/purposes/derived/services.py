@@ -1,7 +1,7 @@
 """Scenarios of services: parameters in all directions, clients in all small numbers and places, one by one and at once, and
 calls that are undone or stopped while they are carried out (10.1.5).
 
-A client calls when the test calls it. Its server answers with what it was given, so that every answer tells whose it is.
+A client calls when the test calls it. Its server answers with the argument, so that every answer shows which call it belongs to.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _PLACES: dict[str, tuple[str, ...]] = {
 
 @dataclass
 class _Configuration:
-    """A scenario in the making: a server and its clients, in the containers that ``places`` names for each."""
+    """A scenario under construction: a server and its clients, in the containers that ``places`` names for each."""
 
     places: Sequence[str]
     interface: Interface = _ECHO
@@ -75,7 +75,7 @@ class _Configuration:
         return Scenario(self.components, tuple(self.steps), interfaces={"service": self.interface})
 
     def call_at_once(self, clients: int) -> None:
-        """The first client's call is held in the server, then the others are looked for, so that they are inside or wait."""
+        """The first client's call is held in the server, then the other clients call: each is inside or waits."""
         for number in range(clients):
             worker = f"caller {number}"
             self.steps.append(s.Invoke(f"tell {number}", number + 1, thread=worker))

@@ -1,9 +1,8 @@
 """Unforeseeable scenarios: small applications drawn from a run's seed, so that no adapter can know them beforehand.
 
-Who answers by what it remembers of the suite, or only for scenarios of known shape, is found out here (docs/honesty.md).
-Nothing is asked that a framework may wait for for ever: calls go down, and only while all containers are started. And
-nothing is asked that other purposes do not ask each time: all components are in one container, so that what a framework does
-wrong between containers does not depend on the seed.
+They find adapters that remember answers, or that answer only scenarios of known shape (docs/honesty.md). No step may wait for
+ever: calls go down, and only while all containers are started. All components are in one container, so that defects between
+containers, which other purposes check in each run, do not depend on the seed.
 """
 
 from __future__ import annotations
@@ -97,7 +96,7 @@ class _Application:
             port = self.random.choice(self.components[name].provides)
             self.steps.append(s.GetPortElement(name, port, f"way {self.calls}", self.where[name]))
             self.steps.append(s.Invoke(f"way {self.calls}", self.value()))
-        self.look()
+        self.list_members()
         self.random.shuffle(containers)
         self.steps += [s.Stop(container) for container in containers]
 
@@ -118,7 +117,7 @@ class _Application:
                 )
             )
             self.steps.append(wrong)
-        self.look()
+        self.list_members()
 
     def take_down(self) -> None:
         """Remove the components that no other one needs, one by one; then the rest, and destroy the runtime."""
@@ -127,13 +126,13 @@ class _Application:
                 if client == name:
                     self.steps.append(s.Disconnect(self.links.pop((client, port)), self.where[client]))
             self.steps.append(s.RemoveComponent(name, self.where.pop(name)))
-        self.look()
+        self.list_members()
         if self.boxes and self.random.random() < 0.5:
             self.steps.append(s.RemoveContainer(self.boxes.pop()))
         if self.random.random() < 0.5:
             self.steps.append(s.Destroy())
 
-    def look(self) -> None:
+    def list_members(self) -> None:
         if self.random.random() < 0.6:
             self.steps.append(s.GetComponents(self.random.choice((s.MANAGER, *self.boxes))))
 

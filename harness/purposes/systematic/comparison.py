@@ -17,7 +17,7 @@ import click
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.purposes.systematic.derivation import derive
 from ucm_cts.harness.purposes.systematic.faults import Fault, Subject, Tried
-from ucm_cts.harness.purposes.systematic.identification import told_apart
+from ucm_cts.harness.purposes.systematic.identification import reduced
 from ucm_cts.harness.purposes.systematic.machine import Machine
 from ucm_cts.harness.purposes.systematic.rivals import hypothesis_walks, random_walks
 from ucm_cts.harness.purposes.systematic.settings import Setting, across, below, one, relays, two
@@ -96,7 +96,7 @@ def compare(setting: Setting, readings: Mapping[str, str], extra: int, seed: int
     began = time.process_time()
     machine = derive(load_life_cycle(), setting, readings)
     if machine.final:
-        machine = told_apart(machine)
+        machine = reduced(machine)
     derived = time.process_time() - began
     subject = Subject(machine)
     faults = wrong_machines(subject, extra, seed, most)
@@ -206,7 +206,7 @@ def main(seed: int, most: int, undeclared: bool, large: bool) -> None:
     for build, extra in CASES:
         comparison = compare(build(), readings, extra, seed, most)
         click.echo("\n".join(table_of(comparison)))
-        kept = kept and keeps_its_promise(comparison)
+        kept = kept and keeps_its_guarantee(comparison)
     if large:
         comparison = compare(relays(4), readings, 0, seed, min(most, FEWER))
         click.echo("\n".join(table_of(comparison)))
@@ -214,10 +214,10 @@ def main(seed: int, most: int, undeclared: bool, large: bool) -> None:
     raise SystemExit(0 if kept else 1)
 
 
-def keeps_its_promise(comparison: Comparison) -> bool:
+def keeps_its_guarantee(comparison: Comparison) -> bool:
     """Do the suites with a guarantee kill all?"""
-    promised = [row for row in comparison.rows if row.suite.startswith(("HSI", "Wp", "W,"))]
-    kills = [row.killed.get(kind, 0) == n for row in promised for kind, n in comparison.faults.items()]
+    guaranteed = [row for row in comparison.rows if row.suite.startswith(("HSI", "Wp", "W,"))]
+    kills = [row.killed.get(kind, 0) == n for row in guaranteed for kind, n in comparison.faults.items()]
     return bool(kills) and all(kills)
 
 

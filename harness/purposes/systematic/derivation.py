@@ -132,7 +132,7 @@ def _changes_nothing(step: s.ContainerCall, way: Way) -> bool:
 
 
 def _is_half_done(way: Way) -> bool:
-    """An operation that fails after somebody has heard of it."""
+    """An operation that fails after a body got a callback."""
     return way.answer != "return" and any(way.callbacks)
 
 

@@ -88,7 +88,7 @@ class Subject:
 
     def output_faults(self) -> Iterator[Fault]:
         """Every transition with every wrong observation: those of other transitions, other answers, callbacks lost, doubled
-        or heard by the way.
+        or added.
         """
         for (state, given), (after, _) in self._usual.items():
             for seen in self.wrong(state, given):
@@ -190,7 +190,7 @@ class Subject:
 
 
 class Tried:
-    """A suite, and which of its words take which transition of the model: only these can tell a fault there."""
+    """A suite, and which of its words take which transition of the model: only these can show a fault there."""
 
     def __init__(self, subject: Subject, suite: Iterable[Word]) -> None:
         self.subject = subject
@@ -209,7 +209,7 @@ class Tried:
 
     def kills(self, fault: Fault) -> Word | None:
         """A word that finds ``fault`` out; None if there is none. Until a changed transition of the model is taken, the
-        implementation is where the model is, so that no other words need to be looked at.
+        implementation is where the model is, so that no other words need to be tried.
         """
         for where in fault.changes:
             for word in self.taking.get(where, ()):

@@ -1,4 +1,4 @@
-"""Which words tell states apart: separating words, the characterisation set W, harmonised state identifiers.
+"""Words that distinguish states: separating words, the characterisation set W, harmonised state identifiers.
 
 Two states are distinguished by a word that is defined in both and at some point permits different things in each: nothing
 that is right after the one is right after the other. An implementation that does right in both is then, for certain, in
@@ -21,11 +21,11 @@ class NotReduced(Exception):
 
     def __init__(self, machine: Machine, pairs: Sequence[Pair]) -> None:
         one, other = (" ".join(machine.inputs[i] for i in machine.cover[state]) for state in pairs[0])
-        super().__init__(f"nothing tells the states after '{one}' and after '{other}' apart")
+        super().__init__(f"no word distinguishes the states after '{one}' and after '{other}'")
         self.pairs = tuple(pairs)
 
 
-def told_apart(machine: Machine) -> Machine:
+def reduced(machine: Machine) -> Machine:
     """The machine as far as its states can be distinguished: of two that cannot, no input is defined in the one in which
     fewer inputs are defined, so that it need not be identified. Transitions lead there as before.
     """
@@ -70,7 +70,7 @@ def separating_words(machine: Machine) -> dict[Pair, Word]:
 
 
 def _longer(machine: Machine, pair: Pair, words: dict[Pair, Word]) -> Word | None:
-    """A word for ``pair``: an input that tells at once, or one that leads to two states that ``words`` tell apart."""
+    """A word for ``pair``: an input that distinguishes at once, or one that leads to two states that ``words`` distinguish."""
     moves, others = machine.moves[pair[0]], machine.moves[pair[1]]
     shared = [given for given in moves if given in others]
     for given in shared:
@@ -84,7 +84,7 @@ def _longer(machine: Machine, pair: Pair, words: dict[Pair, Word]) -> Word | Non
     return None
 
 
-def tells_apart(machine: Machine, pair: Pair, word: Word) -> int:
+def distinguishing_length(machine: Machine, pair: Pair, word: Word) -> int:
     """The number of inputs of ``word`` that distinguish the states; 0 if it does not."""
     one, other = pair
     for length, given in enumerate(word, 1):
@@ -98,14 +98,16 @@ def tells_apart(machine: Machine, pair: Pair, word: Word) -> int:
 
 
 def harmonised_identifiers(machine: Machine) -> tuple[tuple[Word, ...], ...]:
-    """For each state words such that any two states share one, or the beginning of one, that tells them apart.
+    """For each state words such that any two states share one, or the beginning of one, that distinguishes them.
 
-    Few different words are used: the one that tells most pairs apart is chosen first, then what tells most of the others.
+    Few different words are used: the one that distinguishes most pairs is chosen first, then the next among the others.
     """
     shortest = separating_words(machine)
     single = {(given,) for moves in machine.moves for given in moves}
     candidates = sorted(single.union(shortest.values()), key=lambda word: (len(word), word))
-    distinguishes = {word: {p: n for p in shortest if (n := tells_apart(machine, p, word))} for word in candidates}
+    distinguishes = {
+        word: {p: n for p in shortest if (n := distinguishing_length(machine, p, word))} for word in candidates
+    }
     identifiers: list[set[Word]] = [set() for _ in machine.moves]
     open_pairs = set(shortest)
     while open_pairs:

@@ -49,13 +49,13 @@ class Permission:
 
     def seen(self, runtime: ObservedRuntime, ongoing: OperationInProgress, way: Way) -> Iterator[Observation]:
         """The output of the operation if it goes this ``way``; a list may be shorter or longer."""
-        told = sorted(
-            (_name(ongoing, member), heard)
-            for (member, _), heard in zip(ongoing.roles, way.callbacks, strict=True)
-            if heard
+        received = sorted(
+            (_name(ongoing, member), hooks)
+            for (member, _), hooks in zip(ongoing.roles, way.callbacks, strict=True)
+            if hooks
         )
         for answer in self._answers(runtime, ongoing, way.answer):
-            yield Observation(answer, tuple(told))
+            yield Observation(answer, tuple(received))
 
     def _answers(self, runtime: ObservedRuntime, ongoing: OperationInProgress, answer: str) -> Iterator[str]:
         if answer != "return" or not isinstance(ongoing.step, s.GetComponents):

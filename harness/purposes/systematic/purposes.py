@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from ucm_cts.harness.catalogue.requirements import load_life_cycle
 from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.systematic.derivation import derive
-from ucm_cts.harness.purposes.systematic.identification import told_apart
+from ucm_cts.harness.purposes.systematic.identification import reduced
 from ucm_cts.harness.purposes.systematic.machine import Machine
 from ucm_cts.harness.purposes.systematic.settings import Setting, across, below, one, relays, two
 from ucm_cts.harness.purposes.systematic.suites import Suite, hsi, tour
@@ -29,8 +29,8 @@ def systematic_purposes(readings: Mapping[str, str], extra: int = 0) -> tuple[Te
     """For each setting an HSI suite for ``extra`` extra states, derived for a vendor who declares ``readings``; with extra
     states also a tour of three components connected to each other.
     """
-    told = {outcome.reading.partition("=")[0] for row in load_life_cycle().rows for outcome in row.outcomes}
-    return _purposes(tuple(sorted((o, value) for o, value in readings.items() if o in told)), extra)
+    declared = {outcome.reading.partition("=")[0] for row in load_life_cycle().rows for outcome in row.outcomes}
+    return _purposes(tuple(sorted((o, value) for o, value in readings.items() if o in declared)), extra)
 
 
 @functools.cache
@@ -40,7 +40,7 @@ def _purposes(readings: tuple[tuple[str, str], ...], extra: int) -> tuple[TestPu
 
 def _all(readings: Mapping[str, str], extra: int) -> Iterator[TestPurpose]:
     for setting in (build() for build in IDENTIFIED):
-        machine = told_apart(derive(load_life_cycle(), setting, readings))
+        machine = reduced(derive(load_life_cycle(), setting, readings))
         text = f"Every transition of {setting.text}, and every state identified, with {extra} extra states (HSI)."
         yield _purpose(setting, machine, hsi(machine, extra), text)
     if extra:

@@ -50,12 +50,16 @@ def main() -> None:
 @part_option
 @again_option
 @click.option(
-    "--quick-only", "--glance-only", "quick_only", is_flag=True, help="Leave out what takes the whole pipeline to tell."
+    "--quick-only",
+    "--glance-only",
+    "quick_only",
+    is_flag=True,
+    help="Leave out mutants that only the whole pipeline decides.",
 )
 def python(results: Path, limit: int | None, part: str, again: str, quick_only: bool) -> None:
     """Mutants of the Python reference framework."""
     candidates, census = python_programs.candidates()
-    _tell(f"{len(candidates)} mutants to run; {dict(census)}")
+    _print(f"{len(candidates)} mutants to run; {dict(census)}")
     statement = stated(python_programs.HOME / "ics.toml")
     quick_trials = QuickTrials(statement, ordered(statement, ()), SEED)
     quick_trials.learn(Engine(ReferenceAdapter))
@@ -73,7 +77,7 @@ def python(results: Path, limit: int | None, part: str, again: str, quick_only: 
             with python_programs.python_endpoint(mutant) as endpoint:
                 outcome = try_out(endpoint, statement, python_programs.CONCERNED[mutant.file], outcome.by, SEED)
             append(results, mutant, outcome)
-            _tell(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")
+            _print(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")
 
 
 @main.command()
@@ -86,7 +90,7 @@ def python(results: Path, limit: int | None, part: str, again: str, quick_only: 
 def cpp(results: Path, limit: int | None, part: str, again: str, root: Path, build: Path) -> None:
     """Mutants of the C++ reference framework."""
     framework = CppFramework(root.absolute(), build.absolute())
-    _tell("compiling the framework as it is")
+    _print("compiling the framework as it is")
     framework.prepare()
     statement = stated(reference_cpp.STATEMENT)
     with framework.endpoint("", None) as endpoint:
@@ -95,12 +99,12 @@ def cpp(results: Path, limit: int | None, part: str, again: str, root: Path, bui
         raise click.ClickException(f"the framework as it is does not pass: {control}")
     candidates = list(framework.candidates())
     known = read_results(results)
-    _tell(f"{len(candidates)} mutants generated")
+    _print(f"{len(candidates)} mutants generated")
     for mutant in _left(_drawn(candidates, limit, part), known, again):
         outcome = _try_cpp(framework, mutant, statement)
         append(results, mutant, outcome)
         if outcome.fate not in ("not compiled", "same program"):
-            _tell(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")
+            _print(f"{outcome.fate} {outcome.by} {outcome.scenario} ({outcome.seconds} s): {mutant.key}")
 
 
 @main.command(name="page")
@@ -119,11 +123,11 @@ def write_page(language: str, results: Path, root: Path, out: Path) -> None:
         census = Counter({GENERATED: len(candidates)})
         listed, title = EQUIVALENTS, "Generated mutants of the C++ reference framework"
     tried = [Result(mutant, known[mutant.digest]) for mutant in candidates if mutant.digest in known]
-    told = Tally(census, len(candidates), tried, read_equivalents(listed))
+    tally = Tally(census, len(candidates), tried, read_equivalents(listed))
     out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(page(title, INTRO, told), encoding="utf-8")
-    _tell(f"{told.rate:.1f} % killed of those that are not equivalent, {len(told.open)} open: {out}")
-    sys.exit(1 if told.open or told.wrongly_listed else 0)
+    out.write_text(page(title, INTRO, tally), encoding="utf-8")
+    _print(f"{tally.rate:.1f} % killed of those that are not equivalent, {len(tally.open)} open: {out}")
+    sys.exit(1 if tally.open or tally.wrongly_listed else 0)
 
 
 def _try_cpp(framework: CppFramework, mutant: GeneratedMutant, statement: Statement) -> Outcome:
@@ -135,7 +139,7 @@ def _try_cpp(framework: CppFramework, mutant: GeneratedMutant, statement: Statem
             with framework.endpoint(mutant.file, made) as endpoint:
                 return try_out(endpoint, statement, CONCERNED.get(mutant.file, ()), "", SEED)
         except DoesNotCompile as error:
-            return Outcome("not compiled", told=str(error))
+            return Outcome("not compiled", detail=str(error))
 
 
 def _drawn(candidates: list[GeneratedMutant], limit: int | None, part: str) -> list[GeneratedMutant]:
@@ -154,10 +158,10 @@ def _left(drawn: list[GeneratedMutant], known: dict[str, Outcome], again: str) -
             yield mutant
             done += 1
             if done % 50 == 0:
-                _tell(f"{number} of {len(drawn)}")
+                _print(f"{number} of {len(drawn)}")
 
 
-def _tell(line: str) -> None:
+def _print(line: str) -> None:
     click.echo(line, err=True)
 
 

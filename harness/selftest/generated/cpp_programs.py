@@ -101,7 +101,7 @@ class CppFramework:
             self.root / "adapters" / "sdk" / "cpp" / "include",
         )
         source = folder / name
-        with TemporaryDirectory(prefix="unit-") as alone:  # where a source lies must not be told in its object
+        with TemporaryDirectory(prefix="unit-") as alone:  # the object must not name the folder of its source
             shutil.copy(source, Path(alone) / name)
             options = [f"-I{path}" for path in includes]
             self._run(["-c", name, "-o", made.absolute(), *options], Path(alone))

@@ -31,7 +31,7 @@ class Tally:
 
     @property
     def equivalent(self) -> list[Result]:
-        """Survivors that no clause tells from the original."""
+        """Survivors that no clause distinguishes from the original."""
         return [r for r in self.results if r.outcome.fate in _ALIVE and r.mutant.key in self.reasons]
 
     @property
@@ -54,7 +54,7 @@ class Tally:
 def page(title: str, intro: str, tally: Tally) -> str:
     """The page, in Markdown."""
     lines = [f"# {title}", "", *intro.strip().splitlines(), "", *_figures(tally)]
-    lines += ["", "## Survivors that no clause tells from the original", ""]
+    lines += ["", "## Survivors that no clause distinguishes from the original", ""]
     by_reason: dict[str, list[Result]] = {}
     for result in tally.equivalent:
         by_reason.setdefault(tally.reasons[result.mutant.key], []).append(result)
@@ -93,8 +93,8 @@ def _listed(results: Iterable[Result]) -> list[str]:
 
 
 def _how(result: Result) -> str:
-    told = f"{result.outcome.by} {result.outcome.told}".strip()
-    return f" ({result.outcome.fate}: {_plain(told)[:200]})" if told and result.outcome.fate != "open" else ""
+    shown = f"{result.outcome.by} {result.outcome.detail}".strip()
+    return f" ({result.outcome.fate}: {_plain(shown)[:200]})" if shown and result.outcome.fate != "open" else ""
 
 
 def _plain(text: str) -> str:

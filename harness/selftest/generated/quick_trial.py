@@ -108,12 +108,12 @@ class QuickTrials:
         if child == 0:
             self._be_child(adapter, tuple(clauses), writing)
         os.close(writing)
-        told = _heard(reading, self.silence)
+        received = _read(reading, self.silence)
         os.close(reading)
         with suppress(ProcessLookupError):
             os.kill(child, signal.SIGKILL)
         os.waitpid(child, 0)
-        *at, last = told.split(b"\n") or [b""]
+        *at, last = received.split(b"\n") or [b""]
         trial = (
             msgspec.json.decode(last, type=QuickTrial) if last.startswith(b"{") else QuickTrial(None, _last(at, last))
         )
@@ -141,7 +141,7 @@ class QuickTrials:
         try:
             engine = Engine(getattr(importlib.import_module(module), name))
         except BaseException as error:  # noqa: BLE001 - whatever a mutant does
-            return QuickTrial(Outcome("not loaded", type(error).__name__, told=str(error)))
+            return QuickTrial(Outcome("not loaded", type(error).__name__, detail=str(error)))
         favourites = {name for name, _ in self._killers.most_common(FAVOURITES)}
 
         def late(one: Prepared) -> tuple[bool, bool]:
@@ -158,7 +158,7 @@ class QuickTrials:
         return QuickTrial()
 
     def _findings(self, engine: Engine, one: Prepared) -> list[Finding] | None:
-        """What is wrong, less what a stall of the machine may have caused; None if it takes the pipeline to tell."""
+        """What is wrong, less what a stall of the machine may have caused; None if only the pipeline can decide."""
         answer = engine.answer(one.line)
         if _TIME.sub(b"", answer) in self._right:
             return []
@@ -172,11 +172,11 @@ class QuickTrials:
         return [finding for finding in found if not (stalled and is_timed(finding))]
 
     def learn(self, engine: Engine) -> None:
-        """Keep what the framework without mutants answers: who answers alike needs no judge."""
+        """Keep what the framework without mutants answers: equal answers need no monitor."""
         for one in self._prepared:
             reply = engine.answer(one.line)
-            told = from_host_decoder().decode(reply)
-            if isinstance(told, Traced) and not told.stuck and not self._findings(engine, one):
+            trace = from_host_decoder().decode(reply)
+            if isinstance(trace, Traced) and not trace.stuck and not self._findings(engine, one):
                 self._right.add(_TIME.sub(b"", reply))
 
 
@@ -193,15 +193,15 @@ def _takes_time(scenario: Scenario) -> bool:
     return any(isinstance(action, Burst) for actions in plans for action in actions)
 
 
-def _heard(reading: int, seconds: float) -> bytes:
+def _read(reading: int, seconds: float) -> bytes:
     """All that comes before the other end is closed, or is silent for too long."""
-    told = b""
+    received = b""
     while select.select([reading], [], [], seconds)[0]:
         part = os.read(reading, 1 << 16)
         if not part:
             break
-        told += part
-    return told
+        received += part
+    return received
 
 
 def _last(before: Sequence[bytes], last: bytes) -> str:

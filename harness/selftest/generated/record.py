@@ -21,7 +21,7 @@ class Result(Value, frozen=True):
 
 
 class Equivalent(Value, frozen=True):
-    """Mutants that are frameworks as conformant as the original, and why: no clause tells the two apart.
+    """Mutants that are frameworks as conformant as the original, and why: no clause distinguishes the two.
 
     Each of ``mutants`` is a ``GeneratedMutant.key``.
     """

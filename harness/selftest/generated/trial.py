@@ -1,4 +1,4 @@
-"""Does the suite notice? A framework goes through the ordinary pipeline, until the first thing that is wrong."""
+"""Runs a generated mutant through the ordinary pipeline, until the first failure."""
 
 from __future__ import annotations
 
@@ -26,29 +26,30 @@ from ucm_cts.harness.statement.files import read_statement
 from ucm_cts.reference_models.monitor import Monitor
 
 AT_ONCE = 8
-"""Scenarios after which it is looked whether something is wrong; a purpose may have hundreds."""
+"""How many scenarios are run before the failures are read; a purpose may have hundreds."""
 
 PATIENCE = 500
 """Milliseconds, as a vendor would declare them: mutants often never do what is waited for, and their machine is this one."""
 
 MORE_PATIENCE = 4
-"""The factor of the second look at an incident."""
+"""The factor of patience when an incident is confirmed."""
 
 INCIDENT_SECONDS = 10
 """What incidents may take before scenarios that would meet more of them are left out: one is enough."""
 
 Fate = Literal["failed", "incident", "not loaded", "not certified", "survived", "open", "not compiled", "same program"]
 """What became of a mutant: a requirement failed; it crashed, hung or answered nonsense; it could not be loaded; the run ended
-inconclusive; it was certified; or a quick look did not tell, and the pipeline has not been asked yet. Where only the compiler can tell: it is no program, or the original one."""
+inconclusive; it was certified; or the quick trial
+did not decide, and the pipeline has not run yet. By the compiler: it is no program, or the original one."""
 
 
 class Outcome(Value, frozen=True):
-    """``fate`` of a mutant; ``by`` is the requirement or kind of incident, ``scenario`` where, ``told`` what was observed."""
+    """``fate`` of a mutant; ``by`` is the requirement or kind of incident, ``scenario`` where, ``detail`` what was observed."""
 
     fate: Fate
     by: str = ""
     scenario: str = ""
-    told: str = ""
+    detail: str = ""
     seconds: float = 0.0
 
 
@@ -69,35 +70,35 @@ def _try_out(adapter: str, statement: Statement, purposes: Sequence[TestPurpose]
                     if execution.incident is not None:
                         return _of_incident(adapter, seed, execution, execution.incident)
                     if finding is not None and confirmation.of_failure(finding, execution) is None:
-                        told = f"{finding.rule}: {finding.observed}"
-                        return Outcome("failed", finding.requirement, execution.name, told)
+                        detail = f"{finding.rule}: {finding.observed}"
+                        return Outcome("failed", finding.requirement, execution.name, detail)
             campaign.confirm()
             report = campaign.report()
     except (HostUnavailable, WrongUse) as problem:
-        return Outcome("not loaded", told=str(problem).strip().rpartition("\n")[2])
+        return Outcome("not loaded", detail=str(problem).strip().rpartition("\n")[2])
     if report.verdict == "conformant":
         return Outcome("survived")
     undecided = [f"{r.id} {r.verdict}" for r in report.requirements if r.verdict not in ("pass", "not applicable")]
-    return Outcome("not certified", ", ".join(undecided), told=report.verdict)
+    return Outcome("not certified", ", ".join(undecided), detail=report.verdict)
 
 
 def _of_incident(adapter: str, seed: int, execution: Execution, incident: Incident) -> Outcome:
-    """Hosts that died or hung have had a second look; whoever answered gets one here, with more patience."""
-    told = incident.detail.partition("\n")[0]
-    if incident.kind not in FRAMEWORK_INCIDENTS or "never came back" in told or not incident.reproduced:
+    """Incidents of hosts that died or hung are confirmed already; others are confirmed here, with more patience."""
+    detail = incident.detail.partition("\n")[0]
+    if incident.kind not in FRAMEWORK_INCIDENTS or "never came back" in detail or not incident.reproduced:
         patient = msgspec.structs.replace(execution.scenario, patience=MORE_PATIENCE * execution.scenario.patience)
         with Driver(locate(adapter), seed) as driver:
             (again,) = driver.run([(execution.name, patient)], insist=True)
         if again.incident is None:
-            return Outcome("not certified", incident.kind, execution.name, f"seen once: {told}")
-    return Outcome("incident", incident.kind, execution.name, told)
+            return Outcome("not certified", incident.kind, execution.name, f"seen once: {detail}")
+    return Outcome("incident", incident.kind, execution.name, detail)
 
 
 @functools.cache
 def stated(path: Path) -> Statement:
     """The statement at ``path``, less patient."""
-    told = read_statement(path)
-    return msgspec.structs.replace(told, ixit={**told.ixit, "patience": PATIENCE})
+    statement = read_statement(path)
+    return msgspec.structs.replace(statement, ixit={**statement.ixit, "patience": PATIENCE})
 
 
 def ordered(statement: Statement, clauses: Sequence[str], suspect: str = "") -> list[TestPurpose]:

@@ -28,7 +28,7 @@ from ucm_cts.harness.purposes.systematic.comparison import (
     READINGS,
     Comparison,
     compare,
-    keeps_its_promise,
+    keeps_its_guarantee,
     table_of,
 )
 from ucm_cts.harness.purposes.systematic.derivation import derive
@@ -36,9 +36,9 @@ from ucm_cts.harness.purposes.systematic.faults import Fault, Subject, Tried
 from ucm_cts.harness.purposes.systematic.identification import (
     NotReduced,
     characterisation_set,
+    distinguishing_length,
     harmonised_identifiers,
-    tells_apart,
-    told_apart,
+    reduced,
 )
 from ucm_cts.harness.purposes.systematic.machine import Machine, Move, Observation, Permitted
 from ucm_cts.harness.purposes.systematic.purposes import IDENTIFIED, systematic_purposes
@@ -64,7 +64,7 @@ of_settings = pytest.mark.parametrize("build", IDENTIFIED, ids=lambda build: bui
 
 def machine_of(build: Build, readings: dict[str, str] = DECLARATIONS[1]) -> Machine:
     machine = derive(load_life_cycle(), build(), readings)
-    return told_apart(machine) if machine.final else machine
+    return reduced(machine) if machine.final else machine
 
 
 def survivors(subject: Subject, suite: Suite, faults: Iterable[Fault]) -> Counter[str]:
@@ -170,16 +170,16 @@ def test_identifiers_tell_each_two_states_apart(build: Build) -> None:
     for pair in itertools.combinations(states, 2):
         shared = {word[:n] for word in identifiers[pair[0]] for n in range(1, len(word) + 1)}
         others = {word[:n] for word in identifiers[pair[1]] for n in range(1, len(word) + 1)}
-        assert any(tells_apart(machine, pair, word) for word in shared & others), pair
-        assert any(tells_apart(machine, pair, word) for word in characterisation_set(machine))
+        assert any(distinguishing_length(machine, pair, word) for word in shared & others), pair
+        assert any(distinguishing_length(machine, pair, word) for word in characterisation_set(machine))
 
 
-def test_states_that_nothing_tells_apart_are_said_to_be_so() -> None:
+def test_states_that_nothing_distinguishes_are_said_to_be_so() -> None:
     output = Permitted((Observation("return"),)), Permitted((Observation("return"), Observation("UCM_ERROR")))
     machine = Machine(("go", "stay"), output, ({0: Move(1, 0), 1: Move(0, 0)}, {0: Move(0, 1), 1: Move(1, 0)}))
-    with pytest.raises(NotReduced, match="nothing tells the states after '' and after 'go' apart"):
+    with pytest.raises(NotReduced, match="no word distinguishes the states after '' and after 'go'"):
         hsi(machine, 0)
-    assert told_apart(machine).moves == ({0: Move(1, 0), 1: Move(0, 0)}, {})
+    assert reduced(machine).moves == ({0: Move(1, 0), 1: Move(0, 0)}, {})
 
 
 def test_every_declaration_has_a_suite() -> None:
@@ -309,11 +309,11 @@ def test_a_run_takes_more_words_for_more_states(tmp_path: Path) -> None:
 
 def test_a_broken_promise_is_noticed() -> None:
     comparison = compare(one(), READINGS, 1, seed=1, most=300)
-    assert keeps_its_promise(comparison)
+    assert keeps_its_guarantee(comparison)
     short = Comparison(
         comparison.setting, comparison.machine, 0.0, {**comparison.faults, "output": 10_000}, comparison.rows
     )
-    assert not keeps_its_promise(short)
+    assert not keeps_its_guarantee(short)
     assert [row.suite for row in comparison.rows][-1] == "hypothesis, same budget"
     assert comparison.rows[-1].inputs == comparison.rows[-2].inputs == comparison.rows[0].inputs
 
