@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from ucm_cts.adapters.contract.data_types import Alias, AnyType, Array, Datum, Structure, Union
 from ucm_cts.adapters.contract.data_types import Sequence as SequenceType
 from ucm_cts.adapters.contract.data_values import case_of
-from ucm_cts.adapters.mutants.python.registry import breaks
+from ucm_cts.adapters.mutants.python.registry import Row, family
 from ucm_cts.adapters.reference.python.connectors import Link
 
 Change = Callable[[Any, Any], Any]
@@ -40,46 +40,31 @@ def _elements(of: AnyType, value: Any, dimensions: int, change: Change) -> Any:
     ]
 
 
-def changing(change: Change, only_results: bool = False) -> type[Link]:
-    """A connector that makes ``change`` to all that it carries, or to results only."""
+class ChangingLink(Link):
+    """A connector that makes ``change`` to all that it carries."""
 
-    class ChangingLink(Link):
-        def send(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-            described = self.interface.methods[method]
-            sent = self._changed([p.of for p in described.arguments], [] if only_results else arguments) or arguments
-            results = super().send(method, sent)
-            is_message = self.connector == "simple_message_connector"
-            return results if is_message else self._changed([p.of for p in described.results], results)
-
-        def _changed(self, types: list[AnyType], values: Sequence[Datum]) -> list[Datum]:
-            return [rebuilt(of, value, change) for of, value in zip(types, self._copied(values), strict=False)]
-
-    return ChangingLink
-
-
-class Carried(NamedTuple):
-    """A framework whose connectors make ``change`` to every value, and so break ``requirement``."""
-
-    requirement: str
-    lie: str
     change: Change
-    also: tuple[str, ...] = ()
-    readings: Mapping[str, str] = {}
+
+    def send(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+        described = self.interface.methods[method]
+        results = super().send(method, self._changed([p.of for p in described.arguments], arguments) or arguments)
+        is_message = self.connector == "simple_message_connector"
+        return results if is_message else self._changed([p.of for p in described.results], results)
+
+    def _changed(self, types: list[AnyType], values: Sequence[Datum]) -> list[Datum]:
+        return [rebuilt(of, value, self.change) for of, value in zip(types, self._copied(values), strict=False)]
 
 
-def register_carried(table: Mapping[str, Carried]) -> None:
-    """Make each row of ``table`` a mutant."""
-    for name, row in table.items():
-        link = type(name, (changing(row.change),), {"__doc__": row.lie})
-        breaks(row.requirement, clauses=("10.1.1",), also=row.also, readings=row.readings)(link)
+def register_carried(table: Mapping[str, Row]) -> None:
+    """Make each row of ``table`` a mutant whose connectors change every value as the row says."""
+    family(ChangingLink, "change", table, clauses=("10.1.1",))
 
 
 def carries(requirement: str, kind: type = object, also: tuple[str, ...] = ()) -> Callable[[Change], Change]:
     """Register a change of values of ``kind`` as the mutant that makes it."""
 
     def register(change: Change) -> Change:
-        row = Carried(requirement, change.__doc__ or "", made_to(kind, change), also)
-        register_carried({change.__name__: row})
+        register_carried({change.__name__: Row(requirement, change.__doc__ or "", made_to(kind, change), also)})
         return change
 
     return register

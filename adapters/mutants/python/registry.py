@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 from ucm_cts.adapters.contract.data_types import Datum
-from ucm_cts.adapters.contract.programming_model import PortElementObject
+from ucm_cts.adapters.contract.programming_model import PortConnection, PortElementObject
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.reference.python.connectors import Link
 from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
@@ -90,14 +91,15 @@ def variants_of(clauses: tuple[str, ...]) -> dict[str, Variant]:
 def bind(name: str, part: type, doc: str | None = None) -> type[ReferenceAdapter]:
     """An adapter for the reference framework with ``part`` in the place where it belongs.
 
-    A ``Link`` is the class of all connectors, a ``Proxy`` is what ``get_port_element`` returns, and any other class
-    is a mixin in front of both container classes.
+    A ``Link`` is the class of all connectors, a ``Proxy`` is what ``get_port_element`` returns, a ``PeerProxy`` what
+    components get at start, and any other class is a mixin in front of both container classes.
     """
     mixin = part
     if issubclass(part, Link):
         mixin = type(name, (Base,), {"link_class": part})
     elif issubclass(part, Proxy):
-        mixin = type(name, (GivesOutProxies,), {"proxy": part})
+        giver = HandsOverProxies if issubclass(part, PeerProxy) else GivesOutProxies
+        mixin = type(name, (giver,), {"proxy": part})
     container = type(name, (mixin, Container), {})
     manager = type(f"{name}_manager", (mixin, ContainerManager), {"container_class": container})
     return type(f"{name}_adapter", (ReferenceAdapter,), {"manager_class": manager, "product": name, "__doc__": doc})
@@ -128,6 +130,24 @@ def _variant_below(mixin: type) -> str:
         if variant is not None and issubclass(variant.adapter.manager_class, base):
             return variant.name
     return ""
+
+
+class Row(NamedTuple):
+    """A mutant of a family: it breaks ``requirement``, because ``value`` is not as it should be."""
+
+    requirement: str
+    lie: str
+    value: Any
+    also: tuple[str, ...] = ()
+    readings: Mapping[str, str] = {}
+
+
+def family(base: type, attribute: str, rows: Mapping[str, Row], clauses: tuple[str, ...]) -> None:
+    """Make each row a mutant: ``base`` with the row's value as ``attribute``."""
+    for name, row in rows.items():
+        value = staticmethod(row.value) if callable(row.value) else row.value
+        mixin = type(name, (base,), {attribute: value, "__doc__": row.lie})
+        breaks(row.requirement, also=row.also, clauses=clauses, readings=row.readings)(mixin)
 
 
 def breaks_policy(
@@ -188,10 +208,24 @@ class Proxy(PortElementObject):
         return self.target.call(method, arguments)
 
 
+class PeerProxy(Proxy):
+    """What a framework could hand over to ``member`` instead of another body's own object."""
+
+
+class HandsOverProxies(Base):
+    """Components are given proxies at start, one a reference."""
+
+    proxy: type[Proxy] = Proxy
+
+    def _dependencies_of(self, member: Member) -> list[PortConnection]:
+        given = super()._dependencies_of(member)
+        return [PortConnection(d.from_port, tuple(self.proxy(t, member) for t in d.to_port if t)) for d in given]
+
+
 class GivesOutProxies(Base):
     """get_port_element gives out proxies to the test; components are connected to the bodies' own objects."""
 
-    proxy: type[Proxy]
+    proxy: type[Proxy] = Proxy
 
     def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
         element = super().get_port_element(comp_instance, port_name)

@@ -9,7 +9,7 @@ from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import DeclaredException, UcmError
 from ucm_cts.adapters.mutants.python.connectors.service_calls import Services
 from ucm_cts.adapters.mutants.python.methods import replaces
-from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.mutants.python.registry import Base, Row, family
 from ucm_cts.adapters.reference.python.members import Member
 
 T = TypeVar("T")
@@ -30,18 +30,11 @@ class _Keeps(Services):
         return results
 
 
-@breaks(_DIRECTIONS, clauses=_CLAUSES)
-class passes_inout_one_way(_Keeps):
-    """INOUT parameters come back as they were sent."""
-
-    direction = "INOUT"
-
-
-@breaks(_DIRECTIONS, clauses=_CLAUSES)
-class passes_one_out_parameter(_Keeps):
-    """All OUT parameters have the value of the first result."""
-
-    direction = "OUT"
+_KEPT = {
+    "passes_inout_one_way": Row(_DIRECTIONS, "INOUT parameters come back as they were sent.", "INOUT"),
+    "passes_one_out_parameter": Row(_DIRECTIONS, "All OUT parameters have the value of the first result.", "OUT"),
+}
+family(_Keeps, "direction", _KEPT, clauses=_CLAUSES)
 
 
 @replaces("_request", _DIRECTIONS, clauses=_CLAUSES)

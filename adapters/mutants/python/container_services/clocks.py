@@ -185,25 +185,22 @@ def synchronized_time_stands_still(_self: Base, *_: object) -> int:
     return BEGINNING
 
 
-@replaces("_time_value", "R-10.1.4.2-14", clauses=HERE)
-def tells_too_many_microseconds(self: Base, nanoseconds: int) -> list[Datum]:
+@alters("_time_value", "R-10.1.4.2-14", clauses=HERE)
+def tells_too_many_microseconds(_self: Base, given: list[int], *_: object) -> list[int]:
     """A second is told as microseconds."""
-    seconds, microseconds = Base._time_value(self, nanoseconds)
-    return [int(seconds) - 1, int(microseconds) + 1_000_000]  # type: ignore[arg-type]
+    return [given[0] - 1, given[1] + 1_000_000]
 
 
-@replaces("_time_value", "R-10.1.4.2-14", clauses=HERE)
-def tells_seconds_beyond_their_type(self: Base, nanoseconds: int) -> list[Datum]:
+@alters("_time_value", "R-10.1.4.2-14", clauses=HERE)
+def tells_seconds_beyond_their_type(_self: Base, given: list[int], *_: object) -> list[int]:
     """Seconds are counted from a time so long ago that they need 33 bits."""
-    seconds, microseconds = Base._time_value(self, nanoseconds)
-    return [int(seconds) + 2**32, microseconds]  # type: ignore[arg-type]
+    return [given[0] + 2**32, given[1]]
 
 
-@replaces("_time_value", "R-10.1.4.2-14", clauses=HERE)
-def tells_negative_microseconds(self: Base, nanoseconds: int) -> list[Datum]:
+@alters("_time_value", "R-10.1.4.2-14", clauses=HERE)
+def tells_negative_microseconds(_self: Base, given: list[int], *_: object) -> list[int]:
     """Microseconds count down to the next second."""
-    seconds, microseconds = Base._time_value(self, nanoseconds)
-    return [int(seconds) + 1, int(microseconds) - 1_000_000]  # type: ignore[arg-type]
+    return [given[0] + 1, given[1] - 1_000_000]
 
 
 @replaces(

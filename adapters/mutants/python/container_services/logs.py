@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import TypeVar
 
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection
 from ucm_cts.adapters.contract.scenario import COMPONENT_TRACE, PORT_TRACE, Policy
 from ucm_cts.adapters.mutants.python.container_services.clocks import HERE, Withholds
 from ucm_cts.adapters.mutants.python.methods import does_only_if, refuses_if, replaces
-from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.mutants.python.registry import Base, Row, breaks, family
 from ucm_cts.adapters.reference.python.members import Member
 
 T = TypeVar("T")
@@ -111,65 +112,50 @@ def log_leaves_out_repetitions(self: Base, _member: Member, severity: str, messa
 
 
 class _Alters(Base):
-    def _altered(self, message: str) -> str:
-        raise NotImplementedError
+    altered: Callable[[str], str]
 
     def _log(self, member: Member, severity: str, message: str) -> None:
-        super()._log(member, severity, self._altered(message))
+        super()._log(member, severity, self.altered(message))
 
 
-@replaces("_altered", "R-10.1.4.2-53", clauses=HERE, also=("R-10.1.4.2-47",))
-def log_truncates_soon(_self: _Alters, message: str) -> str:
-    """Texts end after 100 characters."""
-    return message[:100]
-
-
-@replaces("_altered", "R-10.1.4.2-53", clauses=HERE, also=("R-10.1.4.2-47",))
-def log_adds_a_time_stamp(_self: _Alters, message: str) -> str:
-    """Texts begin with the time."""
-    return f"{time.ctime()} {message}"
-
-
-@replaces("_altered", "R-10.1.4.2-53", clauses=HERE)
-def log_formats_texts(_self: _Alters, message: str) -> str:
-    """Texts are taken for format strings."""
-    return message.replace("%%", "%").replace("{0}", "").replace("\\n", "\n")
-
-
-@replaces("_altered", "R-10.1.4.2-53", clauses=HERE)
-def log_folds_spaces(_self: _Alters, message: str) -> str:
-    """Several spaces become one."""
-    return " ".join(message.split())
-
-
-@replaces("_altered", "R-10.1.4.2-47", clauses=HERE)
-def log_truncates_late(_self: _Alters, message: str) -> str:
-    """Texts end after 1,024 characters."""
-    return message[:1024]
-
-
-@replaces("_altered", "R-10.1.4.2-47", clauses=HERE)
-def log_is_narrow(_self: _Alters, message: str) -> str:
-    """What is not ASCII becomes question marks."""
-    return message.encode("ascii", "replace").decode()
-
-
-@replaces("_altered", "R-10.1.4.2-47", clauses=HERE)
-def log_has_sixteen_bits(_self: _Alters, message: str) -> str:
-    """What is beyond the Basic Multilingual Plane loses its upper bits."""
-    return "".join(chr(ord(c) & 0xFFFF) for c in message)
+_ALTERED = {
+    "log_truncates_soon": Row(
+        "R-10.1.4.2-53", "Texts end after 100 characters.", lambda message: message[:100], also=("R-10.1.4.2-47",)
+    ),
+    "log_adds_a_time_stamp": Row(
+        "R-10.1.4.2-53",
+        "Texts begin with the time.",
+        lambda message: f"{time.ctime()} {message}",
+        also=("R-10.1.4.2-47",),
+    ),
+    "log_formats_texts": Row(
+        "R-10.1.4.2-53",
+        "Texts are taken for format strings.",
+        lambda message: message.replace("%%", "%").replace("{0}", "").replace("\\n", "\n"),
+    ),
+    "log_folds_spaces": Row("R-10.1.4.2-53", "Several spaces become one.", lambda message: " ".join(message.split())),
+    "log_truncates_late": Row("R-10.1.4.2-47", "Texts end after 1,024 characters.", lambda message: message[:1024]),
+    "log_is_narrow": Row(
+        "R-10.1.4.2-47",
+        "What is not ASCII becomes question marks.",
+        lambda message: message.encode("ascii", "replace").decode(),
+    ),
+    "log_has_sixteen_bits": Row(
+        "R-10.1.4.2-47",
+        "What is beyond the Basic Multilingual Plane loses its upper bits.",
+        lambda message: "".join(chr(ord(c) & 0xFFFF) for c in message),
+    ),
+    "log_says_something_for_nothing": Row(
+        "R-10.1.4.2-47", "An empty text becomes another one.", lambda message: message or "(none)"
+    ),
+}
+family(_Alters, "altered", _ALTERED, clauses=HERE)
 
 
 @does_only_if("_log", "R-10.1.4.2-47", clauses=HERE)
 def log_drops_empty_texts(_self: Base, _member: Member, _severity: str, message: str) -> bool:
     """Empty texts are not recorded."""
     return bool(message)
-
-
-@replaces("_altered", "R-10.1.4.2-47", clauses=HERE)
-def log_says_something_for_nothing(_self: _Alters, message: str) -> str:
-    """An empty text becomes another one."""
-    return message or "(none)"
 
 
 class _Ranks(Base):
@@ -179,22 +165,18 @@ class _Ranks(Base):
         super()._log(member, self.instead.get(severity, severity), message)
 
 
-@breaks("R-10.1.4.2-51", clauses=HERE)
-class log_makes_warnings_errors(_Ranks):
-    """Warnings are recorded as errors."""
-
-    instead = {"warning": "error"}
-
-
-@breaks("R-10.1.4.2-51", clauses=HERE)
-class log_numbers_severities_otherwise(_Ranks):
-    """Severities are one off, as between the model and IDL."""
-
-    instead = {"debug": "info", "info": "warning", "warning": "error", "error": "critical"}
-
-
-@breaks("R-10.1.4.2-51", clauses=HERE, readings={"log-severity-set": "model-6"})
-class log_makes_critical_an_error(_Ranks):
-    """What is critical is recorded as an error; the vendor declares the six severities of the model."""
-
-    instead = {"critical": "error"}
+_RANKED = {
+    "log_makes_warnings_errors": Row("R-10.1.4.2-51", "Warnings are recorded as errors.", {"warning": "error"}),
+    "log_numbers_severities_otherwise": Row(
+        "R-10.1.4.2-51",
+        "Severities are one off, as between the model and IDL.",
+        {"debug": "info", "info": "warning", "warning": "error", "error": "critical"},
+    ),
+    "log_makes_critical_an_error": Row(
+        "R-10.1.4.2-51",
+        "What is critical is recorded as an error; the vendor declares the six severities of the model.",
+        {"critical": "error"},
+        readings={"log-severity-set": "model-6"},
+    ),
+}
+family(_Ranks, "instead", _RANKED, clauses=HERE)

@@ -12,9 +12,9 @@ from typing import Any
 from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract.data_values import components_of
 from ucm_cts.adapters.contract.programming_model import UcmError
-from ucm_cts.adapters.mutants.python.altering import Carried, carries, made_to, register_carried
+from ucm_cts.adapters.mutants.python.altering import carries, made_to, register_carried
 from ucm_cts.adapters.mutants.python.methods import replaces
-from ucm_cts.adapters.mutants.python.registry import Base
+from ucm_cts.adapters.mutants.python.registry import Base, Row
 from ucm_cts.adapters.reference.python.connectors import Link
 
 _CLAUSE = ("10.1.1",)
@@ -132,30 +132,30 @@ def cuts_inner_sequences(of: Any, value: Any) -> Any:
     return [cut(part, one) for _, part, one in inside]
 
 
-CARRIED: Mapping[str, Carried] = {
-    "turns_structures_round": Carried(
+CARRIED: Mapping[str, Row] = {
+    "turns_structures_round": Row(
         "R-10.1.1-13",
         "The fields of a structure arrive in the opposite order.",
         made_to(d.Structure, lambda of, value: value[::-1]),
     ),
-    "repeats_the_first_row": Carried(
+    "repeats_the_first_row": Row(
         "R-10.1.1-15",
         "All rows of an array are like the first one.",
         made_to(d.Array, lambda of, value: [value[0]] * len(value)),
         also=("R-10.1.1-18",),
     ),
-    "turns_sequences_round": Carried(
+    "turns_sequences_round": Row(
         "R-10.1.1-16", "Elements arrive in the opposite order.", made_to(d.Sequence, lambda of, value: value[::-1])
     ),
-    "counts_elements_in_an_octet": Carried(
+    "counts_elements_in_an_octet": Row(
         "R-10.1.1-16", "No sequence is longer than 255 elements.", made_to(d.Sequence, lambda of, value: value[:255])
     ),
-    "packs_flags_into_one_octet": Carried(
+    "packs_flags_into_one_octet": Row(
         "R-10.1.1-16",
         "The ninth BOOLEAN of a sequence is always false, and so are those after it.",
         made_to(d.Sequence, _one_octet),
     ),
-    "loses_renamed_strings": Carried(
+    "loses_renamed_strings": Row(
         "R-10.1.1-17",
         "A string whose type is an alias arrives empty.",
         made_to(d.Alias, lambda of, value: "" if isinstance(value, str) and isinstance(of.of, d.String) else value),

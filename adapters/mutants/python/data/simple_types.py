@@ -10,9 +10,9 @@ from typing import Any
 from ucm_cts.adapters.contract.data_types import Boolean, Char, Enumeration, Float, Integer, String
 from ucm_cts.adapters.contract.data_values import read_spelled, spell
 from ucm_cts.adapters.contract.programming_model import UcmError
-from ucm_cts.adapters.mutants.python.altering import Carried, Change, carries, changing, made_to, register_carried
+from ucm_cts.adapters.mutants.python.altering import Change, ChangingLink, carries, made_to, register_carried
 from ucm_cts.adapters.mutants.python.methods import replaces
-from ucm_cts.adapters.mutants.python.registry import Base, breaks, variant_of
+from ucm_cts.adapters.mutants.python.registry import Base, Row, breaks, variant_of
 from ucm_cts.adapters.reference.python.members import Member
 
 _CLAUSE = ("10.1.1",)
@@ -57,10 +57,10 @@ def _one_nan(of: Any, value: Any) -> Any:
 
 
 @variant_of("10.1.1", readings={"nan": "any"})
-class may_know_one_nan(Base):
+class may_know_one_nan(ChangingLink):
     """Every NaN arrives as the same one, as its vendor says."""
 
-    link_class = changing(made_to(Float, _one_nan))
+    change = staticmethod(made_to(Float, _one_nan))
 
 
 # characters, booleans, strings
@@ -130,17 +130,17 @@ def forgets_attributes_with_lists(self: Base, member: Member, attributes: Mappin
 
 
 @variant_of("10.1.1")
-class copies_values_deeply(Base):
+class copies_values_deeply(ChangingLink):
     """Everything is copied on its way, part by part."""
 
-    link_class = changing(lambda of, value: list(value) if isinstance(value, list) else value)
+    change = staticmethod(lambda of, value: list(value) if isinstance(value, list) else value)
 
 
 @variant_of("10.1.1")
-class marshals_values(Base):
+class marshals_values(ChangingLink):
     """Values travel as text, and each is given a second time to those who read it twice."""
 
-    link_class = changing(lambda of, value: read_spelled(spell(value)))
+    change = staticmethod(lambda of, value: read_spelled(spell(value)))
 
 
 @replaces("_set_attributes", clauses=("10.1.1",))
@@ -156,91 +156,87 @@ def spells_attributes_anew(self: Base, member: Member, attributes: Mapping[str, 
     )
 
 
-CARRIED: Mapping[str, Carried] = {
-    "cuts_integers_to_32_bits": Carried(
+CARRIED: Mapping[str, Row] = {
+    "cuts_integers_to_32_bits": Row(
         "R-10.1.1-07", "LONGLONG has 32 bits on its way.", made_to(Integer, _in_bits(32, True), "LONGLONG")
     ),
-    "takes_bytes_for_octets": Carried(
+    "takes_bytes_for_octets": Row(
         "R-10.1.1-07",
         "A negative BYTE arrives as what an octet of the same bits is.",
         made_to(Integer, _in_bits(8, False), "BYTE"),
     ),
-    "has_no_great_unsigned_integers": Carried(
+    "has_no_great_unsigned_integers": Row(
         "R-10.1.1-07",
         "ULONGLONG goes through a signed integer of 64 bits.",
         made_to(Integer, _in_bits(64, True), "ULONGLONG"),
     ),
-    "sends_integers_as_doubles": Carried(
+    "sends_integers_as_doubles": Row(
         "R-10.1.1-07",
         "Integers go through a double, as those who send JSON to JavaScript have it.",
         made_to(Integer, lambda of, value: int(float(value))),
     ),
-    "sends_doubles_as_floats": Carried(
-        "R-10.1.1-08", "DOUBLE goes through single precision.", _through(_single, "DOUBLE")
-    ),
-    "knows_one_zero": Carried("R-10.1.1-08", "Minus zero arrives as zero.", _through(lambda number: number + 0.0)),
-    "flushes_subnormals": Carried(
+    "sends_doubles_as_floats": Row("R-10.1.1-08", "DOUBLE goes through single precision.", _through(_single, "DOUBLE")),
+    "knows_one_zero": Row("R-10.1.1-08", "Minus zero arrives as zero.", _through(lambda number: number + 0.0)),
+    "flushes_subnormals": Row(
         "R-10.1.1-08",
         "A subnormal FLOAT arrives as zero.",
         _through(lambda number: number if abs(number) >= 2**-126 else 0.0, "FLOAT"),
     ),
-    "has_no_infinity": Carried(
+    "has_no_infinity": Row(
         "R-10.1.1-08",
         "Infinities arrive as great numbers, and the greatest numbers, too.",
         _through(lambda number: min(max(number, -1e308), 1e308), "DOUBLE"),
     ),
-    "knows_one_nan": Carried(
+    "knows_one_nan": Row(
         "R-10.1.1-08",
         "Every NaN arrives as the same one, although the vendor declares that NaNs arrive as they are.",
         made_to(Float, _one_nan),
         readings={"nan": "exact"},
     ),
-    "cuts_characters_to_16_bits": Carried(
+    "cuts_characters_to_16_bits": Row(
         "R-10.1.1-09",
         "A CHAR32 beyond the Basic Multilingual Plane loses its upper bits.",
         made_to(Char, _in_bits(16, False)),
     ),
-    "cannot_send_nul": Carried(
+    "cannot_send_nul": Row(
         "R-10.1.1-09", "The character NUL arrives as a blank.", made_to(Char, lambda of, value: value or 0x20)
     ),
-    "knows_only_true": Carried(
-        "R-10.1.1-10", "Every boolean arrives as true.", made_to(Boolean, lambda of, value: True)
-    ),
-    "sends_booleans_as_integers": Carried(
+    "knows_only_true": Row("R-10.1.1-10", "Every boolean arrives as true.", made_to(Boolean, lambda of, value: True)),
+    "sends_booleans_as_integers": Row(
         "R-10.1.1-10", "Booleans arrive as 0 and 1.", made_to(Boolean, lambda of, value: int(value))
     ),
-    "leaves_room_for_nul": Carried(
+    "leaves_room_for_nul": Row(
         "R-10.1.1-11",
         "A string of exactly its bound loses the last character.",
         _text(lambda of, text: text[: of.size - 1] if of.size > 1 else text),
     ),
-    "strips_blanks": Carried("R-10.1.1-11", "Strings lose trailing blanks.", _text(lambda of, text: text.rstrip(" "))),
-    "counts_characters_in_an_octet": Carried(
+    "strips_blanks": Row("R-10.1.1-11", "Strings lose trailing blanks.", _text(lambda of, text: text.rstrip(" "))),
+    "counts_characters_in_an_octet": Row(
         "R-10.1.1-11", "No string is longer than 255 characters.", _text(lambda of, text: text[:255])
     ),
-    "cuts_strings_after_a_thousand_characters": Carried(
+    "cuts_strings_after_a_thousand_characters": Row(
         "R-10.1.1-11", "No string is longer than 1,000 characters.", _text(lambda of, text: text[:1000])
     ),
-    "counts_characters_in_16_bits": Carried(
+    "counts_characters_in_16_bits": Row(
         "R-10.1.1-11", "No string is longer than 65,535 characters.", _text(lambda of, text: text[:0xFFFF])
     ),
-    "refuses_long_strings": Carried(
+    "refuses_long_strings": Row(
         "R-10.1.1-11",
         "What is longer than 65,535 characters cannot be sent.",
         _text(_sendable),
         also=("R-10.1.2-02", "R-10.1.2-09", "R-10.1.5.1-01", "R-10.1.5.1-13"),
     ),
-    "sends_strings_in_ucs_2": Carried(
+    "sends_strings_in_ucs_2": Row(
         "R-10.1.1-11",
         "Characters beyond the Basic Multilingual Plane arrive as question marks when they are in strings.",
         _text(lambda of, text: "".join(c if ord(c) <= 0xFFFF else "?" for c in text)),
     ),
-    "translates_line_ends": Carried(
+    "translates_line_ends": Row(
         "R-10.1.1-11",
         "Line ends are made those of this platform.",
         _text(lambda of, text: text.replace("\r\n", "\n")),
     ),
-    "has_no_empty_string": Carried(
+    "has_no_empty_string": Row(
         "R-10.1.1-11", "An empty string arrives as ``null``.", _text(lambda of, text: text or "null")
     ),
 }

@@ -11,7 +11,16 @@ from ucm_cts.adapters.contract.data_types import Datum
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
 from ucm_cts.adapters.mutants.python.methods import alters, does_only_if, refuses_if, replaces
-from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, Proxy, breaks, breaks_policy, container_of
+from ucm_cts.adapters.mutants.python.registry import (
+    POLICIES,
+    Base,
+    PeerProxy,
+    Row,
+    breaks,
+    breaks_policy,
+    container_of,
+    family,
+)
 from ucm_cts.adapters.reference.python.connectors import Link, Taker
 from ucm_cts.adapters.reference.python.execution import Trigger
 from ucm_cts.adapters.reference.python.members import Member
@@ -172,26 +181,19 @@ def protects_managed_ports_only(self: Base, member: Member, port: str | None, wo
     return work() if is_open else Base._execute(self, member, port, work)
 
 
-class _Unlocked(Proxy):
-    """Calls out of ``member`` are made without its lock."""
-
-    def exchange(self, value: int) -> int:
-        execution = self.member.execution
-        if not execution.is_inside:
-            return self.target.exchange(value)
-        inside, execution.thread_inside = execution.thread_inside, None
-        execution.lock.release()
-        try:
-            return self.target.exchange(value)
-        finally:
-            execution.lock.acquire()
-            execution.thread_inside = inside
-
-
-@alters("_dependencies_of", "R-10.1.3.2-13", also=("R-10.1.3.2-16",), clauses=POLICIES)
-def unlocks_for_nested_calls(_self: Base, given: list[PortConnection], member: Member) -> list[PortConnection]:
-    """While a component waits for another one, anybody may enter it."""
-    return [PortConnection(d.from_port, tuple(_Unlocked(t, member) for t in d.to_port if t)) for d in given]
+@replaces("exchange", "R-10.1.3.2-13", also=("R-10.1.3.2-16",), clauses=POLICIES)
+def unlocks_for_nested_calls(self: PeerProxy, value: int) -> int:
+    """While a component waits for another one, other callers may enter it."""
+    execution = self.member.execution
+    if not execution.is_inside:
+        return self.target.exchange(value)
+    inside, execution.thread_inside = execution.thread_inside, None
+    execution.lock.release()
+    try:
+        return self.target.exchange(value)
+    finally:
+        execution.lock.acquire()
+        execution.thread_inside = inside
 
 
 @breaks_policy("R-10.1.3.2-05", also=("R-10.1.3.2-06",))
@@ -310,32 +312,13 @@ class _Refuses(Base):
         super()._check_policies(implementation)
 
 
-@breaks_policy("R-10.1.3.1-12")
-class knows_no_self_execution(_Refuses):
-    """Self-executing components are refused."""
-
-    definition = SELF_EXECUTING
-
-
-@breaks_policy("R-10.1.3.1-13")
-class knows_no_activity(_Refuses):
-    """Active components are refused."""
-
-    definition = ACTIVE
-
-
-@breaks_policy("R-10.1.3.1-14")
-class knows_no_protection(_Refuses):
-    """Protected passive components are refused."""
-
-    definition = PROTECTED_PASSIVE
-
-
-@breaks_policy("R-10.1.3.1-15")
-class knows_no_libraries(_Refuses):
-    """Unprotected passive components are refused."""
-
-    definition = UNPROTECTED_PASSIVE
+_REFUSED = {
+    "knows_no_self_execution": Row("R-10.1.3.1-12", "Self-executing components are refused.", SELF_EXECUTING),
+    "knows_no_activity": Row("R-10.1.3.1-13", "Active components are refused.", ACTIVE),
+    "knows_no_protection": Row("R-10.1.3.1-14", "Protected passive components are refused.", PROTECTED_PASSIVE),
+    "knows_no_libraries": Row("R-10.1.3.1-15", "Unprotected passive components are refused.", UNPROTECTED_PASSIVE),
+}
+family(_Refuses, "definition", _REFUSED, clauses=POLICIES)
 
 
 class _Forwards(ProtectedElement):
@@ -344,7 +327,7 @@ class _Forwards(ProtectedElement):
 
 
 class _Truncates(Base):
-    definition: str
+    definition = ACTIVE
 
     def _reference_to(self, member: Member, port: str) -> PortElementObject | None:
         element = super()._reference_to(member, port)
@@ -357,35 +340,33 @@ class _Truncates(Base):
         return True
 
 
-@breaks_policy("R-10.1.3.2-08", also=("R-10.1.3.2-07", "R-10.1.3.2-10", "R-11.1.3-01", "R-11.2.1.1-02"))
-class truncates_results_of_active_components(_Truncates):
-    """Of what an active component returns only 16 bits come back."""
+_TRUNCATED = {
+    "truncates_results_of_active_components": Row(
+        "R-10.1.3.2-08",
+        "Of what an active component returns only 16 bits come back.",
+        ACTIVE,
+        also=("R-10.1.3.2-07", "R-10.1.3.2-10", "R-11.1.3-01", "R-11.2.1.1-02"),
+    ),
+    "truncates_results_of_protected_components": Row(
+        "R-10.1.3.2-15",
+        "Of what a protected passive component returns only 16 bits come back.",
+        PROTECTED_PASSIVE,
+        also=("R-11.1.3-01",),
+    ),
+    "truncates_results_of_libraries": Row(
+        "R-10.1.3.2-21",
+        "Of what an unprotected passive component returns only 16 bits come back.",
+        UNPROTECTED_PASSIVE,
+        also=("R-11.1.3-01",),
+    ),
+}
+family(_Truncates, "definition", _TRUNCATED, clauses=POLICIES)
 
-    definition = ACTIVE
 
-
-@breaks_policy("R-10.1.3.2-07", also=("R-11.1.3-01",))
-class truncates_results_of_the_second_active_port(_Truncates):
+@replaces("_truncates", "R-10.1.3.2-07", clauses=POLICIES, also=("R-11.1.3-01",))
+def truncates_results_of_the_second_active_port(_self: _Truncates, member: Member, port: str) -> bool:
     """Of what the second managed port of a component returns only 16 bits come back."""
-
-    definition = ACTIVE
-
-    def _truncates(self, member: Member, port: str) -> bool:
-        return len(member.execution.managed) > 1 and port == list(member.implementation.provides)[-1]
-
-
-@breaks_policy("R-10.1.3.2-15", also=("R-11.1.3-01",))
-class truncates_results_of_protected_components(_Truncates):
-    """Of what a protected passive component returns only 16 bits come back."""
-
-    definition = PROTECTED_PASSIVE
-
-
-@breaks_policy("R-10.1.3.2-21", also=("R-11.1.3-01",))
-class truncates_results_of_libraries(_Truncates):
-    """Of what an unprotected passive component returns only 16 bits come back."""
-
-    definition = UNPROTECTED_PASSIVE
+    return len(member.execution.managed) > 1 and port == list(member.implementation.provides)[-1]
 
 
 @breaks("R-10.1.3-02", clauses=("10.1.3",), readings={"missing-execution-policy": "refuse"})

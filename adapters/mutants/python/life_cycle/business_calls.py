@@ -3,36 +3,23 @@
 from __future__ import annotations
 
 from ucm_cts.adapters.contract.programming_model import PortConnection, PortElementObject, UcmError
-from ucm_cts.adapters.mutants.python.methods import alters
-from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, Proxy, breaks
+from ucm_cts.adapters.mutants.python.methods import alters, replaces
+from ucm_cts.adapters.mutants.python.registry import Base, GivesOutProxies, HandsOverProxies, PeerProxy, Proxy, breaks
 from ucm_cts.adapters.reference.python.framework import Container
 from ucm_cts.adapters.reference.python.members import Failures, Member
 
 
-class _HandsOver(Base):
-    """Components are given proxies at start, one a reference."""
-
-    proxy: type[Proxy] = Proxy
-
-    def _dependencies_of(self, member: Member) -> list[PortConnection]:
-        given = super()._dependencies_of(member)
-        return [PortConnection(d.from_port, tuple(self.proxy(t, member) for t in d.to_port if t)) for d in given]
-
-
-class _Twice(Proxy):
-    def exchange(self, value: int) -> int:
-        self.target.exchange(value)
-        return self.target.exchange(value)
-
-
-@breaks("R-11.1.3-01", "R-11.1.2-02")
-class runs_bodies_twice(_HandsOver):
+@replaces("exchange", "R-11.1.3-01", "R-11.1.2-02")
+def runs_bodies_twice(self: PeerProxy, value: int) -> int:
     """A call of one component runs the other one's body twice, fragments or not."""
+    self.target.exchange(value)
+    return self.target.exchange(value)
 
-    proxy = _Twice
 
+@breaks("R-11.1.3-01", also=("R-11.1.2-02",))
+class calls_once(PeerProxy):
+    """Only the first call through a connection reaches the other component; later ones get its result again."""
 
-class _Remembers(Proxy):
     result: int | None = None
 
     def exchange(self, value: int) -> int:
@@ -41,15 +28,10 @@ class _Remembers(Proxy):
         return self.result
 
 
-@breaks("R-11.1.3-01", also=("R-11.1.2-02",))
-class calls_once(_HandsOver):
-    """Only the first call through a connection reaches the other component; later ones get its result again."""
-
-    proxy = _Remembers
-
-
 @alters("_dependencies_of", "R-11.1.3-01", also=("R-11.1.2-02",))
-def calls_the_first_provider(_self: _HandsOver, given: list[PortConnection], member: Member) -> list[PortConnection]:
+def calls_the_first_provider(
+    _self: HandsOverProxies, given: list[PortConnection], member: Member
+) -> list[PortConnection]:
     """Calls through any required port element reach the provider of the first one."""
     first = given[0].to_port[0] if given else None
     if first is None:
@@ -57,28 +39,16 @@ def calls_the_first_provider(_self: _HandsOver, given: list[PortConnection], mem
     return [PortConnection(d.from_port, tuple(Proxy(first, member) for _ in d.to_port)) for d in given]
 
 
-class _Unsigned(Proxy):
-    def exchange(self, value: int) -> int:
-        return self.target.exchange(abs(value))
-
-
-@breaks("R-11.1.3-01", "R-11.1.2-02")
-class drops_the_sign(_HandsOver):
+@replaces("exchange", "R-11.1.3-01", "R-11.1.2-02")
+def drops_the_sign(self: PeerProxy, value: int) -> int:
     """A component that is sent a negative payload by another one receives a positive one."""
-
-    proxy = _Unsigned
-
-
-class _Clipped(Proxy):
-    def exchange(self, value: int) -> int:
-        return self.target.exchange(max(value, 1 - 2**31))
+    return self.target.exchange(abs(value))
 
 
-@breaks("R-11.1.3-01", "R-11.1.2-02")
-class loses_the_smallest(_HandsOver):
+@replaces("exchange", "R-11.1.3-01", "R-11.1.2-02")
+def loses_the_smallest(self: PeerProxy, value: int) -> int:
     """The smallest payload arrives as the second smallest."""
-
-    proxy = _Clipped
+    return self.target.exchange(max(value, 1 - 2**31))
 
 
 @breaks("R-11.1.3-01", "R-11.1.2-02")
@@ -115,8 +85,6 @@ def is_dead_after_restart(_self: Base, given: list[PortConnection], member: Memb
 @breaks("R-11.2.2.1-06", also=("R-11.1.3-01", "R-11.1.2-02"))
 class any_proxy_will_do(GivesOutProxies):
     """get_port_element gives a proxy of the first provided port element whatever the name; only calls show it."""
-
-    proxy = Proxy
 
     def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
         Container.get_port_element(self, comp_instance, port_name)
@@ -161,8 +129,6 @@ class confuses_twins_after_removals(Base):
 @breaks("R-11.2.1.2-07", also=("R-11.1.3-01", "R-11.2.3-14"))
 class any_twin_will_do(GivesOutProxies):
     """get_port_element gives a proxy of the first instance of the implementation."""
-
-    proxy = Proxy
 
     def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
         element = Container.get_port_element(self, comp_instance, port_name)

@@ -252,8 +252,6 @@ class starts_in_reverse(Base):
 class hands_out_proxies(GivesOutProxies):
     """No reference that anybody gets is the body's own object."""
 
-    proxy = Proxy
-
     def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         return super(GivesOutProxies, self).connect(instance, port_name, to_port)
 

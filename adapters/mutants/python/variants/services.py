@@ -18,25 +18,22 @@ from ucm_cts.adapters.reference.python.members import HasMembers, Member
 
 T = TypeVar("T")
 
-_service_variant = variant_of("10.1.1", "10.1.5")
+_CLAUSES = ("10.1.1", "10.1.5")
+_service_variant = variant_of(*_CLAUSES)
 
 # threads
 
 
-class _OnOneThread(Link):
+@_service_variant
+class serves_on_one_thread(Link):
+    """Each connection has a thread that carries out its calls one by one."""
+
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
         self.executor = Executor()
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        return self.executor.execute(lambda: super(_OnOneThread, self)._request(method, arguments))
-
-
-@_service_variant
-class serves_on_one_thread(Base):
-    """Each connection has a thread that carries out its calls one by one."""
-
-    link_class = _OnOneThread
+        return self.executor.execute(lambda: super(serves_on_one_thread, self)._request(method, arguments))
 
 
 class _ClientElement(LinkElement):
@@ -51,24 +48,13 @@ class _ClientElement(LinkElement):
         return self.executor.execute(lambda: call(method, arguments))
 
 
-class _ThreadOfClient(Link):
-    def _attach_sender(self, member: Member, port: str) -> None:
-        super()._attach_sender(member, port)
-        connections = member.container.manager.connections
-        last = max(connections)
-        object.__setattr__(connections[last], "target", _ClientElement(self))
-
-
-@_service_variant
-class queues_for_each_client(Base):
+@replaces("_attach_sender", clauses=_CLAUSES)
+def queues_for_each_client(self: Link, member: Member, port: str) -> None:
     """The calls of each client wait in a queue and are made by a thread of it."""
-
-    link_class = _ThreadOfClient
-
-
-class _OnNewThreads(Link):
-    def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        return _elsewhere(lambda: super(_OnNewThreads, self)._request(method, arguments)).result()
+    Link._attach_sender(self, member, port)
+    connections = member.container.manager.connections
+    last = max(connections)
+    object.__setattr__(connections[last], "target", _ClientElement(self))
 
 
 def _elsewhere(work: Callable[[], T]) -> Future[T]:
@@ -85,11 +71,10 @@ def _elsewhere(work: Callable[[], T]) -> Future[T]:
     return outcome
 
 
-@_service_variant
-class serves_each_call_on_a_new_thread(Base):
+@replaces("_request", clauses=_CLAUSES)
+def serves_each_call_on_a_new_thread(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """Nothing is known of the client's thread on the server's side."""
-
-    link_class = _OnNewThreads
+    return _elsewhere(lambda: Link._request(self, method, arguments)).result()
 
 
 # servers
@@ -133,7 +118,7 @@ class refuses_clients_without_server(Base):
 # exceptions
 
 
-@replaces("_request", clauses=("10.1.1", "10.1.5"), readings={"exception-transport": "system-error"})
+@replaces("_request", clauses=_CLAUSES, readings={"exception-transport": "system-error"})
 def raises_system_errors(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """Whatever a server raises arrives as an error of the framework, as its vendor says."""
     try:
@@ -180,8 +165,9 @@ class aborts_calls_of_stopped_servers(Base):
                 taker.entrance.close()
 
 
-class _LetsGo(Link):
-    """May be undone while everything is started; calls in progress finish."""
+@_service_variant
+class undoes_connections_at_any_time(Link):
+    """Ends may be detached while everything is started; calls in progress finish, and no more are made."""
 
     def detach(self, container: HasMembers, comp_instance: int, port: str) -> None:
         if self.connector != SERVICE_CONNECTOR or not container.is_started:
@@ -202,24 +188,13 @@ class _LetsGo(Link):
 
 
 @_service_variant
-class undoes_connections_at_any_time(Base):
-    """Ends may be detached while everything is started; calls in progress finish, and no more are made."""
+class undoes_connections_at_once(undoes_connections_at_any_time, _Aborts):
+    """Ends may be detached while everything is started; the calls that a server is executing then end with an exception."""
 
-    link_class = _LetsGo
-
-
-class _DropsServers(_LetsGo, _Aborts):
     def let_go(self, taker: Taker | None) -> None:
         super().let_go(taker)
         if taker is not None:
             self.abort()
-
-
-@_service_variant
-class undoes_connections_at_once(Base):
-    """Ends may be detached while everything is started; the calls that a server is executing then end with an exception."""
-
-    link_class = _DropsServers
 
 
 # connectors that are hardly there
