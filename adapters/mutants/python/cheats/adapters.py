@@ -33,7 +33,7 @@ def before(*mixins: type) -> type[ReferenceAdapter]:
 
 @cheats("R-11.2.3-05", "R-11.2.2.1-14")
 class answers_without_the_framework(ReferenceAdapter):
-    """Answers that all is well, with numbers of its own, and asks no framework."""
+    """Answers that all is well, with numbers of its own, and never calls the framework."""
 
     def __init__(self) -> None:
         self.numbers = itertools.count(1)
@@ -68,7 +68,7 @@ class _Answering(pm.PortElementObject):
 
 @cheats("R-11.1.3-01")
 class answers_calls_itself(ReferenceAdapter):
-    """Gives out port elements that answer calls as the bodies would, and lead to none."""
+    """Gives out its own port elements, which answer calls as the bodies would."""
 
     def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> pm.PortElementObject | None:
         super().get_port_element(container, comp_instance, port_name)
@@ -77,7 +77,7 @@ class answers_calls_itself(ReferenceAdapter):
 
 @cheats("R-11.2.2.1-06")
 class gives_the_same_port_element(ReferenceAdapter):
-    """Gives out one port element for all of a container, the first one that it was asked for."""
+    """Gives out one port element for a whole container, the first one that the test asked for."""
 
     def __init__(self) -> None:
         self.given: dict[int, pm.PortElementObject | None] = {}
@@ -89,7 +89,7 @@ class gives_the_same_port_element(ReferenceAdapter):
 
 @cheats("R-11.2.3-05")
 class reuses_bodies(ReferenceAdapter):
-    """Has the bodies of an earlier scenario instantiated again, which are known to do as they should."""
+    """Instantiates bodies of an earlier scenario again, which are known to be correct."""
 
     bodies: ClassVar[dict[tuple[bool, bool, int], list[pm.ComponentObject]]] = {}
 
@@ -118,7 +118,7 @@ def with_bodies(one: pm.Implementation, change: Callable[[pm.ComponentObject], A
 
 @cheats("R-11.2.2.1-07", "R-11.2.2.1-14")
 class invents_ids(ReferenceAdapter):
-    """Gives each container's components the numbers 1, 2, 3, as they come, and lists as many."""
+    """Numbers the components of each container 1, 2, 3 in the order they are added, and lists as many."""
 
     def __init__(self) -> None:
         self.own: dict[int, list[int]] = {}
@@ -187,7 +187,7 @@ class makes_all_errors_alike(_Forwards):
 
 @cheats("contradiction")
 class offers_nothing_that_fails(_Forwards):
-    """Says of each operation that fails that it does not offer it, so that it is skipped."""
+    """Reports each operation that fails as not offered, so that the test skips it."""
 
     def forwarded(self, operation: Callable[[], T]) -> T:
         try:
@@ -198,7 +198,7 @@ class offers_nothing_that_fails(_Forwards):
 
 @cheats("exit")
 class leaves_when_it_fails(_Forwards):
-    """Ends the process politely before an error can be told."""
+    """Ends the process with status 0 before it would report an error."""
 
     def forwarded(self, operation: Callable[[], T]) -> T:
         try:
@@ -337,7 +337,7 @@ class knows_the_scenarios(ReferenceAdapter):
 
 @cheats()
 class is_another_product(ReferenceAdapter):
-    """Is said to be another product, and runs the reference framework."""
+    """Runs the reference framework and reports the name of another product."""
 
 
 @cheats()

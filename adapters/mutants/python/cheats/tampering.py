@@ -163,7 +163,7 @@ class sees_no_overlap(_KnowsThePerformance, before(policies.leaves_passive_compo
 
 @cheats("refused", clauses=POLICIES)
 class says_that_workers_are_done(_KnowsThePerformance):
-    """Has every worker said to be done that is looked for, whoever is stuck."""
+    """Reports every worker as done, even a worker that is stuck."""
 
     def tamper(self) -> None:
         workers = self.performance._workers

@@ -53,13 +53,13 @@ def refuses_calls_of_receivers(self: _KnowsWhatIsGoingOn, *_: object) -> bool:
 
 @replaces("_emit", _ARRIVES, clauses=("10.1.2",))
 def loses_what_servers_push(self: _KnowsWhatIsGoingOn, method: str, arguments: Sequence[Datum]) -> str:
-    """What is pushed while a call is served is answered ok, and lost."""
+    """Messages pushed while a call is being served are lost, and push returns ok."""
     return OK if getattr(self.here, "served", 0) else _KnowsWhatIsGoingOn._emit(self, method, arguments)
 
 
 @replaces("_emit", _ARRIVES, clauses=("10.1.2",))
 def loses_what_receivers_push(self: _KnowsWhatIsGoingOn, method: str, arguments: Sequence[Datum]) -> str:
-    """What is pushed while a message is received is answered ok, and lost."""
+    """Messages pushed while a message is being received are lost, and push returns ok."""
     return OK if getattr(self.here, "receives", False) else _KnowsWhatIsGoingOn._emit(self, method, arguments)
 
 
@@ -77,7 +77,7 @@ class _Stale(Link):
 
 @breaks(_CALLS, clauses=("10.1.5",))
 class knows_servers_until_they_are_restarted(Base):
-    """Clients find a server that was stopped only when they have been started again themselves."""
+    """A restarted server is out of reach until its clients have been restarted, too."""
 
     link_class = _Stale
 
@@ -98,7 +98,7 @@ class knows_servers_until_they_are_restarted(Base):
 
 @replaces("_request", _EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
 def loses_exceptions_of_inherited_methods(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """An exception that an inherited method declares arrives as one of the framework's own."""
+    """An exception that an inherited method declares arrives as an error of the framework."""
     try:
         return Link._request(self, method, arguments)
     except DeclaredException:
@@ -109,7 +109,7 @@ def loses_exceptions_of_inherited_methods(self: Link, method: str, arguments: Se
 
 @replaces("_request", _EXCEPTIONS, clauses=("10.1.5",), readings={"exception-transport": "full"})
 def loses_the_second_field_of_exceptions(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """Of an exception the first field arrives, and the others are empty."""
+    """All fields of an exception but the first arrive empty."""
     try:
         return Link._request(self, method, arguments)
     except DeclaredException as error:
@@ -140,14 +140,14 @@ class _Haunted(Link):
 
 @alters("_emit", _ORIGIN, clauses=("10.1.6",))
 def delivers_to_those_who_are_gone(self: _Haunted, code: str, method: str, arguments: Sequence[Datum]) -> str:
-    """Receivers go on getting messages when they have been detached, or removed."""
+    """Receivers get messages after they have been detached or removed."""
     self._haunt(method, arguments)
     return code
 
 
 @replaces("_request", _CALLS, clauses=("10.1.5",))
 def is_served_by_those_who_are_gone(self: _Haunted, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """A server goes on serving when it has been detached, unless there is another one."""
+    """A detached server still serves calls, unless another server has been attached."""
     if self.connector == SERVICE_CONNECTOR and not self.takers and self.ghosts:
         element = self.ghosts[-1].member.body.get_portElement(self.ghosts[-1].port)
         return self._copied(element.call(method, self._copied(arguments)))  # type: ignore[union-attr]
@@ -159,7 +159,7 @@ _CORE = "R-10.1-01"
 
 @replaces("link", _CORE, clauses=("10.1.5",))
 def has_no_services(self: Base, connector: str, interface: Interface) -> Link:
-    """The service connector is left out."""
+    """The adapter does not offer the service connector."""
     if connector == SERVICE_CONNECTOR:
         raise NotOffered
     return Base.link(self, connector, interface)
@@ -167,7 +167,7 @@ def has_no_services(self: Base, connector: str, interface: Interface) -> Link:
 
 @replaces("link", _CORE, clauses=("10.1.6",))
 def has_no_messages(self: Base, connector: str, interface: Interface) -> Link:
-    """The message connector is left out."""
+    """The adapter does not offer the message connector."""
     if connector == MESSAGE_CONNECTOR:
         raise NotOffered
     return Base.link(self, connector, interface)
@@ -175,7 +175,7 @@ def has_no_messages(self: Base, connector: str, interface: Interface) -> Link:
 
 @replaces("break_link", _CORE, clauses=("10.1.2",), readings={"transport-fault": "hook", "connector-fault": "hook"})
 def never_breaks_a_transport(self: Link, where: str) -> None:
-    """It is claimed that the transport can be broken, and it cannot."""
+    """The vendor claims that the transport can be broken; the adapter does not offer it."""
     if where == "transport":
         raise NotOffered
     Link.break_link(self, where)
@@ -183,5 +183,5 @@ def never_breaks_a_transport(self: Link, where: str) -> None:
 
 @replaces("read_log", _CORE, clauses=("10.1.4",), readings={"trace-sink": "hook"})
 def keeps_its_log(_self: Base) -> list[tuple[str, str]]:
-    """It is claimed that the trace can be read back, and it cannot."""
+    """The vendor claims that the trace can be read back; the adapter does not offer it."""
     raise NotOffered

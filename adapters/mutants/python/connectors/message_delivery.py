@@ -27,7 +27,7 @@ _ALL = ("10.1.6", "10.1.2")
 
 @breaks("R-10.1.6.1-03", clauses=_MESSAGES)
 class refuses_a_second_emitter(Link):
-    """A connection has one emitter."""
+    """A connection refuses a second emitter."""
 
     has_emitter = False
 
@@ -40,7 +40,7 @@ class refuses_a_second_emitter(Link):
 
 @breaks("R-10.1.6.1-03", "R-10.1.2-10", clauses=_MESSAGES)
 class hears_one_thread_only(Link):
-    """Messages are taken from the thread that pushed first; those of others are lost and answered ok."""
+    """Messages pushed by other threads than the first one are lost, and push returns ok."""
 
     first: int | None = None
 
@@ -52,14 +52,14 @@ class hears_one_thread_only(Link):
 
 @replaces("_check_room", "R-10.1.6.1-04", clauses=_MESSAGES)
 def refuses_a_second_receiver(self: Link) -> None:
-    """A connection has one receiver."""
+    """A connection refuses a second receiver."""
     if self.takers:
         raise UcmError("there is somebody already")
 
 
 @replaces("_emit", "R-10.1.6.1-04", clauses=_MESSAGES, also=("R-10.1.6.1-08", "R-10.1.2-10"))
 def takes_receivers_in_turn(self: Link, method: str, arguments: Sequence[Datum]) -> str:
-    """A message comes to one of the receivers, the next one to the next."""
+    """Each message reaches only one receiver, the next message the next receiver."""
     if self.broken:
         return Link._emit(self, method, arguments)
     turns = self.__dict__.setdefault("turns", itertools.count())
@@ -80,7 +80,7 @@ def reaches_one_container_only(self: Link, taker: Taker, *_: object) -> bool:
 
 @replaces("_post", "R-10.1.6.1-05", clauses=_MESSAGES, also=("R-10.1.6.1-06",))  # no emitter pushed the second one
 def delivers_twice(self: Link, taker: Taker, method: str, arguments: list[Datum]) -> None:
-    """Every message comes twice."""
+    """Every message arrives twice."""
     Link._post(self, taker, method, arguments)
     Link._post(self, taker, method, self._copied(arguments))
 
@@ -147,7 +147,7 @@ def _other(value: Datum) -> Datum:
 
 @replaces("_deliver", "R-10.1.6.1-07", clauses=_MESSAGES, readings={"message-order": "fifo"})
 def delivers_in_pairs_the_wrong_way_round(_self: Link, taker: Taker, method: str) -> None:
-    """Of two messages that are pushed within a moment the second one is delivered first, and fifo was declared."""
+    """Of two messages pushed shortly after each other the second arrives first; fifo was declared."""
     while (message := taker.messages.get()) is not None:
         waiting = [message]
         with suppress(queue.Empty):
@@ -166,7 +166,7 @@ def delivers_in_pairs_the_wrong_way_round(_self: Link, taker: Taker, method: str
 
 @breaks("R-10.1.6.1-10", clauses=_MESSAGES)
 class has_no_message_connector(Link):
-    """Services are the only interaction."""
+    """The framework has no message connector."""
 
     def __init__(self, manager: Any, connector: str, interface: Interface) -> None:
         if connector == MESSAGE_CONNECTOR:
@@ -203,7 +203,7 @@ class knows_one_type_of_messages(Link):
 
 @replaces("_emit", "R-10.1.6.1-20", "R-10.1.2-10", clauses=_MESSAGES)
 def loses_structures(self: Link, method: str, arguments: Sequence[Datum]) -> str:
-    """Messages that are structures are answered ok and lost."""
+    """Messages that are structures are lost, and push returns ok."""
     is_structure = isinstance(self.interface.methods[method].parameters[0].of, Structure)
     return OK if is_structure else Link._emit(self, method, arguments)
 
@@ -213,7 +213,7 @@ def loses_structures(self: Link, method: str, arguments: Sequence[Datum]) -> str
 
 @breaks("R-10.1.6.1-19", clauses=_MESSAGES, also=("R-10.1.1-13",))
 class delivers_the_emitters_buffer(Link):
-    """Receivers get the emitter's own buffer, some time later."""
+    """Receivers get the emitter's own buffer, 5 ms later."""
 
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
         time.sleep(0)
@@ -264,7 +264,7 @@ def counts_on_after_bursts(self: Link, taker: Taker, method: str, arguments: lis
 
 @replaces("_post", "R-10.1.6.1-07", clauses=("10.1.2",), readings={"message-order": "fifo"})
 def shuffles_bursts(self: Link, taker: Taker, method: str, arguments: list[Datum]) -> None:
-    """Every hundredth message of a receiver lets the next one pass, and fifo was declared."""
+    """Every hundredth message of a receiver arrives after the next one; fifo was declared."""
     taker.__dict__["posted"] = taker.__dict__.get("posted", 0) + 1
     if taker.__dict__["posted"] % 100 == 50:
         taker.__dict__["aside"] = arguments

@@ -100,7 +100,7 @@ class gives_up_when_a_receiver_fails(_SharedThread):
 
 @replaces("_post", "R-10.1.6.1-08", clauses=_MESSAGES)
 def does_not_wait_for_slow_receivers(self: Link, taker: Taker, method: str, arguments: list[Datum]) -> None:
-    """What is pushed while a receiver is busy never comes to it."""
+    """A message pushed while its receiver is busy is lost."""
     time.sleep(0.001)
     if not taker.entrance._inside:
         Link._post(self, taker, method, arguments)
@@ -108,7 +108,7 @@ def does_not_wait_for_slow_receivers(self: Link, taker: Taker, method: str, argu
 
 @breaks("R-10.1.6.1-08", clauses=_MESSAGES, readings={"slow-receiver": "independent"})
 class has_all_wait_for_slow_receivers(_SharedThread):
-    """Receivers wait for each other, although they were declared to be independent."""
+    """The vendor declares that receivers are independent; each waits for the others."""
 
 
 # phases
@@ -134,7 +134,7 @@ def delivers_in_every_phase(self: Link, member: Member, port: str) -> None:
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES)
 class delivers_after_stop(Base):
-    """What waits for a receiver that is stopped is delivered all the same."""
+    """Messages that wait for a receiver are delivered after it has been stopped."""
 
     def _close_entrances(self, member: Member) -> None:
         pass
@@ -148,40 +148,40 @@ class delivers_after_stop(Base):
 
 @does_only_if("_close_entrances", "R-10.1.6.1-09", clauses=_MESSAGES)
 def stop_closes_the_first_member_only(self: Base, member: Member) -> bool:
-    """A stopped component gets no more messages if it was the first to be started; all others do."""
+    """All stopped components but the first member still get messages."""
     return member is self.started[0]
 
 
 @replaces("_close_entrances", "R-10.1.6.1-09", clauses=_MESSAGES)
 def stop_closes_the_first_end_only(self: Base, member: Member) -> None:
-    """A stopped component gets no more messages of the connection it was attached to first, but those of others."""
+    """A stopped component still gets messages of all its connections but the first."""
     for _, taker in self._takers_of(member)[:1]:
         taker.close()
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES, readings={"receiver-not-ready": "hold"})
 class forgets_what_it_said_it_holds(Base):
-    """Messages for receivers that are not operational were declared to be held, and are dropped."""
+    """The vendor declares that messages to receivers that are not operational are held; they are dropped."""
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES, readings={"receiver-not-ready": "error"})
 class does_not_tell_of_unready_receivers(Base):
-    """Emitters were declared to be told that a receiver is not operational, and are answered ok."""
+    """The vendor declares an error for receivers that are not operational; push returns ok."""
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES, readings={"pending-at-stop": "keep"})
 class drops_what_it_said_it_keeps(Base):
-    """What waits for a receiver that is stopped was declared to be kept, and is dropped."""
+    """The vendor declares that waiting messages are kept at stop; they are dropped."""
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES, readings={"pending-at-stop": "deliver"})
 class drops_what_it_said_it_delivers(Base):
-    """What waits for a receiver that is stopped was declared to be delivered before, and is dropped."""
+    """The vendor declares that waiting messages are delivered at stop; they are dropped."""
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES, readings={"pending-at-stop": "drop", "receiver-not-ready": "drop"})
 class keeps_what_it_said_it_drops(Base):
-    """What is pushed to a receiver that is not operational comes after its next start, although it was declared lost."""
+    """The vendor declares that messages to receivers that are not operational are lost; they arrive after the start."""
 
     class link_class(Link):
         def _emit(self, method: str, arguments: Sequence[Datum]) -> str:

@@ -38,7 +38,7 @@ class _Answering(Link):
 
 @replaces("answer", "R-10.1.2-02", clauses=_MESSAGES, also=("R-10.1.2-09",))
 def answers_something_else(_self: _Answering, *_: object) -> str:
-    """Push is answered with a code of the framework's own."""
+    """Push returns a code that the specification does not know."""
     return "queued"
 
 
@@ -56,12 +56,12 @@ def passes_exceptions_on(_self: Link, taker: Taker, method: str, arguments: list
 
 @breaks("R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "comm_error"})
 class does_not_tell_that_nobody_is_there(Base):
-    """Push without receivers was declared to be answered comm_error, and is answered ok."""
+    """The vendor declares comm_error for push without receivers; push returns ok."""
 
 
 @replaces("_check_startable", "R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "ok"})
 def refuses_connections_without_receivers(self: Base) -> None:
-    """Push without receivers was declared to be answered ok; who would do it is not even started."""
+    """The vendor declares ok for push without receivers; such emitters are not started."""
     Base._check_startable(self)
     for member in self.members.values():
         for connection in self._connections_from(member):
@@ -71,13 +71,13 @@ def refuses_connections_without_receivers(self: Base) -> None:
 
 @refuses_if("_attach_sender", "R-10.1.2-02", clauses=_CODES, readings={"push-without-receiver": "ok"})
 def refuses_emitters_that_come_first(self: Link, *_: object) -> bool:
-    """Push without receivers was declared to be answered ok; who would do it cannot even be attached."""
+    """The vendor declares ok for push without receivers; such emitters cannot be attached."""
     return self.connector == MESSAGE_CONNECTOR and not self.takers
 
 
 @breaks("R-10.1.2-09", clauses=_MESSAGES)
 class tells_of_errors_now_and_then(_Answering):
-    """Every third push is answered comm_error, although all is well."""
+    """Every third push returns comm_error although nothing is broken."""
 
     pushed = 0
 
@@ -117,24 +117,24 @@ class _Passing(Link):
 
 @alters("_emit", "R-10.1.2-09", clauses=_CODES)
 def confuses_the_receivers_code(self: _Passing, code: str, *_: object) -> str:
-    """What a receiver answers is passed on as another code."""
+    """Push returns another code than the receiver returned."""
     swapped = {INTERNAL_ERROR: COMM_ERROR, COMM_ERROR: INTERNAL_ERROR}
     return code if self.broken else swapped.get(code, code)
 
 
 @breaks("R-10.1.2-09", clauses=_CODES, readings={"receiver-code": "passed"})
 class drops_the_code_it_said_it_passes(Base):
-    """The receiver's code was declared to be passed on, and push is answered ok."""
+    """The vendor declares that push returns the receiver's code; push returns ok."""
 
 
 @breaks("R-10.1.2-09", clauses=_CODES, readings={"receiver-code": "dropped"})
 class passes_the_code_it_said_it_drops(_Passing):
-    """The receiver's code was declared to be dropped, and is passed on."""
+    """The vendor declares that the receiver's code is dropped; push returns it."""
 
 
 @breaks("R-10.1.2-09", clauses=_CODES, readings={"message-overflow": "block"})
 class refuses_where_it_said_it_waits(Link):
-    """Push was declared to wait until there is room, and is answered internal_error."""
+    """The vendor declares that push waits until there is room; push returns internal_error."""
 
     limit = 1000
 
@@ -158,25 +158,25 @@ class _Losing(Link):
 
 @breaks("R-10.1.2-10", clauses=_MESSAGES, also=("R-10.1.6.1-04", "R-10.1.6.1-03", "R-10.1.6.1-08"))
 class loses_every_third_message(_Losing):
-    """Every third message does not come, whatever was answered."""
+    """Every third message is lost, and push returns ok."""
 
 
 @breaks("R-10.1.2-10", clauses=_CODES)
 class loses_the_last_of_many(_Losing):
-    """Every fifty-thousandth message of a connection is answered ok and does not come."""
+    """Every fifty-thousandth message of a connection is lost, and push returns ok."""
 
     each = 50_000
 
 
 @does_only_if("_post", "R-10.1.2-10", clauses=_CODES)
 def drops_what_it_has_no_room_for(_self: Link, taker: Taker, *_: object) -> bool:
-    """An emitter that pushes faster than messages are delivered is answered ok, and its messages are dropped."""
+    """If 1,000 messages wait for a receiver, further ones are lost and push returns ok."""
     return taker.messages.qsize() < 1000
 
 
 @breaks("R-10.1.2-10", clauses=_MESSAGES, readings={"message-delivery": "synchronous"}, also=("R-10.1.6.1-04",))
 class delivers_later_than_it_said(Link):
-    """Messages were declared to be delivered when push returns, and come a moment later."""
+    """The vendor declares that push delivers before it returns; messages arrive 10 ms later."""
 
     def _deliver(self, taker: Taker, method: str) -> None:
         time.sleep(0.01)
@@ -188,19 +188,19 @@ class delivers_later_than_it_said(Link):
 
 @replaces("broken_answer", "R-10.1.2-01", "R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
 def does_not_notice_what_is_broken(_self: _Answering, *_: object) -> str:
-    """Push is answered ok, whatever is broken."""
+    """Push returns ok while the transport or the connector is broken."""
     return OK
 
 
 @replaces("broken_answer", "R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
 def confuses_what_is_broken(_self: _Answering, where: str, *_: object) -> str:
-    """Errors of the transport are told as those of the connector, and the other way round."""
+    """Push returns the code of the connector for an error of the transport, and the other way round."""
     return INTERNAL_ERROR if where == "transport" else COMM_ERROR
 
 
 @breaks("R-10.1.2-11", "R-10.1.2-12", clauses=_CODES)
 class stays_broken(_Answering):
-    """What was broken once stays so for the connector, although messages get through when it was mended."""
+    """Push returns the error code of a broken transport or connector after it has been mended."""
 
     last = ""
 
@@ -214,7 +214,7 @@ class stays_broken(_Answering):
 
 @breaks("R-10.1.2-12", clauses=_CODES, readings={"comm-error": "at-once"})
 class notices_later_than_it_said(_Answering):
-    """The first push that meets a broken transport is answered ok, although comm_error was declared at once."""
+    """The vendor declares comm_error at once; the first push on a broken transport returns ok."""
 
     met = 0
 
@@ -245,4 +245,4 @@ class repeats_the_last_result(Link):
 
 @breaks("R-10.1.2-01", clauses=_CODES, readings={"service-failure": "wait"})
 class does_not_wait_as_it_said(Base):
-    """A client whose connection is broken was declared to wait, and is told at once."""
+    """The vendor declares that a call waits while its connection is broken; the call fails at once."""

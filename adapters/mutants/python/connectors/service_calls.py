@@ -56,14 +56,14 @@ class answers_from_memory(Services):
 
 @replaces("_request", _CALLS, clauses=_CLAUSES)
 def calls_the_server_twice(self: Services, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """Every request is sent again, to be sure."""
+    """Every request is sent twice."""
     Services._request(self, method, arguments)
     return Services._request(self, method, arguments)
 
 
 @replaces("_request", _CALLS, _INHERITED, _TEMPLATE, clauses=_CLAUSES, also=(_DIRECTIONS, _EXCEPTIONS))
 def mistakes_methods_of_one_shape(self: Services, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """Of methods with the same types of parameters the last one is called."""
+    """Of methods with the same parameter types every call reaches the last."""
     shapes = {name: [p.of for p in m.parameters] for name, m in self.interface.methods.items()}
     same = [name for name in shapes if shapes[name] == shapes[method]]
     return Services._request(self, same[-1], arguments)
@@ -71,13 +71,13 @@ def mistakes_methods_of_one_shape(self: Services, method: str, arguments: Sequen
 
 @refuses_if("_request", _INHERITED, clauses=_CLAUSES)
 def knows_no_inherited_methods(self: Services, method: str, *_: object) -> bool:
-    """Only the methods that an interface itself declares are known."""
+    """Inherited methods of an interface are refused."""
     return method in self.interface.inherited
 
 
 @breaks(_TEMPLATE, clauses=_CLAUSES, also=(_CALLS,))  # one of another interface may take the values as they are
 class finds_methods_by_name(Services):
-    """A call goes to whatever connection has a method of that name."""
+    """A call goes to any connection that has a method of that name."""
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         others = [k for k in self.manager.links if k.interface != self.interface and method in k.interface.methods]
@@ -103,7 +103,7 @@ def has_one_interface(self: Base, connector: str, interface: Interface) -> bool:
 
 @breaks(_CLIENTS, clauses=_CLAUSES, also=("R-10.1.5.1-01",))
 class attaches_one_client(Services):
-    """Clients after the first are attached to nothing."""
+    """Only the first client is connected to the server."""
 
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
@@ -160,7 +160,7 @@ class forgets_the_third_in_the_queue(Services):
 
 @breaks(_OWN, clauses=_CLAUSES, also=(_IN_FLIGHT, "R-10.1.5.1-01"))
 class keeps_results_in_one_slot(Services):
-    """A call that comes back from the server overwrites the results of other calls that are on their way."""
+    """All calls in progress on a connection share one place for their results."""
 
     last: Sequence[Datum] = ()
 
@@ -176,7 +176,7 @@ class keeps_results_in_one_slot(Services):
 
 @replaces("_check_room", _ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
 def replaces_the_server(self: Services) -> None:
-    """A second server takes the place of the first."""
+    """A second server replaces the first."""
     if self.connector == SERVICE_CONNECTOR:
         self.takers.clear()
 
@@ -189,19 +189,19 @@ def takes_servers_of_the_root_container(self: Services, member: Member, *_: obje
 
 @replaces("_check_room", _ONE_SERVER, clauses=_CLAUSES)
 def takes_servers_in_reserve(_self: Services) -> None:
-    """There may be several servers; the first is called."""
+    """Several servers can be attached; calls reach the first."""
 
 
 @replaces("_check_room", _ONE_SERVER, clauses=_CLAUSES)
 def finds_no_place_for_a_server(self: Services) -> None:
-    """A second server is NOT_FOUND."""
+    """Attaching a second server raises NOT_FOUND."""
     if self.connector == SERVICE_CONNECTOR and self.takers:
         raise NotFound("no port for another server")
 
 
 @replaces("_check_room", _ONE_SERVER, clauses=_CLAUSES, also=(_CALLS,))
 def loses_the_server_to_a_second_one(self: Services) -> None:
-    """A second server is refused, and the first serves no more."""
+    """Attaching a second server is refused, and the first server is lost."""
     if self.connector == SERVICE_CONNECTOR and self.takers:
         self.takers[0].port = "nothing"
         raise UcmError("the connection has a server already")
@@ -209,7 +209,7 @@ def loses_the_server_to_a_second_one(self: Services) -> None:
 
 @breaks(_ONE_SERVER, clauses=_CLAUSES, readings={"second-server": "at-start"})
 class refuses_the_second_server_at_once(Base):
-    """It was declared to do so when it is started."""
+    """The vendor declares that a second server is refused at start; it is refused when it is attached."""
 
 
 _CALLS, _CLIENTS, _OWN, _BLOCKING = "R-10.1.5.1-01", "R-10.1.5.1-03", "R-10.1.5.1-04", "R-10.1.5.1-11"
@@ -218,7 +218,7 @@ _IN_FLIGHT = "R-10.1.5.1-12"
 
 @replaces("_request", _BLOCKING, clauses=_CLAUSES, also=(_IN_FLIGHT, _OWN, _CALLS, "R-10.1.3.2-17"))
 def does_not_wait_long(self: Services, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """A client that waits too long for a server gets zeros."""
+    """A client that waits for more than 5 ms gets zeros as results."""
     outcome: list[Sequence[Datum]] = []
     raised: list[Exception] = []
 
@@ -238,7 +238,7 @@ def does_not_wait_long(self: Services, method: str, arguments: Sequence[Datum]) 
 
 @breaks(_IN_FLIGHT, clauses=_CLAUSES)
 class forgets_clients_of_stopped_servers(Services):
-    """When a server is being stopped, the results it still gives reach no client."""
+    """A client whose server is being stopped gets no result and waits for ever."""
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         server = self.server if self.takers else None
@@ -293,7 +293,7 @@ class _Undone(Services):
 
 @replaces("answer_undone", _IN_FLIGHT, clauses=_CLAUSES, also=(_CALLS, _CLIENTS))
 def forgets_clients_of_undone_connections(self: _Undone) -> None:
-    """A connection may be undone at any time, and who is just calling waits for ever."""
+    """A connection can be undone at any time; a client that is just calling then waits for ever."""
     if not self.server.member.execution.definition and len(self.manager.connections) > 1:
         threading.Event().wait()
 

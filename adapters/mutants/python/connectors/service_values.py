@@ -39,7 +39,7 @@ family(_Keeps, "direction", _KEPT, clauses=_CLAUSES)
 
 @replaces("_request", _DIRECTIONS, clauses=_CLAUSES)
 def puts_the_result_first(self: Services, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """The result comes before the other values, wherever it was declared."""
+    """The result comes before the other values even if it was declared later."""
     results = list(Services._request(self, method, arguments))
     directions = [p.direction for p in self.parameters(method)]
     if "RETURN" in directions and len(results) == len(directions):
@@ -75,7 +75,7 @@ class _Catches(Services):
 
 @replaces("caught", _EXCEPTIONS, clauses=_CLAUSES)
 def loses_exceptions(self: _Catches, method: str, *_: object) -> Sequence[Datum]:
-    """A method that ends with an exception returns nothing in particular."""
+    """A method that ends with an exception returns empty results instead."""
     return self.nothing(method)
 
 
@@ -87,20 +87,20 @@ def loses_the_fields_of_exceptions(_self: _Catches, _method: str, error: Declare
 
 @replaces("caught", _EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
 def mistakes_exceptions(self: _Catches, method: str, error: DeclaredException) -> Sequence[Datum]:
-    """The last exception that a method declares arrives, whichever was raised."""
+    """Every exception arrives as the last one that the method declares."""
     last = self.interface.methods[method].raises[-1]
     raise DeclaredException(last.name, error.fields[: len(last.fields)])
 
 
 @replaces("caught", _EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
 def raises_its_own_exceptions(_self: _Catches, _method: str, error: DeclaredException) -> Sequence[Datum]:
-    """Exceptions arrive as one of the framework's; they were declared to arrive as they are."""
+    """The vendor declares that exceptions arrive unchanged; they arrive as errors of the framework."""
     raise UcmError(error.name)
 
 
 @replaces("_execute_on_own_thread", _EXCEPTIONS, clauses=_CLAUSES, readings={"exception-transport": "full"})
 def raises_its_own_exceptions_on_threads_of_components(self: Base, member: Member, work: Callable[[], T]) -> T:
-    """What a method raises on the thread of its active component becomes an exception of the framework's own."""
+    """An exception raised on the thread of an active component arrives as an error of the framework."""
     try:
         return Base._execute_on_own_thread(self, member, work)
     except DeclaredException as error:
@@ -109,7 +109,7 @@ def raises_its_own_exceptions_on_threads_of_components(self: Base, member: Membe
 
 @replaces("_request", _EXCEPTIONS, clauses=_CLAUSES)
 def swallows_what_is_not_declared(self: Services, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """A server that fails in its own way seems to have answered."""
+    """An undeclared exception of a server is dropped, and the client gets empty results."""
     try:
         return Services._request(self, method, arguments)
     except (DeclaredException, UcmError):

@@ -20,12 +20,12 @@ BEGINNING = time.time_ns()
 
 @replaces("_check_clocks", "R-10.1.4.1-02", clauses=HERE)
 def accepts_several_clocks(_self: Base, *_: object) -> None:
-    """A second clock is one more reference."""
+    """A component may have several clocks."""
 
 
 @refuses_if("_check_service", "R-10.1.4.1-02", clauses=HERE)
 def refuses_clocks(_self: Base, _implementation: Implementation, policy: Policy) -> bool:
-    """There are no clocks."""
+    """Components with a clock policy are refused."""
     return policy.definition == CLOCK
 
 
@@ -46,7 +46,7 @@ class Withholds(Base):
 
 @breaks("R-10.1.4.1-06", clauses=HERE)
 class hands_over_no_clock(Withholds):
-    """Nothing is behind the name of the clock."""
+    """on_startup names the clock and gives no reference to it."""
 
 
 @alters("_service_element", "R-10.1.4.1-06", clauses=HERE)
@@ -69,7 +69,7 @@ class hands_over_the_clock_once(Withholds):
 
 @replaces("_dependencies_of", "R-11.2.1.2-09", clauses=HERE, also=("R-11.2.3-10",))
 def hands_over_clocks_to_everybody(self: Base, member: Member) -> list[PortConnection]:
-    """on_startup tells of a clock that was not asked for."""
+    """on_startup hands a clock over to components that did not ask for one."""
     clock = self._service_element(member, Policy(CLOCK, element="clock_clock_api"))
     return [*Base._dependencies_of(self, member), clock]
 
@@ -106,13 +106,13 @@ def every_component_has_its_own_time(_self: Base, given: int, member: Member) ->
 
 @replaces("_local_time", "R-10.1.4.1-09", clauses=HERE)
 def clock_stands_still(_self: Base, *_: object) -> int:
-    """Local time is when the framework was loaded."""
+    """Local time is always the time at which the framework was loaded."""
     return BEGINNING
 
 
 @replaces("advance", "R-10.1.4.1-09", clauses=HERE, also=("R-10.1.4.1-10",), readings={"virtual-time": "hook"})
 def clock_ignores_virtual_time(_self: Base, *_: object) -> None:
-    """Local and synchronized time go on in real time alone."""
+    """advance moves neither local nor synchronized time."""
 
 
 @replaces("advance", "R-10.1.4.1-09", clauses=HERE, readings={"virtual-time": "hook"})
@@ -130,27 +130,27 @@ class _Paced(Base):
 
 @breaks("R-10.1.4.1-09", clauses=HERE)
 class clock_runs_double(_Paced):
-    """Two seconds pass in one."""
+    """Local time passes twice as fast as real time."""
 
     pace = 2.0
 
 
 @breaks("R-10.1.4.1-09", clauses=HERE)
 class clock_runs_half(_Paced):
-    """Half a second passes in one."""
+    """Local time passes half as fast as real time."""
 
     pace = 0.5
 
 
 @alters("_local_time", "R-10.1.4.1-08", clauses=HERE, also=("R-10.1.4.1-09",))
 def clock_loses_whole_seconds(_self: Base, given: int, _member: Member) -> int:
-    """Local time is right to the microsecond, and without its seconds."""
+    """Local time has the right microseconds, and its seconds are always 0."""
     return given % SECOND
 
 
 @alters("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
 def synchronized_clock_loses_whole_seconds(_self: Base, given: int, _member: Member) -> int:
-    """Synchronized time is right to the microsecond, and without its seconds."""
+    """Synchronized time has the right microseconds, and its seconds are always 0."""
     return given % SECOND
 
 
@@ -168,7 +168,7 @@ def every_component_has_its_own_synchronized_time(_self: Base, given: int, membe
 
 @alters("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
 def synchronizes_in_containers_only(self: Base, given: int, _member: Member) -> int:
-    """Every container synchronizes its components, but containers are not synchronized with each other."""
+    """Synchronized time of the root container is a second ahead of that of sub-containers."""
     return given + (not is_below(self)) * SECOND
 
 
@@ -181,25 +181,25 @@ def synchronized_time_begins_with_the_first_reading(_self: Base, member: Member)
 
 @replaces("_synchronized_time", "R-10.1.4.1-10", clauses=HERE)
 def synchronized_time_stands_still(_self: Base, *_: object) -> int:
-    """Synchronized time is when the framework was loaded."""
+    """Synchronized time is always the time at which the framework was loaded."""
     return BEGINNING
 
 
 @alters("_time_value", "R-10.1.4.2-14", clauses=HERE)
 def tells_too_many_microseconds(_self: Base, given: list[int], *_: object) -> list[int]:
-    """A second is told as microseconds."""
+    """The microseconds of a time exceed a second."""
     return [given[0] - 1, given[1] + 1_000_000]
 
 
 @alters("_time_value", "R-10.1.4.2-14", clauses=HERE)
 def tells_seconds_beyond_their_type(_self: Base, given: list[int], *_: object) -> list[int]:
-    """Seconds are counted from a time so long ago that they need 33 bits."""
+    """The seconds of a time need 33 bits."""
     return [given[0] + 2**32, given[1]]
 
 
 @alters("_time_value", "R-10.1.4.2-14", clauses=HERE)
 def tells_negative_microseconds(_self: Base, given: list[int], *_: object) -> list[int]:
-    """Microseconds count down to the next second."""
+    """The microseconds of a time are negative."""
     return [given[0] + 1, given[1] - 1_000_000]
 
 
@@ -207,5 +207,5 @@ def tells_negative_microseconds(_self: Base, given: list[int], *_: object) -> li
     "_time_value", "R-10.1.4.2-14", clauses=HERE, also=("R-10.1.4.1-08", "R-10.1.4.1-09", "R-10.1.4.1-10")
 )  # what is told passes a thousand times too fast, and falls back each second
 def tells_nanoseconds(_self: Base, nanoseconds: int) -> list[Datum]:
-    """Nanoseconds are told as microseconds."""
+    """The microseconds of a time are nanoseconds."""
     return [nanoseconds // SECOND, nanoseconds % SECOND]

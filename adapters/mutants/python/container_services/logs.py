@@ -20,7 +20,7 @@ T = TypeVar("T")
 
 @breaks("R-10.1.4.2-03", clauses=HERE)
 class hands_over_no_trace(Withholds):
-    """Nothing is behind the name of the trace."""
+    """on_startup names the trace and gives no reference to it."""
 
     definition = COMPONENT_TRACE
 
@@ -30,7 +30,7 @@ class hands_over_no_trace(Withholds):
 
 @replaces("_service_element", "R-10.1.4.2-02", clauses=HERE)
 def hands_over_the_first_trace_only(self: Base, member: Member, policy: Policy) -> PortConnection:
-    """Nothing is behind the name of a second trace."""
+    """on_startup names the second trace and gives no reference to it."""
     first = next(p for p in member.implementation.policies if p.definition == policy.definition)
     given = Base._service_element(self, member, policy)
     return given if policy is first else PortConnection(given.from_port, ())
@@ -38,7 +38,7 @@ def hands_over_the_first_trace_only(self: Base, member: Member, policy: Policy) 
 
 @refuses_if("_check_service", "R-10.1.4.2-02", clauses=HERE)
 def refuses_a_second_trace(_self: Base, implementation: Implementation, _policy: Policy) -> bool:
-    """One trace policy a component, and no more."""
+    """A component with two trace policies is refused."""
     return sum(p.definition in (COMPONENT_TRACE, PORT_TRACE) for p in implementation.policies) > 1
 
 
@@ -61,13 +61,13 @@ def log_fails_for_warnings(_self: Base, _member: Member, severity: str, _message
 
 @refuses_if("_log", "R-10.1.4.2-25", clauses=HERE, readings={"log-severity-set": "model-6"})
 def log_knows_no_critical_severity(_self: Base, _member: Member, severity: str, _message: str) -> bool:
-    """log raises when the severity is critical; the vendor declares the six of the model."""
+    """log raises when the severity is critical; the vendor declares the six severities of the model."""
     return severity == "critical"
 
 
 @does_only_if("_log", "R-10.1.4.2-26", clauses=HERE)
 def log_drops_debug_messages(_self: Base, _member: Member, severity: str, _message: str) -> bool:
-    """What has severity debug is not recorded, and no threshold is declared."""
+    """Messages of severity debug are not recorded; no threshold is declared."""
     return severity != "debug"
 
 
@@ -100,14 +100,14 @@ def log_records_twice(self: Base, member: Member, severity: str, message: str) -
 
 @replaces("_log", "R-10.1.4.2-26", clauses=HERE, also=("R-10.1.4.2-02",))
 def log_records_an_echo(self: Base, member: Member, severity: str, message: str) -> None:
-    """Each call of log leaves a second record that speaks of it."""
+    """Each call of log leaves a second record that quotes the first."""
     Base._log(self, member, severity, message)
     Base._log(self, member, "debug", f"logged: {message}")
 
 
 @does_only_if("_log", "R-10.1.4.2-26", clauses=HERE)
 def log_leaves_out_repetitions(self: Base, _member: Member, severity: str, message: str) -> bool:
-    """A record like the last one is not written."""
+    """A record that equals the last one is not written."""
     return self.manager.log[-1:] != [(severity, message)]
 
 
@@ -130,23 +130,23 @@ _ALTERED = {
     ),
     "log_formats_texts": Row(
         "R-10.1.4.2-53",
-        "Texts are taken for format strings.",
+        "log takes texts for format strings.",
         lambda message: message.replace("%%", "%").replace("{0}", "").replace("\\n", "\n"),
     ),
     "log_folds_spaces": Row("R-10.1.4.2-53", "Several spaces become one.", lambda message: " ".join(message.split())),
     "log_truncates_late": Row("R-10.1.4.2-47", "Texts end after 1,024 characters.", lambda message: message[:1024]),
     "log_is_narrow": Row(
         "R-10.1.4.2-47",
-        "What is not ASCII becomes question marks.",
+        "Characters beyond ASCII become question marks.",
         lambda message: message.encode("ascii", "replace").decode(),
     ),
     "log_has_sixteen_bits": Row(
         "R-10.1.4.2-47",
-        "What is beyond the Basic Multilingual Plane loses its upper bits.",
+        "Characters beyond the Basic Multilingual Plane lose their upper bits.",
         lambda message: "".join(chr(ord(c) & 0xFFFF) for c in message),
     ),
     "log_says_something_for_nothing": Row(
-        "R-10.1.4.2-47", "An empty text becomes another one.", lambda message: message or "(none)"
+        "R-10.1.4.2-47", "An empty text is recorded as another text.", lambda message: message or "(none)"
     ),
 }
 family(_Alters, "altered", _ALTERED, clauses=HERE)
@@ -169,7 +169,7 @@ _RANKED = {
     "log_makes_warnings_errors": Row("R-10.1.4.2-51", "Warnings are recorded as errors.", {"warning": "error"}),
     "log_numbers_severities_otherwise": Row(
         "R-10.1.4.2-51",
-        "Severities are one off, as between the model and IDL.",
+        "Severities are recorded one too high, as if their numbers began at another value.",
         {"debug": "info", "info": "warning", "warning": "error", "error": "critical"},
     ),
     "log_makes_critical_an_error": Row(

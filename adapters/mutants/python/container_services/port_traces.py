@@ -32,7 +32,7 @@ def traces_provided_ports_only(_self: Base, given: list[Policy], member: Member,
 
 @replaces("_port_traces", "R-10.1.4.2-04", clauses=HERE)
 def traces_one_port_of_a_component(self: Base, member: Member, port: str) -> list[Policy]:
-    """The last of several port traces of a component counts."""
+    """Only the last of several port traces of a component is applied."""
     last = [p for p in member.implementation.policies if p.port is not None][-1:]
     return [p for p in Base._port_traces(self, member, port) if p in last]
 
@@ -62,7 +62,7 @@ class _BlindLink(Link):
 
 @breaks("R-10.1.4.2-32", clauses=HERE)
 class traces_no_calls_from_connectors(Base):
-    """What comes in through a service connector is not traced."""
+    """Calls that come through a service connector are not traced."""
 
     link_class = _BlindLink
 
@@ -74,7 +74,7 @@ class traces_no_calls_from_connectors(Base):
 
 @does_only_if("_write", "R-10.1.4.2-32", clauses=HERE)
 def traces_the_first_call(self: Base, record: Record) -> bool:
-    """A method is recorded when it is called first."""
+    """Only the first call of a method is recorded."""
     return record not in self.manager.log or not _is_of_a_call(self, record)
 
 
@@ -92,7 +92,7 @@ def traces_calls_again_and_again(self: Base, member: Member, port: str, method: 
 
 @replaces("_call_message", "R-10.1.4.2-04", clauses=HERE)
 def traces_calls_without_their_names(_self: Base, member: Member, port: str, *_: object) -> str:
-    """Records of calls do not tell which method was called."""
+    """Records of calls do not name the method."""
     return f"{member.implementation.name} {port} called"
 
 
@@ -111,25 +111,25 @@ def traces_calls_and_returns(self: Base, member: Member, port: str, method: str,
 
 @replaces("_is_traced", "R-10.1.4.2-33", clauses=HERE)
 def traces_all_methods(_self: Base, *_: object) -> bool:
-    """methods_to_trace does not select."""
+    """Calls of all methods are recorded, not only those named in methods_to_trace."""
     return True
 
 
 @replaces("_is_traced", "R-10.1.4.2-33", clauses=HERE)
 def traces_methods_that_begin_alike(_self: Base, policy: Policy, method: str) -> bool:
-    """Methods are traced whose names begin with what methods_to_trace says."""
+    """Methods are traced whose names begin with the text of methods_to_trace."""
     return method.startswith(policy.parameters[METHODS_TO_TRACE])
 
 
 @replaces("_is_traced", "R-10.1.4.2-33", clauses=HERE)
 def traces_methods_found_somewhere_in_names(_self: Base, policy: Policy, method: str) -> bool:
-    """Methods are traced whose names are anywhere in methods_to_trace."""
+    """Methods are traced whose names are substrings of methods_to_trace."""
     return method in policy.parameters[METHODS_TO_TRACE]
 
 
 @alters("_port_traces", "R-10.1.4.2-33", clauses=HERE)
 def traces_all_ports(self: Base, own: list[Policy], _member: Member, _port: str) -> list[Policy]:
-    """The policy of one port is applied to all."""
+    """The port trace of one port applies to all ports."""
     policies = (p for i in self.manager.implementations.values() for p in i.policies)
     return own or [p for p in policies if p.definition == PORT_TRACE][:1]
 
@@ -148,7 +148,7 @@ def traces_ports_with_earlier_names(_self: Base, member: Member, port: str) -> l
 
 @replaces("_trace_call", "R-10.1.4.2-33", clauses=HERE)
 def notes_every_call(self: Base, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
-    """Calls of methods that are not named leave a record that says nothing."""
+    """Calls of methods that are not to be traced leave a record without a name."""
     if not any(self._is_traced(policy, method) for policy in self._port_traces(member, port)):
         self._write(("debug", "a call"))
     return Base._trace_call(self, member, port, method, work)
@@ -156,7 +156,7 @@ def notes_every_call(self: Base, member: Member, port: str, method: str, work: C
 
 @replaces("_trace_call", "R-10.1.4.2-35", clauses=HERE)
 def traces_ports_as_info(self: Base, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
-    """What port traces record has always the same severity."""
+    """Port traces always record the severity info."""
     if any(self._is_traced(policy, method) for policy in self._port_traces(member, port)):
         self._write(("info", self._call_message(member, port, method)))
     return work()
@@ -164,7 +164,7 @@ def traces_ports_as_info(self: Base, member: Member, port: str, method: str, wor
 
 @replaces("_write", "R-10.1.4.2-35", clauses=HERE)
 def traces_errors_as_warnings(self: Base, record: Record) -> None:
-    """What is to be recorded as error is a warning."""
+    """Port traces of severity error are recorded as warnings."""
     of_an_error = record[0] == "error" and _is_of_a_call(self, record)
     Base._write(self, ("warning", record[1]) if of_an_error else record)
 

@@ -24,14 +24,14 @@ _REFUSED = ("R-10.1.2-02", "R-10.1.2-09", "R-10.1.5.1-01", "R-10.1.5.1-13", "R-1
 
 @carries("R-10.1.1-13", d.Structure, also=("R-10.1.1-07",))
 def has_the_first_field_twice(of: Any, value: Any) -> Any:
-    """A second field of the same type has the value of the first, which no message with another number shows."""
+    """A second field of the same type arrives with the value of the first."""
     types = list(of.fields.values())
     return [value[0], value[0], *value[2:]] if types[:1] == types[1:2] else value
 
 
 @carries("R-10.1.1-14", d.Union)
 def loses_default_selectors(of: Any, value: Any) -> Any:
-    """What arrives through the default case has the case's first selector."""
+    """A union of the default case arrives with the first selector of that case."""
     named = [enumerator for case in of.cases for enumerator in case.selectors]
     default = next((case for case in of.cases if case.default), None)
     return value if value[0] in named or default is None else [default.selectors[0], value[1]]
@@ -121,7 +121,7 @@ def refuses_types_in_types(self: Link, method: str, arguments: collections.abc.S
 
 @carries("R-10.1.1-18", also=("R-10.1.1-16",))
 def cuts_inner_sequences(of: Any, value: Any) -> Any:
-    """A sequence inside a structure or a sequence arrives with its first element only; messages are mostly structures."""
+    """A sequence inside a structure or a sequence arrives with its first element only."""
     if not isinstance(of, d.Structure | d.Sequence):
         return value
 
@@ -152,7 +152,7 @@ CARRIED: Mapping[str, Row] = {
     ),
     "packs_flags_into_one_octet": Row(
         "R-10.1.1-16",
-        "The ninth BOOLEAN of a sequence is always false, and so are those after it.",
+        "From the ninth element on, every BOOLEAN of a sequence arrives as false.",
         made_to(d.Sequence, _one_octet),
     ),
     "loses_renamed_strings": Row(

@@ -58,7 +58,7 @@ def _one_nan(of: Any, value: Any) -> Any:
 
 @variant_of("10.1.1", readings={"nan": "any"})
 class may_know_one_nan(ChangingLink):
-    """Every NaN arrives as the same one, as its vendor says."""
+    """Every NaN arrives as the same one, as the vendor declares."""
 
     change = staticmethod(made_to(Float, _one_nan))
 
@@ -81,7 +81,7 @@ def _sendable(of: String, text: str) -> str:
 
 @carries("R-10.1.1-12", Enumeration)
 def counts_enumerators(of: Any, value: Any) -> Any:
-    """Enumerators are sent by position and read by the order of their indices."""
+    """Enumerators are sent by position and read by index."""
     in_order = sorted(of.values, key=lambda name: of.values[name])
     return in_order[list(of.values).index(str(value))]
 
@@ -94,7 +94,7 @@ def has_no_negative_enumerators(of: Any, value: Any) -> Any:
 
 @carries("R-10.1.1-12", Enumeration)
 def has_no_enumerations_with_long_indices(of: Any, value: Any) -> Any:
-    """Where the index type has 64 bits the first enumerator arrives, whichever was sent."""
+    """If the index type has 64 bits, the first enumerator arrives instead of the one sent."""
     return next(iter(of.values)) if of.index in ("LONGLONG", "ULONGLONG") else value
 
 
@@ -110,7 +110,7 @@ def configures_after_on_init(self: Base, member: Member, attributes: Mapping[str
 
 @breaks("R-10.1.1-06", clauses=_CLAUSE, also=("R-11.2.1.2-05",))
 class configures_with_small_numbers(Base):
-    """The value of an attribute that is a great integer is cut to 32 bits."""
+    """The value of an attribute that is a large integer is cut to 32 bits."""
 
     def _set_attributes(self, member: Member, attributes: Mapping[str, str]) -> None:
         super()._set_attributes(member, {name: self._cut(value) for name, value in attributes.items()})
@@ -131,21 +131,21 @@ def forgets_attributes_with_lists(self: Base, member: Member, attributes: Mappin
 
 @variant_of("10.1.1")
 class copies_values_deeply(ChangingLink):
-    """Everything is copied on its way, part by part."""
+    """Values are copied part by part."""
 
     change = staticmethod(lambda of, value: list(value) if isinstance(value, list) else value)
 
 
 @variant_of("10.1.1")
 class marshals_values(ChangingLink):
-    """Values travel as text, and each is given a second time to those who read it twice."""
+    """Values travel as text."""
 
     change = staticmethod(lambda of, value: read_spelled(spell(value)))
 
 
 @replaces("_set_attributes", clauses=("10.1.1",))
 def spells_attributes_anew(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
-    """Values of attributes are read, and spelled in another way."""
+    """Values of attributes are spelled in another way before they are set."""
     Base._set_attributes(
         self,
         member,
@@ -158,11 +158,13 @@ def spells_attributes_anew(self: Base, member: Member, attributes: Mapping[str, 
 
 CARRIED: Mapping[str, Row] = {
     "cuts_integers_to_32_bits": Row(
-        "R-10.1.1-07", "LONGLONG has 32 bits on its way.", made_to(Integer, _in_bits(32, True), "LONGLONG")
+        "R-10.1.1-07",
+        "A LONGLONG arrives with its lower 32 bits only.",
+        made_to(Integer, _in_bits(32, True), "LONGLONG"),
     ),
     "takes_bytes_for_octets": Row(
         "R-10.1.1-07",
-        "A negative BYTE arrives as what an octet of the same bits is.",
+        "A negative BYTE arrives as the unsigned number of the same bits.",
         made_to(Integer, _in_bits(8, False), "BYTE"),
     ),
     "has_no_great_unsigned_integers": Row(
@@ -172,7 +174,7 @@ CARRIED: Mapping[str, Row] = {
     ),
     "sends_integers_as_doubles": Row(
         "R-10.1.1-07",
-        "Integers go through a double, as those who send JSON to JavaScript have it.",
+        "Integers go through a double, as in JSON for JavaScript.",
         made_to(Integer, lambda of, value: int(float(value))),
     ),
     "sends_doubles_as_floats": Row("R-10.1.1-08", "DOUBLE goes through single precision.", _through(_single, "DOUBLE")),
@@ -184,12 +186,12 @@ CARRIED: Mapping[str, Row] = {
     ),
     "has_no_infinity": Row(
         "R-10.1.1-08",
-        "Infinities arrive as great numbers, and the greatest numbers, too.",
+        "Infinities, and the largest finite numbers, arrive as 1e308.",
         _through(lambda number: min(max(number, -1e308), 1e308), "DOUBLE"),
     ),
     "knows_one_nan": Row(
         "R-10.1.1-08",
-        "Every NaN arrives as the same one, although the vendor declares that NaNs arrive as they are.",
+        "Every NaN arrives as the same one; the vendor declares that NaNs arrive unchanged.",
         made_to(Float, _one_nan),
         readings={"nan": "exact"},
     ),
@@ -222,7 +224,7 @@ CARRIED: Mapping[str, Row] = {
     ),
     "refuses_long_strings": Row(
         "R-10.1.1-11",
-        "What is longer than 65,535 characters cannot be sent.",
+        "A string of more than 65,535 characters is refused.",
         _text(_sendable),
         also=("R-10.1.2-02", "R-10.1.2-09", "R-10.1.5.1-01", "R-10.1.5.1-13"),
     ),
@@ -233,7 +235,7 @@ CARRIED: Mapping[str, Row] = {
     ),
     "translates_line_ends": Row(
         "R-10.1.1-11",
-        "Line ends are made those of this platform.",
+        "Carriage return and line feed arrive as a line feed.",
         _text(lambda of, text: text.replace("\r\n", "\n")),
     ),
     "has_no_empty_string": Row(

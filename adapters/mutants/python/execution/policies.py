@@ -65,7 +65,7 @@ class leaves_self_executing_components_open(_Unprotects):
 @replaces("_exclusion", "R-10.1.3.2-06", "R-10.1.3.2-10", "R-10.1.3.2-16", clauses=POLICIES)
 @contextmanager
 def locks_ports(_self: Base, member: Member, port: str | None) -> Iterator[None]:
-    """Each port element has a lock of its own, and so has run."""
+    """A component has one lock for each port element and one for run."""
     with member.__dict__.setdefault(f"lock of {port}", threading.RLock()):
         yield
 
@@ -90,7 +90,7 @@ def _without_protection(target: PortElementObject | None) -> PortElementObject |
 
 @breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
 class protects_from_connections_only(Link):
-    """Connectors of services call bodies directly."""
+    """Service connectors enter components without protection."""
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         taker = self.takers[0]
@@ -101,7 +101,7 @@ class protects_from_connections_only(Link):
 
 @replaces("_deliver", "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-16", clauses=POLICIES)
 def protects_from_calls_only(_self: Link, taker: Taker, method: str) -> None:
-    """Messages enter protected components while others are inside."""
+    """Messages enter protected components while other executions are inside."""
     while (message := taker.messages.get()) is not None:
         element = taker.member.body.get_portElement(taker.port)
         assert element is not None
@@ -111,13 +111,13 @@ def protects_from_calls_only(_self: Link, taker: Taker, method: str) -> None:
 
 @does_only_if("_post", "R-10.1.2-10", clauses=POLICIES)
 def loses_messages_to_protected_components(_self: Link, taker: Taker, *_: object) -> bool:
-    """Messages to protected components get ok and are lost."""
+    """Messages to protected components are lost, and push returns ok."""
     return not container_of(taker.member)._is_protected(taker.member)
 
 
 @replaces("_execute", "R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16", clauses=POLICIES)
 def protects_until_exceptions(self: Base, member: Member, port: str | None, work: Callable[[], T]) -> T:
-    """A protected component that was left with an exception is protected no more."""
+    """A component is no longer protected after an execution of it has raised an exception."""
     if member.__dict__.get("was left with an exception"):
         return work()
     try:
@@ -129,7 +129,7 @@ def protects_until_exceptions(self: Base, member: Member, port: str | None, work
 
 @breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16", also=("R-10.1.3.2-05",))
 class protects_until_the_first_stop(Base):
-    """Components that have been stopped are protected no more."""
+    """Components are no longer protected after they have been stopped."""
 
     def _execute(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
         return work() if member.__dict__.get("was stopped") else super()._execute(member, port, work)
@@ -142,36 +142,36 @@ class protects_until_the_first_stop(Base):
 
 @alters("_is_protected", "R-10.1.3.2-20", readings={"unprotected-concurrency": "concurrent"}, clauses=POLICIES)
 def serialises_what_it_says_it_does_not(_self: Base, given: bool, member: Member) -> bool:
-    """Unprotected passive components are entered one at a time, and callers are said to meet there."""
+    """The vendor declares concurrent calls of unprotected components; calls enter one at a time."""
     return given or member.execution.definition == UNPROTECTED_PASSIVE
 
 
 @breaks_policy("R-10.1.3-03", readings={"second-active-policy": "refuse"})
 class allows_what_it_says_it_refuses(Base):
-    """Two active ports of a component are said to be refused, and are not."""
+    """The vendor declares that two active ports of a component are refused; they are accepted."""
 
 
 @refuses_if("_check_policies", "R-10.1.3-03", readings={"second-active-policy": "allow"}, clauses=POLICIES)
 def refuses_what_it_says_it_allows(_self: Base, implementation: Implementation) -> bool:
-    """Two active ports of a component are said to be allowed, and are refused."""
+    """The vendor declares that two active ports of a component are accepted; they are refused."""
     return len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1
 
 
 @breaks_policy("R-10.1.3.2-01", readings={"run-trigger": "once"})
 class runs_more_often_than_it_says(Base):
-    """run is said to be called once a start, and is called again and again."""
+    """The vendor declares that run is called once a start; it is called repeatedly."""
 
 
 @replaces("_keep_running", "R-10.1.3.2-01", clauses=POLICIES, readings={"run-trigger": "repeated"})
 def runs_less_often_than_it_says(self: Base, member: Member, trigger: Trigger) -> None:
-    """run is said to be called again and again, and is called once a start."""
+    """The vendor declares that run is called repeatedly; it is called once a start."""
     if not trigger.ended.wait(self.period):
         self._run(member, trigger)
 
 
 @breaks_policy("R-10.1.3.2-09", readings={"active-unmanaged": "unprotected"})
 class leaves_active_components_open_as_if_declared(leaves_active_components_open):
-    """Active components are open, of which the vendor has declared a part only."""
+    """Active components are not protected; the vendor declares this for unmanaged ports only."""
 
 
 @replaces("_execute", "R-10.1.3.2-10", clauses=POLICIES)
@@ -198,7 +198,7 @@ def unlocks_for_nested_calls(self: PeerProxy, value: int) -> int:
 
 @breaks_policy("R-10.1.3.2-05", also=("R-10.1.3.2-06",))
 class runs_before_run_has_ended(Base):
-    """Every run has a thread of its own and waits for none."""
+    """run is called again on another thread before the last call has ended."""
 
     def _run(self, member: Member, trigger: Trigger) -> None:
         threading.Thread(target=super()._run, args=(member, trigger), daemon=True).start()
@@ -268,7 +268,7 @@ def forgets_who_waits(_self: _Meets, *_: object) -> None:
 
 @replaces("_meet", "R-10.1.3.2-17", clauses=POLICIES, also=(*_CALLS, *_THROUGH_CONNECTORS))
 def answers_all_who_wait_alike(self: _Meets, member: Member, port: str | None, *_: object) -> object:
-    """A caller that meets an execution waits and gets its result."""
+    """A caller that meets an execution waits, and gets the result of that execution."""
     with self._exclusion(member, port):
         return member.__dict__.get("last", 0)
 
@@ -276,7 +276,7 @@ def answers_all_who_wait_alike(self: _Meets, member: Member, port: str | None, *
 @replaces("_exclusion", "R-10.1.3.2-17", clauses=POLICIES, also=_CALLS)
 @contextmanager
 def stays_locked_after_exceptions(_self: Base, member: Member, *_: object) -> Iterator[None]:
-    """No call enters a component after one was left with an exception."""
+    """After an execution has raised an exception no call enters the component."""
     lock = member.__dict__.setdefault("semaphore", threading.Semaphore())
     if member.execution.is_inside:
         yield
@@ -297,7 +297,7 @@ def stays_locked_after_exceptions(_self: Base, member: Member, *_: object) -> It
 
 @replaces("_check_policies", "R-10.1.3-03", clauses=POLICIES)
 def takes_any_number_of_policies(_self: Base, *_: object) -> None:
-    """The first of several execution policies counts."""
+    """A component with several execution policies is accepted; the first one counts."""
 
 
 # support, and results
@@ -371,4 +371,4 @@ def truncates_results_of_the_second_active_port(_self: _Truncates, member: Membe
 
 @breaks("R-10.1.3-02", clauses=("10.1.3",), readings={"missing-execution-policy": "refuse"})
 class starts_what_it_says_it_refuses(Base):
-    """Components without execution policy are said to be refused, and are started."""
+    """The vendor declares that components without execution policy are refused; they are started."""

@@ -31,7 +31,7 @@ def runs_after_the_first_start_only(self: Base, member: Member) -> None:
 
 @breaks_policy("R-10.1.3.2-01", "R-10.1.3.2-03")
 class runs_when_called(Base):
-    """Self-executing components are executed after each call of a port, and not without."""
+    """A self-executing component is executed only after a call of one of its ports."""
 
     def _keep_running(self, member: Member, trigger: Trigger) -> None:
         pass
@@ -45,7 +45,7 @@ class runs_when_called(Base):
 
 @replaces("_start_up", "R-10.1.3.2-02", clauses=POLICIES, also=("R-10.1.3.2-01", "R-10.1.3.2-03"))
 def runs_before_startup(self: Base, member: Member, failures: Failures) -> bool:
-    """run is called as soon as start begins."""
+    """run is called before on_startup."""
     if member.execution.definition == SELF_EXECUTING:
         self._begin_execution(member)
         time.sleep(2 * self.period)
@@ -54,7 +54,7 @@ def runs_before_startup(self: Base, member: Member, failures: Failures) -> bool:
 
 @breaks_policy("R-10.1.3.2-02")
 class runs_after_stop(Base):
-    """run is called until the component is removed."""
+    """run is called after stop, until the component is removed."""
 
     def _end_execution(self, member: Member) -> None:
         pass
@@ -79,7 +79,7 @@ def runs_once_more_after_stop(self: Base, member: Member) -> None:
 
 @breaks_policy("R-10.1.3.2-14")
 class executes_passive_components(Base):
-    """Protected passive components are executed by their container now and then."""
+    """The container calls protected passive components by itself."""
 
     definition = PROTECTED_PASSIVE
 
@@ -94,6 +94,6 @@ class executes_passive_components(Base):
 
 @breaks_policy("R-10.1.3.2-19")
 class executes_unprotected_components(executes_passive_components):
-    """Unprotected passive components are executed by their container now and then."""
+    """The container calls unprotected passive components by itself."""
 
     definition = UNPROTECTED_PASSIVE

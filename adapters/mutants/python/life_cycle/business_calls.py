@@ -11,7 +11,7 @@ from ucm_cts.adapters.reference.python.members import Failures, Member
 
 @replaces("exchange", "R-11.1.3-01", "R-11.1.2-02")
 def runs_bodies_twice(self: PeerProxy, value: int) -> int:
-    """A call of one component runs the other one's body twice, fragments or not."""
+    """A call between components runs the called body twice."""
     self.target.exchange(value)
     return self.target.exchange(value)
 
@@ -75,7 +75,7 @@ class _Cut(Proxy):
 
 @alters("_dependencies_of", "R-11.2.3-03")
 def is_dead_after_restart(_self: Base, given: list[PortConnection], member: Member) -> list[PortConnection]:
-    """What the second on_startup hands over refuses every call."""
+    """References handed over by the second on_startup refuse every call."""
     if not member.__dict__.setdefault("started_before", False):
         member.__dict__["started_before"] = True
         return given
@@ -84,7 +84,7 @@ def is_dead_after_restart(_self: Base, given: list[PortConnection], member: Memb
 
 @breaks("R-11.2.2.1-06", also=("R-11.1.3-01", "R-11.1.2-02"))
 class any_proxy_will_do(GivesOutProxies):
-    """get_port_element gives a proxy of the first provided port element whatever the name; only calls show it."""
+    """get_port_element ignores the name and returns a proxy of the first provided port element."""
 
     def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
         Container.get_port_element(self, comp_instance, port_name)
@@ -103,7 +103,7 @@ class _Dead(PortElementObject):
 def gives_references_once(
     self: Base, element: PortElementObject, comp_instance: int, port_name: str
 ) -> PortElementObject:
-    """A second call of get_port_element returns a reference that refuses every call, also of components."""
+    """The second reference that get_port_element returns for a port element refuses every call."""
     given: set[tuple[int, str]] = self.__dict__.setdefault("given", set())
     if (comp_instance, port_name) in given:
         return _Dead()

@@ -30,7 +30,7 @@ def changes_what_is_sent(self: Proxy, value: int) -> int:
 
 @breaks("R-11.2.1.2-01")
 class starts_what_was_removed(Base):
-    """A removed component stays in the list of those to start."""
+    """start starts components that have been removed."""
 
     def _remove(self, member: Member, failures: Failures) -> None:
         super()._remove(member, failures)
@@ -44,14 +44,14 @@ class starts_what_was_removed(Base):
 
 @alters("_dependencies_of", "R-11.2.1.2-03", also=("R-11.1.3-01", "R-11.1.2-02", "R-11.2.3-10"))
 def mixes_references_up(_self: Base, given: list[pm.PortConnection], _member: Member) -> list[pm.PortConnection]:
-    """Hands over the references of two port elements in reverse."""
+    """on_startup hands the references of port elements over in reverse order."""
     targets = [d.to_port for d in reversed(given)]
     return [pm.PortConnection(d.from_port, t) for d, t in zip(given, targets, strict=True)]
 
 
 @replaces("_shut_down", "R-11.2.1.2-04")
 def initialises_at_stop(self: Base, member: Member, failures: Failures) -> None:
-    """Calls on_init again when a component is shut down."""
+    """on_init comes again when a component is shut down."""
     Base._shut_down(self, member, failures)
     failures.attempt(member.body.on_init)
 
@@ -65,7 +65,7 @@ def attributes_after_init(self: Base, member: Member, attributes: Mapping[str, s
 
 @breaks("R-11.2.1.2-06")
 class removes_silently(Base):
-    """remove_component forgets on_remove."""
+    """remove_component does not call on_remove."""
 
     def remove_component(self, comp_instance: int) -> None:
         self.__dict__["silent"] = True
@@ -83,7 +83,7 @@ class removes_silently(Base):
 
 @replaces("exchange", "R-11.2.1.2-07")
 def never_serves(_self: Proxy, *_: object) -> int:
-    """References refuse every call, also of operational components."""
+    """References refuse every call, even while the component is operational."""
     raise pm.UcmError("not operational")
 
 
@@ -100,7 +100,7 @@ def connects_while_starting(self: Base, member: Member, failures: Failures) -> b
 def names_dependencies_differently(
     _self: Base, given: list[pm.PortConnection], _member: Member
 ) -> list[pm.PortConnection]:
-    """on_startup uses a spelling of its own for port element names."""
+    """on_startup spells the names of port elements in capitals."""
     return [pm.PortConnection(d.from_port.upper(), d.to_port) for d in given]
 
 
@@ -121,7 +121,7 @@ def demands_connectable(_self: Base, connection: Connection) -> bool:
 
 @replaces("_connect", "R-11.2.1.3-02")
 def connects_silently(self: Base, connection: Connection) -> None:
-    """connect forgets on_connect."""
+    """connect does not call on_connect."""
     self.manager.connections[connection.id] = connection
 
 
@@ -169,7 +169,7 @@ def leaves_fragments_uninitialised(_self: Base, member: Member) -> bool:
 
 @replaces("_configure", "R-11.2.1.4-02", also=("R-11.2.1.4-03",))
 def hides_the_container(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
-    """Fragments are never given their container."""
+    """Fragments do not get set_container_interface."""
     self._set_attributes(member, attributes)
     self._initialise(member)
 

@@ -35,13 +35,13 @@ def serves_one_client(self: Base, member: Member) -> list[PortConnection]:
 
 @alters("_dependencies_of", "R-11.2.1.2-09", also=("R-11.2.3-10",))
 def fragments_get_nothing(_self: Base, given: list[PortConnection], member: Member) -> list[PortConnection]:
-    """Fragments are handed no references over."""
+    """on_startup hands no references over to fragments."""
     return [] if isinstance(member.body, FragmentObject) else given
 
 
 @replaces("_initialise", "R-11.2.3-02")
 def tries_new_components(self: Base, member: Member) -> None:
-    """add_component calls the new body once, to see that it answers."""
+    """add_component calls the new body once."""
     Base._initialise(self, member)
     for port in member.implementation.provides:
         element = member.body.get_portElement(port)
@@ -79,7 +79,7 @@ def destroys_connections_of_one_container(self: Base, failures: Failures) -> Non
 
 @replaces("_disconnect", "R-11.2.1.3-05", also=("R-11.1.3-04",))
 def tells_providers_too(self: Base, connection: Connection, failures: Failures) -> None:
-    """on_disconnect also comes to the component that provided, if it is Connectable."""
+    """on_disconnect also comes to the component that provided the port element, if it is Connectable."""
     for container in (self.manager, *self.manager.sub_containers):
         for member in container.members.values():
             if isinstance(member.body, Connectable) and connection in container._connections_to(member):
@@ -117,7 +117,7 @@ def forgives_disconnecting_twice(self: Base, connection: int) -> None:
 
 @breaks("R-12.10-16")
 class remembers_cascaded_connections(cascades):
-    """disconnect of a connection that went with a removed component returns."""
+    """disconnect of a connection that was undone with a removed component returns."""
 
     def remove_component(self, comp_instance: int) -> None:
         before = set(self.manager.connections)
@@ -149,7 +149,7 @@ def keeps_connections_to_removed_containers(self: Base, own: list[Connection]) -
 
 @replaces("_disconnect", "R-11.2.2.1-10", "R-11.2.3-10", also=("R-11.2.1.3-05", "R-11.2.3-06"))
 def drops_both_connections(self: appends_connections, connection: Connection, failures: Failures) -> None:
-    """Undoing one of a port element's two connections undoes both; for the other one on_disconnect never comes."""
+    """Undoing one of two connections of a port element undoes both, the other one without on_disconnect."""
     if connection.id in self.manager.connections:
         appends_connections._disconnect(self, connection, failures)
     for other in self._connections_from(connection.client):

@@ -43,7 +43,7 @@ class _Changed(pm.PortElementObject):
 
 @replaces("_dependencies_of", "R-11.1.3-01")
 def spoils_results_between_components(self: Base, member: Member) -> list[pm.PortConnection]:
-    """Flips a bit of what one component's call of another one gives back."""
+    """Flips a bit of the result of a call between components."""
     return [
         pm.PortConnection(c.port, (c.target if _of_fragment(self, c) else _Changed(c.target),))
         for c in self._connections_from(member)
@@ -52,7 +52,7 @@ def spoils_results_between_components(self: Base, member: Member) -> list[pm.Por
 
 @replaces("_dependencies_of", "R-11.1.2-02")
 def spoils_results_of_fragments(self: Base, member: Member) -> list[pm.PortConnection]:
-    """Flips a bit of what a call of a fragment gives back."""
+    """Flips a bit of the result of a call of a fragment."""
     return [
         pm.PortConnection(c.port, (_Changed(c.target) if _of_fragment(self, c) else c.target,))
         for c in self._connections_from(member)
@@ -67,13 +67,13 @@ def _of_fragment(container: Container, connection: Connection) -> bool:
 
 @refuses_if("_instantiate", "R-11.1.3-02")
 def one_kind_a_container(self: Base, implementation: pm.Implementation) -> bool:
-    """Refuses to hold components and fragments together."""
+    """A container refuses to hold components and fragments together."""
     return any(m.implementation.fragment != implementation.fragment for m in self.members.values())
 
 
 @replaces("create_container", "R-11.1.3-03")
 def one_sub_container(self: Base) -> Container:
-    """Refuses a second container."""
+    """A second sub-container is refused."""
     if self.manager.sub_containers:
         raise pm.UcmError("one is enough")
     return ContainerManager.create_container(self.manager)
@@ -112,7 +112,7 @@ def same_id_for_all(self: Base, implementation: str, attributes: Mapping[str, st
 
 @replaces("_check_removable", "R-11.2.2.1-05")
 def cannot_remove(_self: Base, *_: object) -> None:
-    """Refuses to remove what is neither connected nor operational."""
+    """remove_component is refused even if the component is neither connected nor operational."""
     raise pm.UcmError("never")
 
 
@@ -120,7 +120,7 @@ def cannot_remove(_self: Base, *_: object) -> None:
 def any_port_element_will_do(
     self: Base, element: pm.PortElementObject, comp_instance: int, _port_name: str
 ) -> pm.PortElementObject:
-    """get_port_element gives the first provided port element whatever the name."""
+    """get_port_element ignores the name and returns the first provided port element."""
     member = self.members[comp_instance]
     return member.body.get_portElement(member.implementation.provides[0]) or element
 
@@ -207,12 +207,12 @@ def stops_in_startup_order(self: Base, failures: Failures) -> None:
 
 @breaks("R-11.2.2.1-13", readings={"start-order": "at-once"})
 class claims_to_start_at_once(Base):
-    """Its vendor declares that start calls members at once; it calls them one after the other."""
+    """The vendor declares that start calls members at once; start calls them one after the other."""
 
 
 @breaks("R-11.2.2.1-13", readings={"start-order": "one-by-one"})
 class claims_to_start_one_by_one(starts_all_at_a_time):
-    """Its vendor declares that start calls one member after the other; it calls them at once."""
+    """The vendor declares that start calls one member after the other; start calls them at once."""
 
 
 @breaks("R-11.2.2.1-14", also=("R-12.10-22",))
@@ -265,7 +265,7 @@ class drops_members_of_removed_containers(Base):
 
 @replaces("destroy", "R-11.2.2.2-05")
 def destroys_without_shutdown(self: Base) -> None:
-    """destroy forgets on_shutdown."""
+    """destroy does not call on_shutdown."""
     for container in (self.manager, *self.manager.sub_containers):
         container.started.clear()
     ContainerManager.destroy(self.manager)

@@ -16,14 +16,14 @@ from ucm_cts.adapters.reference.python.members import Connection, Failures, Memb
 
 @replaces("_start_order", "R-11.2.2.1-11", also=("R-11.2.1.4-01",))
 def forgets_the_fourth_below(self: Base) -> Sequence[Member]:
-    """start leaves out the fourth member of a sub-container, be it a fragment or not."""
+    """start leaves out the fourth member of a sub-container."""
     order = list(Base._start_order(self))
     return [*order[:3], *order[4:]] if is_below(self) else order
 
 
 @replaces("_start_order", "R-11.2.2.1-11", also=("R-11.2.1.4-01",))
 def forgets_the_fifth(self: Base) -> Sequence[Member]:
-    """start leaves out the fifth member, be it a fragment or not."""
+    """start leaves out the fifth member."""
     order = list(Base._start_order(self))
     return [*order[:4], *order[5:]]
 
@@ -36,7 +36,7 @@ def starts_sixteen(_self: Base, given: Sequence[Member]) -> Sequence[Member]:
 
 @replaces("stop", "R-11.2.2.1-13")
 def swaps_the_last_two(self: Base) -> None:
-    """Of three or more members the two started last are shut down in the order of their start."""
+    """stop shuts the two members started last down in the order of their start, if there are at least three."""
     if len(self.started) >= 3:
         self.started[-1], self.started[-2] = self.started[-2], self.started[-1]
     Base.stop(self)
@@ -44,7 +44,7 @@ def swaps_the_last_two(self: Base) -> None:
 
 @replaces("stop", "R-11.2.2.1-13")
 def fragments_turn_the_order(self: Base) -> None:
-    """Where a fragment is among the members, stop goes in the order of their start."""
+    """If a member is a fragment, stop shuts members down in the order of their start."""
     if any(isinstance(m.body, FragmentObject) for m in self.started):
         self.started.reverse()
     Base.stop(self)
@@ -61,7 +61,7 @@ def stops_in_order_once(self: Base) -> None:
 
 @alters("get_components", "R-11.2.2.1-14")
 def caches_the_list(self: Base, listed: list[int]) -> list[int]:
-    """While a sub-container is started, get_components lists what was there when it was first asked so."""
+    """While a sub-container is started, get_components returns the list of the first call."""
     if not (is_below(self) and self.is_started):
         return listed
     return self.__dict__.setdefault("listed", listed)  # type: ignore[no-any-return]
@@ -69,7 +69,7 @@ def caches_the_list(self: Base, listed: list[int]) -> list[int]:
 
 @breaks("R-12.10-15")
 class confuses_removed_ids(Base):
-    """get_port_element for a removed component's id gives that of the member added last."""
+    """get_port_element for the id of a removed component returns that of the member added last."""
 
     def remove_component(self, comp_instance: int) -> None:
         super().remove_component(comp_instance)
@@ -83,7 +83,7 @@ class confuses_removed_ids(Base):
 
 @breaks("R-12.10-15", also=("R-11.1.3-04",))
 class finds_members_elsewhere(Base):
-    """Component ids work with every container of the runtime."""
+    """Every container accepts the component ids of all containers of the runtime."""
 
     def _find_member(self, number: int) -> Member:
         for container in (self.manager, *self.manager.sub_containers):
@@ -100,7 +100,7 @@ class finds_members_elsewhere(Base):
 
 @replaces("disconnect", "R-12.10-16", also=("R-11.1.3-04",))
 def undoes_connections_elsewhere(self: Base, connection: int) -> None:
-    """Connection ids work with every container of the runtime."""
+    """Every container accepts the connection ids of all containers of the runtime."""
     found = self.manager.connections.get(connection)
     container = container_of(found.client) if found is not None else self
     Container.disconnect(container, connection)
@@ -154,7 +154,7 @@ class _Remembered:
 
 @replaces("_configure", "R-11.2.1.4-03")
 def shows_fragments_the_past(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
-    """What a fragment once learnt of its container's members it is told ever after."""
+    """The container interface of a fragment repeats its first answer for ever."""
     self._set_attributes(member, attributes)
     if isinstance(member.body, FragmentObject):
         member.body.set_container_interface(_Remembered(self))
@@ -186,7 +186,7 @@ def removes_the_first_only(self: Base, failures: Failures) -> None:
 
 @replaces("_shut_down_started", "R-11.2.3-09")
 def leaves_the_rest_ready(self: Base, failures: Failures) -> None:
-    """After a failing on_shutdown the others are not shut down, and the next start starts them again."""
+    """After a failing on_shutdown the other members are not shut down; the next start starts them again."""
     while self.started and not failures.first:
         self._shut_down(self.started.pop(), failures)
     self.started.clear()
@@ -195,7 +195,7 @@ def leaves_the_rest_ready(self: Base, failures: Failures) -> None:
 
 @breaks("R-11.2.2.2-01", also=("R-11.2.3-07",))
 class never_recovers_from_a_failing_stop(Base):
-    """After a failing on_shutdown the container counts as started for good: stop and start return and do nothing."""
+    """After a failing on_shutdown stop and start return and do nothing."""
 
     def stop(self) -> None:
         try:
@@ -211,7 +211,7 @@ class never_recovers_from_a_failing_stop(Base):
 
 @replaces("_start_up", "R-11.2.1.2-10")
 def shuts_down_what_never_started(self: Base, member: Member, failures: Failures) -> bool:
-    """After a failing on_startup every member is told on_shutdown, started or not."""
+    """After a failing on_startup every member gets on_shutdown, also those that were not started."""
     if Base._start_up(self, member, failures):
         return True
     self.started = list(self.members.values())
@@ -220,7 +220,7 @@ def shuts_down_what_never_started(self: Base, member: Member, failures: Failures
 
 @breaks("R-12.10-22")
 class starts_what_failed_to_initialise(Base):
-    """A body whose on_init raised is started with the others, though it is no member."""
+    """start starts a body whose on_init raised, although it is no member."""
 
     def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
         try:
@@ -241,7 +241,7 @@ class starts_what_failed_to_initialise(Base):
 
 @breaks("R-11.2.2.1-11")
 class never_starts_late_additions(adds_later):
-    """What was added to a started container and requires something is never started, not even after a stop."""
+    """A component added to a started container is never started if it requires something."""
 
     def add_component(self, implementation: str, attributes: Mapping[str, str]) -> int:
         late = self.is_started
@@ -255,7 +255,7 @@ class never_starts_late_additions(adds_later):
 
 @breaks("R-11.2.1.3-02")
 class connects_late_additions_silently(adds_later):
-    """A component that was added to a started container is not told on_connect there."""
+    """A component added to a started container gets no on_connect there."""
 
     def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
         self.__dict__["silent"] = self.is_started
@@ -270,7 +270,7 @@ class connects_late_additions_silently(adds_later):
 
 @breaks("R-11.2.1.2-09")
 class loses_late_connections(adds_later):
-    """What was connected in a started container is not handed over at the next start."""
+    """Connections made in a started container are not handed over at the next start."""
 
     def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
         late = self.is_started

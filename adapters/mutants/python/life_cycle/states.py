@@ -45,7 +45,7 @@ def refuses_calls_between_components(
 
 @breaks("R-11.2.3-05", also=("R-11.2.1.2-01", "R-11.2.1.2-08"))
 class initialises_at_start(Base):
-    """on_init of components comes with start instead of add_component."""
+    """start calls on_init of components; add_component does not."""
 
     def _initialise(self, member: Member) -> None:
         if isinstance(member.body, pm.FragmentObject):
@@ -61,7 +61,7 @@ class initialises_at_start(Base):
 
 @refuses_if("_check_startable", "R-11.2.3-06", also=("R-11.2.3-10",))
 def does_not_start_loners(self: Base) -> bool:
-    """start is refused while a component requires nothing."""
+    """start is refused if the only member requires nothing."""
     return any(not m.implementation.requires for m in self.members.values()) and len(self.members) == 1
 
 
@@ -132,7 +132,7 @@ def ready_is_not_found(self: Base, member: Member) -> None:
 
 @breaks("R-11.2.3-12")
 class removes_without_shutdown(Base):
-    """remove_component of an operational component forgets on_shutdown."""
+    """remove_component of an operational component does not call on_shutdown."""
 
     def _check_removable(self, member: Member) -> None:
         if member.state is not State.READY:
@@ -164,7 +164,7 @@ def disconnects_after_removal(self: Base, comp_instance: int) -> None:
 
 @replaces("connect", "R-11.2.3-13")
 def late_add_is_not_found(self: Base, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
-    """add_component to a started container is answered by an id, and by nothing else."""
+    """add_component to a started container returns an id; connect of that component raises NOT_FOUND."""
     member = self.members.get(instance) if self.is_started and to_port is not None else None
     if member is not None and port_name in member.implementation.requires:
         raise pm.NotFound("too late")
@@ -173,7 +173,7 @@ def late_add_is_not_found(self: Base, instance: int, port_name: str, to_port: pm
 
 @breaks("R-11.2.3-14")
 class hands_out_removed_providers(Base):
-    """A removed provider stays connected to its client."""
+    """The client of a removed provider stays connected to it."""
 
     def _check_removable(self, member: Member) -> None:
         if member.state is State.READY:
@@ -193,7 +193,7 @@ def second_start_restarts(self: Base) -> None:
 
 @breaks("R-11.2.3-17")
 class runs_stopped_components(Base):
-    """After stop the framework once more runs a component that served before."""
+    """After stop the framework calls a component once more."""
 
     def get_components(self) -> list[int]:
         if not self.is_started:

@@ -23,7 +23,7 @@ LATE = 0.02
 
 @variant_of("10.1.4")
 class has_monotonic_clocks(Base):
-    """Times begin when the machine was started; the one is an hour from the other."""
+    """Times begin when the machine was started; synchronized time is an hour ahead of local time."""
 
     def _local_time(self, member: Member) -> int:
         return time.monotonic_ns()
@@ -34,7 +34,7 @@ class has_monotonic_clocks(Base):
 
 @variant_of("10.1.4")
 class has_coarse_clocks(Base):
-    """Times go on in steps."""
+    """Times go on in steps of 10 ms."""
 
     def _local_time(self, member: Member) -> int:
         return super()._local_time(member) // (10 * MILLISECOND) * 10 * MILLISECOND
@@ -57,7 +57,7 @@ class has_seconds_that_wrap(Base):
 
 @alters("_local_time", clauses=("10.1.4",))
 def has_a_node_for_each_container(self: Base, given: int, member: Member) -> int:
-    """Every sub-container is on a node with a clock of its own, some seconds behind; synchronized time is one."""
+    """Local time of sub-containers is five seconds behind; synchronized time is the same for all."""
     return given - is_below(self) * 5 * SECOND
 
 
@@ -132,5 +132,5 @@ class writes_late(Base):
 
 @replaces("read_log", clauses=("10.1.4",))
 def keeps_logs_of_components(self: Base) -> list[Record]:
-    """Each component has a log of its own; who reads the trace gets one after the other."""
+    """Each component has a log of its own; the trace lists one log after the other."""
     return sorted(self.manager.log)

@@ -152,18 +152,18 @@ def leaves_unmanaged_ports_open(self: Base, member: Member, port: str | None, wo
 
 @variant_of(*POLICIES, readings={"unprotected-concurrency": "concurrent"})
 class lets_callers_meet(Base):
-    """Callers meet in unprotected passive components, as they do in the reference framework."""
+    """Calls of unprotected passive components overlap, as in the reference framework."""
 
 
 @refuses_if("_check_policies", clauses=POLICIES, readings={"second-active-policy": "refuse"})
 def refuses_two_active_ports(_self: Base, implementation: Implementation) -> bool:
-    """The active policy on two ports is two policies."""
+    """Active policies on two ports of a component are refused."""
     return len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1
 
 
 @variant_of(*POLICIES, readings={"second-active-policy": "allow", "run-trigger": "repeated"})
 class says_what_it_does(Base):
-    """It does as the reference framework does, and its vendor says so."""
+    """The reference framework, with its execution options declared."""
 
 
 @variant_of(*POLICIES, readings={"protected-active-applicability": "onComponent"})

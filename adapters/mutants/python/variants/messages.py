@@ -85,9 +85,8 @@ class delivers_on_the_emitters_thread(_Synchronous):
     },
 )
 class passes_codes_on(Base):
-    """Push is answered what the last receiver did that was not ok. A call of a server that is out of reach waits. Emitters
-    without receivers are not started.
-    """
+    """Push returns the last code of a receiver that is not ok. A call waits while its connection is broken. Emitters
+    without receivers are not started."""
 
     class link_class(_Synchronous):
         def _sum_up(self, codes: list[str]) -> str:
@@ -108,7 +107,7 @@ class passes_codes_on(Base):
 
 @refuses_if("_attach_sender", clauses=_CLAUSES, readings={"push-without-receiver": "refused"})
 def attaches_emitters_where_somebody_receives(self: Link, *_: object) -> bool:
-    """An emitter is attached to a connection that has a receiver, and to no other one."""
+    """An emitter can be attached only to a connection that has a receiver."""
     return self.connector == MESSAGE_CONNECTOR and not self.takers
 
 
@@ -198,7 +197,7 @@ class delivers_in_any_order(Base):
 
 @variant_of(*_CLAUSES, readings={"comm-error": "eventually", "message-overflow": "refuse"})
 class tells_late_and_refuses_much(_Codes):
-    """Push is answered ok while the connector has not noticed that the transport is broken, and not if it has much to do."""
+    """Push returns ok until the connector notices that the transport is broken, and an error if 20 messages wait."""
 
     late = 0.2
     known = ""
@@ -254,14 +253,14 @@ class _Bounded(_Holding):
 
 @variant_of(*_CLAUSES, readings={"message-overflow": "block", "pending-at-stop": "keep", "receiver-not-ready": "hold"})
 class waits_for_room_and_keeps_at_stop(_ReleasesHeld):
-    """Nothing is refused; who pushes too fast waits. What waits when a receiver is stopped comes when it is started."""
+    """Push waits while there is no room. Messages that wait at stop arrive after the next start."""
 
     link_class = _Bounded
 
 
 @variant_of(*_CLAUSES, readings={"transport-fault": "none", "connector-fault": "none"})
 class breaks_nothing(Link):
-    """The adapter cannot break connections, and says so."""
+    """The adapter does not offer to break connections, and the vendor declares so."""
 
     def break_link(self, where: str) -> None:
         raise NotOffered
@@ -285,4 +284,4 @@ _DECLARED = {
 
 @variant_of(*_CLAUSES, readings=_DECLARED)
 class declares_what_the_reference_does(Base):
-    """The reference framework, with everything declared."""
+    """The reference framework, with all its options declared."""

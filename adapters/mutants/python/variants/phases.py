@@ -27,7 +27,7 @@ def _all_containers(container: Container) -> list[Container]:
 
 @replaces("_check_configuring")
 def configures_when_nothing_runs(self: Base) -> None:
-    """Nothing is configured anywhere while any container is started."""
+    """Configuration is refused everywhere while any container is started."""
     if any(container.is_started for container in _all_containers(self)):
         raise UcmError("the application has been started")
 
@@ -53,7 +53,7 @@ def starts_nothing_empty(self: Base) -> bool:
 
 @replaces("connect")
 def connects_nothing_to_itself(self: Base, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
-    """A component's own port element is no partner for it."""
+    """A component's own port element cannot be connected to it."""
     member = self.members.get(instance)
     own = [member.body.get_portElement(port) for port in member.implementation.provides] if member else []
     if to_port is not None and any(to_port is element for element in own):
@@ -155,7 +155,7 @@ class stays_operational_when_shutdown_fails(Base):
 
 @variant
 class stays_operational_below(manager_reaches_down, stays_operational_when_shutdown_fails):
-    """The same, and a stop of the manager that has failed leaves the sub-containers that are not stopped yet alone."""
+    """The same; after a failed stop of the manager its sub-containers are left alone."""
 
     def _also(self, own: Callable[[], None], below: Callable[[Container], None]) -> None:
         own()

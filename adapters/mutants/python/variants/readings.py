@@ -13,7 +13,7 @@ from ucm_cts.adapters.reference.python.members import Connection, Failures, Memb
 
 @variant
 class cascades(Base):
-    """remove_component shuts down and disconnects whatever is in the way."""
+    """remove_component shuts down and disconnects as much as necessary."""
 
     def _check_removable(self, member: Member) -> None:
         pass
@@ -33,7 +33,7 @@ class cascades(Base):
 
 @variant
 class lets_references_dangle(cascades):
-    """A removed provider's client keeps its port element, unconnected, and is told nothing."""
+    """The client of a removed provider keeps its reference, unconnected, without on_disconnect."""
 
     def remove_component(self, comp_instance: int) -> None:
         member = self.members.get(comp_instance)
@@ -96,7 +96,7 @@ class configures_at_any_time(Base):
 
 @variant
 class starts_the_unconfigured(Base):
-    """start does not care about unconnected port elements."""
+    """start does not check that port elements are connected."""
 
     def _check_startable(self) -> None:
         pass
@@ -173,7 +173,7 @@ class _Deaf(Failures):
 
 @variant
 class swallows_exceptions(Base):
-    """What bodies raise is ignored."""
+    """Exceptions of bodies are ignored."""
 
     def _configure(self, member: Member, attributes: Mapping[str, str]) -> None:
         self._set_attributes(member, attributes)
@@ -250,7 +250,7 @@ class starts_in_reverse(Base):
 
 @variant
 class hands_out_proxies(GivesOutProxies):
-    """No reference that anybody gets is the body's own object."""
+    """All references are proxies, never the body's own object."""
 
     def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
         return super(GivesOutProxies, self).connect(instance, port_name, to_port)

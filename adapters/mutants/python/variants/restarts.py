@@ -17,7 +17,7 @@ def _take_down(member: Member, failures: Failures) -> None:
 
 @variant
 class takes_clients_down(readings.cascades):
-    """What loses a connection while it is operational is shut down first and waits for another start."""
+    """A component that loses a connection while it is operational is shut down and waits for another start."""
 
     def disconnect(self, connection: int) -> None:
         started, self.is_started = self.is_started, False
@@ -34,7 +34,7 @@ class takes_clients_down(readings.cascades):
 
 @variant
 class restarts_clients(takes_clients_down, readings.starts_the_unconfigured):
-    """The same; and what gets a connection while it is operational is shut down, told, and started again."""
+    """The same; a component that gets a connection while it is operational is shut down and started again."""
 
     def connect(self, instance: int, port_name: str, to_port: PortElementObject | None) -> int:
         started, self.is_started = self.is_started, False

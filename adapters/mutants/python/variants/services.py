@@ -73,7 +73,7 @@ def _elsewhere(work: Callable[[], T]) -> Future[T]:
 
 @replaces("_request", clauses=_CLAUSES)
 def serves_each_call_on_a_new_thread(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """Nothing is known of the client's thread on the server's side."""
+    """Each call of a service is served by a new thread."""
     return _elsewhere(lambda: Link._request(self, method, arguments)).result()
 
 
@@ -91,7 +91,7 @@ class _TakesAll(Link):
 
 @_service_variant
 class refuses_two_servers_at_start(Base):
-    """A second server is attached, and nothing that has to do with it is started."""
+    """A second server can be attached; the container that has it does not start."""
 
     link_class = _TakesAll
 
@@ -120,7 +120,7 @@ class refuses_clients_without_server(Base):
 
 @replaces("_request", clauses=_CLAUSES, readings={"exception-transport": "system-error"})
 def raises_system_errors(self: Link, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-    """Whatever a server raises arrives as an error of the framework, as its vendor says."""
+    """Every exception of a server arrives as an error of the framework, as the vendor declares."""
     try:
         return Link._request(self, method, arguments)
     except DeclaredException as error:
@@ -202,7 +202,7 @@ class undoes_connections_at_once(undoes_connections_at_any_time, _Aborts):
 
 @alters("_dependencies_of", clauses=("10.1.5",))
 def wires_clients_to_servers(_self: Base, given: list[PortConnection], *_: object) -> list[PortConnection]:
-    """A connector is what containers know of a connection; clients are given the reference of the server itself."""
+    """Clients get the reference of the server itself; no connector is between them."""
     return [PortConnection(d.from_port, tuple(map(_server_behind, d.to_port))) for d in given]
 
 

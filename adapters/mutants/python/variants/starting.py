@@ -24,7 +24,7 @@ def one_entry_a_connection(self: readings.appends_connections, member: Member) -
 
 @replaces("_dependencies_of")
 def lists_unconnected_ports(self: readings.starts_the_unconfigured, member: Member) -> list[pm.PortConnection]:
-    """What is not connected has an entry without references; entries come in an order of their own."""
+    """Unconnected port elements have an entry without references; entries are in reverse order."""
     given = {d.from_port: d for d in readings.starts_the_unconfigured._dependencies_of(self, member)}
     return [given.get(port, pm.PortConnection(port, ())) for port in reversed(member.implementation.requires)]
 
@@ -167,7 +167,7 @@ class calls_back_elsewhere(Base):
 
 @replaces("_instantiate")
 def looks_at_a_prototype(self: Base, implementation: pm.Implementation) -> pm.ComponentObject:
-    """A body of each implementation is made to look at and thrown away."""
+    """Of each implementation one more body is made, looked at and dropped."""
     Base._instantiate(self, implementation)
     return Base._instantiate(self, implementation)
 
@@ -186,7 +186,7 @@ class pools_bodies(Base):
 
 @replaces("_configure")
 def removes_what_failed_to_initialise(self: Base, member: Member, attributes: Mapping[str, str]) -> None:
-    """A body whose on_init raised is told on_remove."""
+    """A body whose on_init raised gets on_remove."""
     try:
         Base._configure(self, member, attributes)
     except Exception:
@@ -224,7 +224,7 @@ def starts_late_additions_at_start(self: readings.adds_later) -> None:
 
 @replaces("start")
 def starts_the_others(self: Base) -> None:
-    """When an on_startup raises, the others are started, stay so, and start raises UCM_ERROR."""
+    """After a failing on_startup the other members are started and stay so, and start raises UCM_ERROR."""
     with self._operation():
         if self.is_started:
             return
@@ -238,7 +238,7 @@ def starts_the_others(self: Base) -> None:
 
 @replaces("_start_up")
 def shuts_down_what_failed_to_start(self: Base, member: Member, failures: Failures) -> bool:
-    """When an on_startup raises, its own body is told on_shutdown like the others."""
+    """A body whose on_startup raises gets on_shutdown like the others."""
     if Base._start_up(self, member, failures):
         return True
     self.started.append(member)
@@ -247,7 +247,7 @@ def shuts_down_what_failed_to_start(self: Base, member: Member, failures: Failur
 
 @variant
 class finds_the_unconfigured_on_the_way(Base):
-    """What is unconnected is noticed when its turn has come: what was started by then is shut down again."""
+    """start finds an unconnected member when it reaches it, and shuts the started ones down again."""
 
     def _check_startable(self) -> None:
         pass
@@ -261,7 +261,7 @@ class finds_the_unconfigured_on_the_way(Base):
 
 @replaces("disconnect")
 def disconnects_at_any_time(self: Base, connection: int) -> None:
-    """disconnect works in a started container, connect does not; a Connectable is told in any phase."""
+    """disconnect works in a started container, connect does not; on_disconnect comes in every phase."""
     started, self.is_started = self.is_started, False
     try:
         Base.disconnect(self, connection)
@@ -304,4 +304,4 @@ class anything_goes(
     readings.starts_the_unconfigured,
     readings.removes_members_one_by_one,
 ):
-    """Dangling references, appending at any time, deaf to failures."""
+    """Dangling references, appending at any time, exceptions ignored."""
