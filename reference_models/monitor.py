@@ -207,7 +207,7 @@ class _TraceReader:
 
     def create(self, event: t.Create) -> None:
         if self.ongoing is not None:
-            self.ongoing.created.append((event.component, event.instance))
+            self.ongoing.created.append(event.body)
 
     def enter(self, event: t.Enter) -> None:
         thread = self.threads.get(event.thread) or self.thread(event.thread)
@@ -216,7 +216,7 @@ class _TraceReader:
         if hook in _BUSINESS:
             self.enter_business(thread, event)
             return
-        body = event.component, event.instance
+        body = event.body
         history = self.histories[body]
         ongoing, runtime = self.ongoing, self.runtime
         member = runtime.bodies.get(body)
@@ -263,7 +263,7 @@ class _TraceReader:
         else:
             call = None
         thread.served.append(call)
-        thread.inside.append((event.component, event.instance))
+        thread.inside.append(event.body)
         self.check("began", self.executions.begin(event, call))
         if hook == "run":
             return
@@ -273,7 +273,7 @@ class _TraceReader:
             self.check("delivered", delivery)
         else:
             self.evaluate(self.table.called[call.by if call is not None else "nobody"], self.ongoing, event, call)
-        member = self.runtime.member_of(event.component, event.instance)
+        member = self.runtime.bodies.get(event.body)
         if member is not None and member.operational:
             member.served = True
 
@@ -283,8 +283,8 @@ class _TraceReader:
         if thread.hooks:
             thread.hooks.pop()
         if hook == "on_startup":
-            self.runtime.starting.add((event.component, event.instance))
-            self.runtime.starting_up.pop((event.component, event.instance), None)
+            self.runtime.starting.add(event.body)
+            self.runtime.starting_up.pop(event.body, None)
         if hook not in _BUSINESS or not thread.served:
             return
         thread.inside.pop()

@@ -127,6 +127,11 @@ class BodyEvent(EventBase, frozen=True):
     component: str
     instance: Int64
 
+    @property
+    def body(self) -> tuple[str, int]:
+        """The body: its component and instance."""
+        return self.component, self.instance
+
 
 class Create(BodyEvent, frozen=True, tag="create"):
     """The framework instantiated the body."""
@@ -171,6 +176,11 @@ class Exit(BodyEvent, frozen=True, tag="exit"):
     results: tuple[Datum, ...] | None = None
     exception: str | None = None
 
+    @property
+    def failed(self) -> bool:
+        """Did it end with an exception, declared or not?"""
+        return self.raised or self.exception is not None
+
 
 class Request(BodyEvent, frozen=True, tag="request"):
     """The body is about to call ``exchange`` or a method.
@@ -202,6 +212,11 @@ class Reply(BodyEvent, frozen=True, tag="reply"):
     raised: bool = False
     results: tuple[Datum, ...] | None = None
     exception: str | None = None
+
+    @property
+    def failed(self) -> bool:
+        """Did it end with an exception, declared or not?"""
+        return self.raised or self.exception is not None
 
 
 class Pushed(BodyEvent, frozen=True, tag="pushed"):

@@ -46,7 +46,7 @@ class ClockReading:
     @property
     def body(self) -> tuple[str, int]:
         """Who read the clock."""
-        return self.call.request.component, self.call.request.instance
+        return self.call.request.body
 
     @property
     def container(self) -> Container | None:
@@ -70,7 +70,7 @@ def clock_call(call: MethodCall, components: dict[str, Declaration]) -> str:
 def time_told(call: MethodCall) -> tuple[int, int] | None:
     """The seconds and microseconds that a call of the clock gave; None if it gave no time."""
     reply = call.reply
-    if reply is None or reply.raised or reply.exception is not None or not reply.results:
+    if reply is None or reply.failed or not reply.results:
         return None
     value = reply.results[0]
     if len(reply.results) != 1 or not isinstance(value, list | tuple) or len(value) != 2:

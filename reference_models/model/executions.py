@@ -95,7 +95,7 @@ class BusinessCall:
             self.possible = self.callee is not None and self.callee.serving
         elif request is not None:
             self.possible = True
-            self.behind = behind(runtime, request.component, request.instance, request.port)
+            self.behind = behind(runtime, request.body, request.port)
             self.behind_since = runtime.changes
             for provider in self.behind.providers:
                 if provider.closing or provider.suspended or not provider.operational:
@@ -113,7 +113,7 @@ class BusinessCall:
         """The innermost entry of that body came to its end."""
         for index in range(len(self.entries) - 1, -1, -1):
             enter, exit_ = self.entries[index]
-            if exit_ is None and (enter.component, enter.instance) == (end.component, end.instance):
+            if exit_ is None and enter.body == end.body:
                 self.entries[index] = (enter, end)
                 return
 
@@ -183,10 +183,10 @@ class Executions:
 
     def begin(self, enter: Enter, call: BusinessCall | None) -> Execution:
         """A body is entered."""
-        inside = self._inside.setdefault((enter.component, enter.instance), [])
+        inside = self._inside.setdefault(enter.body, [])
         execution = Execution(enter, call)
         if enter.hook == "run":
-            runs = self._runs.setdefault((enter.component, enter.instance), [])
+            runs = self._runs.setdefault(enter.body, [])
             execution.earlier = runs.copy()
             runs.append(execution)
         callers = {id(caller) for caller in call.callers()} if call is not None else set()
@@ -203,29 +203,29 @@ class Executions:
 
     def end(self, exit_: Exit) -> Execution | None:
         """A body is left."""
-        inside = self._inside.get((exit_.component, exit_.instance), [])
+        inside = self._inside.get(exit_.body, [])
         for execution in reversed(inside):
             if execution.enter.thread == exit_.thread and execution.enter.hook == exit_.hook:
                 inside.remove(execution)
                 execution.over = True
                 execution.left, execution.end = exit_.t, exit_.n
-                self._past.setdefault((exit_.component, exit_.instance), []).append(execution)
+                self._past.setdefault(exit_.body, []).append(execution)
                 return execution
         return None
 
-    def runs_since_start(self, component: str, instance: int) -> list[Execution]:
+    def runs_since_start(self, body: tuple[str, int]) -> list[Execution]:
         """The body's executions by ``run`` since its last on_startup, over or not, in the order in which they began."""
-        started = self._runtime.startups.get((component, instance))
-        runs = self._runs.get((component, instance), ())
+        started = self._runtime.startups.get(body)
+        runs = self._runs.get(body, ())
         return [run for run in runs if started is not None and run.enter.n > started[0]]
 
-    def past(self, component: str, instance: int) -> tuple[Execution, ...]:
+    def past(self, body: tuple[str, int]) -> tuple[Execution, ...]:
         """What a body has executed, in the order in which it ended."""
-        return tuple(self._past.get((component, instance), ()))
+        return tuple(self._past.get(body, ()))
 
     def hold(self, event: Held) -> None:
         """An execution is held at a gate."""
-        for execution in self._inside.get((event.component, event.instance), ()):
+        for execution in self._inside.get(event.body, ()):
             if execution.enter.thread == event.thread and event.gate not in self._opened:
                 execution.gate = event.gate
 
@@ -243,7 +243,7 @@ class Executions:
             return
         for call in (c for c in self._pending if c.worker == event.worker):
             for member, _ in goals_of(self._runtime, call):
-                for execution in self._inside.get((member.component, member.instance or 0), ()):
+                for execution in self._inside.get(member.body, ()):
                     if execution.gate is not None and call not in execution.waited:
                         execution.waited.append(call)
                         call.waited = True
@@ -318,8 +318,8 @@ def goals_of(runtime: Runtime, call: BusinessCall) -> list[tuple[Member, str]]:
     """Whose provided port elements a call is meant for; empty if that is not known."""
     if call.request is None:
         return [(call.callee, call.port)] if call.callee is not None and call.port is not None else []
-    caller = runtime.member_of(call.request.component, call.request.instance)
-    if caller is None or not behind(runtime, caller.component, call.request.instance, call.request.port).providers:
+    caller = runtime.bodies.get(call.request.body)
+    if caller is None or not behind(runtime, call.request.body, call.request.port).providers:
         return []
     connections = connections_behind(caller, call.request.port)
     return [(c.provider, c.provided) for c in connections if c.provider is not None]
@@ -332,20 +332,18 @@ def behind_call(runtime: Runtime, call: BusinessCall, request: Request) -> Behin
     """What is now behind the port element that a body called through."""
     if call.behind is not None and call.behind_since == runtime.changes:
         return call.behind
-    return behind(runtime, request.component, request.instance, request.port)
+    return behind(runtime, request.body, request.port)
 
 
-def behind(runtime: Runtime, component: str, instance: int, port: str) -> Behind:
-    """What is behind required port element ``port`` of a body."""
-    place = component, instance, port
-    known = runtime.behind.get(place)
+def behind(runtime: Runtime, body: tuple[str, int], port: str) -> Behind:
+    """What is behind required port element ``port`` of ``body``."""
+    known = runtime.behind.get((body, port))
     if known is None:
-        known = runtime.behind[place] = _look_behind(runtime, component, instance, port)
+        known = runtime.behind[body, port] = _found_behind(runtime.bodies.get(body), port)
     return known
 
 
-def _look_behind(runtime: Runtime, component: str, instance: int, port: str) -> Behind:
-    caller = runtime.member_of(component, instance)
+def _found_behind(caller: Member | None, port: str) -> Behind:
     if caller is None or caller.suspended or caller.handed_over is None:
         return _NOTHING_KNOWN
     connections = connections_behind(caller, port)

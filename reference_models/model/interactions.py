@@ -144,7 +144,7 @@ class Interactions:
 
     def request(self, event: t.Request, business: BusinessCall) -> None:
         """A body calls a method."""
-        caller = self._runtime.member_of(event.component, event.instance)
+        caller = self._runtime.bodies.get(event.body)
         ready = caller is not None and caller.serving
         call = MethodCall(event, business, caller, self._link_of(caller, event.port, SENDERS), ready)
         if call.link is not None:
@@ -168,7 +168,7 @@ class Interactions:
 
     def enter(self, event: t.Enter) -> Delivery | None:
         """A body is entered at a method."""
-        receiver = self._runtime.member_of(event.component, event.instance)
+        receiver = self._runtime.bodies.get(event.body)
         link = self._link_of(receiver, event.port or "", TAKERS)
         call, fit = self._call_behind(event, receiver, link)
         delivery = Delivery(event, receiver, link, call, fit)
@@ -186,7 +186,7 @@ class Interactions:
 
     def push(self, event: t.Pushed) -> None:
         """A body has pushed a burst."""
-        caller = self._runtime.member_of(event.component, event.instance)
+        caller = self._runtime.bodies.get(event.body)
         link = self._link_of(caller, event.port, SENDERS)
         ends = link.live("receiver") if link is not None else []
         self.bursts.append(PushedBurst(event, link, [end.member for end in ends if end.member.serving]))
@@ -232,7 +232,7 @@ class Interactions:
         senders = call.link.live(*SENDERS) if call.link is not None else []
         own = [end for end in senders if end.member is call.caller and end.port == call.request.port]
         ends = [*own, *(end for end, _ in call.targets)]
-        begun = [self._runtime.startups.get((end.member.component, end.member.instance or 0)) for end in ends]
+        begun = [self._runtime.startups.get(end.member.body) for end in ends]
         return bool(own) and all(b is not None and b[0] > end.since for b in begun for end in ends)
 
     def _look_around(self, call: MethodCall) -> None:
@@ -288,7 +288,7 @@ class Interactions:
 
     def _doubt(self, call: MethodCall, receiver: Member | None) -> tuple[bool, bool, bool]:
         """What speaks against a message's delivery: a phase that is over, a broken link, another code than ok."""
-        body = (receiver.component, receiver.instance or 0) if receiver is not None else ("", 0)
+        body = receiver.body if receiver is not None else ("", 0)
         since = self._runtime.startups.get(body, (0, 0))[0]
         refused = call.reply is not None and call.code != "ok"
         return call.request.n < since, bool(call.broken), refused
@@ -352,7 +352,7 @@ def _may_be_mixed_up(call: MethodCall, event: t.Enter, is_message: bool) -> bool
 
 def _is_idle(runtime: Runtime, member: Member) -> bool:
     """Is it certain that it is not operational, and not being started?"""
-    being_started = (member.component, member.instance or 0) in runtime.startups and not member.closing
+    being_started = member.body in runtime.startups and not member.closing
     return member.container.started is False and not (member.operational or member.suspended or being_started)
 
 

@@ -200,7 +200,7 @@ def _messages(
         if request.port not in elements or len(arguments) != 2 or request.n > reading.end.n:
             continue
         severity, text = (str(argument) for argument in arguments)
-        over = reply is not None and reply.n < reading.begin.n and not reply.raised and reply.exception is None
+        over = reply is not None and reply.n < reading.begin.n and not reply.failed
         known = over and threshold.knows(severity)
         records = threshold.records(severity)
         yield Message(call, severity, text, known and records, known and not records)
@@ -297,11 +297,11 @@ def _ends(
         request, reply = call.request, call.reply
         declaration = components.get(request.component)
         if declaration is not None and request.port in declaration.requires and request.method is not None:
-            over = reply is not None and not reply.raised and reply.exception is None
+            over = reply is not None and not reply.failed
             yield request.component, request.port, request.method, request.n, reply.n if over and reply else None
     for delivery in interactions.deliveries:
         enter, end = delivery.enter, delivery.exit
-        over = end is not None and not end.raised and end.exception is None
+        over = end is not None and not end.failed
         yield enter.component, enter.port or "", enter.method or "", enter.n, end.n if over and end else None
     yield from _on_the_way(interactions, components)
 

@@ -149,5 +149,5 @@ def events_of(call: MethodCall, *further: int) -> tuple[int, ...]:
 
 def _restarted(runtime: ObservedRuntime, call: MethodCall, receiver: Member | None) -> bool:
     """Has the receiver's last on_startup begun after the message was pushed?"""
-    body = (receiver.component, receiver.instance or 0) if receiver is not None else ("", 0)
+    body = receiver.body if receiver is not None else ("", 0)
     return runtime.startups.get(body, (0, 0))[0] > call.request.n

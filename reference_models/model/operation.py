@@ -145,14 +145,14 @@ class OperationInProgress:
         """A body was entered while the operation was in progress."""
         self.callbacks.append(callback)
         self.hooks.add(callback.hook)
-        body = callback.component, callback.instance
+        body = callback.body
         self.by_body.setdefault(body, []).append(callback)
 
     def received(self, member: Member, hook: Hook) -> list[Enter]:
         """The ``hook`` callbacks that the body of ``member`` received meanwhile."""
         if hook not in self.hooks:
             return []
-        return [c for c in self.by_body.get((member.component, member.instance), ()) if c.hook == hook]
+        return [c for c in self.by_body.get(member.body, ()) if c.hook == hook]
 
 
 Ongoing = OperationInProgress | None

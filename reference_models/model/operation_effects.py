@@ -46,7 +46,7 @@ def _linger(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None
 def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent, end: Result) -> None:
     value = end.value if isinstance(end, Return) else None
     declaration = runtime.scenario.components.get(step.component)
-    seen = [*((c.component, c.instance) for c in ongoing.callbacks), *ongoing.created]
+    seen = [*(c.body for c in ongoing.callbacks), *ongoing.created]
     bodies = [body for body in seen if body not in runtime.bodies]
     own = [b for b in bodies if b[0] == step.component]
     if not isinstance(value, int) or isinstance(value, bool):
@@ -103,7 +103,7 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
         return
     reference, provider = runtime.reference(step.to)
     if isinstance(end, Raise):
-        if (member.component, member.instance) in ongoing.by_body:  # it began: nobody knows what stands
+        if member.body in ongoing.by_body:  # it began: nobody knows what stands
             member.suspended = True
             for earlier in member.live_connections(step.port):
                 earlier.live = None
@@ -158,7 +158,7 @@ def _disconnected(runtime: Runtime, ongoing: OperationInProgress, step: s.Discon
     if isinstance(end, Raise):
         if connection.live is None and end.error == "NOT_FOUND":
             connection.live = False
-        elif (connection.client.component, connection.client.instance) in ongoing.by_body:
+        elif connection.client.body in ongoing.by_body:
             connection.live = None
             connection.client.suspended = True
         return
@@ -268,8 +268,8 @@ def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end:
             _resolve(member, callback)
         unclear = member.lingering or member.doubtful or member.instance is None
         member.suspended = unclear or member.raises("on_startup")
-    order = {(c.component, c.instance): n for n, c in enumerate(ongoing.callbacks) if c.hook == "on_startup"}
-    for member in sorted(reached, key=lambda m: order[(m.component, m.instance or 0)]):
+    order = {c.body: n for n, c in enumerate(ongoing.callbacks) if c.hook == "on_startup"}
+    for member in sorted(reached, key=lambda m: order[m.body]):
         member.operational = True
         member.startups += 1
         if member not in member.container.startup_order:
@@ -344,7 +344,7 @@ def _in_doubt(member: Member) -> bool:
 
 def _follow(ongoing: OperationInProgress, member: Member) -> None:
     """An instance that is not judged goes where its callbacks say."""
-    for callback in ongoing.by_body.get((member.component, member.instance), ()):
+    for callback in ongoing.by_body.get(member.body, ()):
         if callback.hook == "on_startup":
             member.operational = True
         elif callback.hook == "on_shutdown":

@@ -50,7 +50,7 @@ def _compare_answer(ongoing: op.OperationInProgress, outcome: op.OperationEnd, e
 
 
 def _compare_body(runtime: Runtime, ongoing: op.OperationInProgress, outcome: op.OperationEnd, component: str) -> None:
-    new = [c for c in ongoing.callbacks if c.hook == "on_init" and (c.component, c.instance) not in runtime.bodies]
+    new = [c for c in ongoing.callbacks if c.hook == "on_init" and c.body not in runtime.bodies]
     if new:
         outcome.initialised = new
         instances = {c.instance for c in new if c.component == component}
@@ -70,7 +70,7 @@ def _find_intrusions(
     strangers = [(c, i) for c, i in ongoing.by_body if id(runtime.bodies.get((c, i or 0))) not in concerned]
     if not strangers and len(runtime.containers) == 1:
         return
-    called = {(c.component, c.instance) for c in ongoing.callbacks if c.hook in LIFE_CYCLE_HOOKS}
+    called = {c.body for c in ongoing.callbacks if c.hook in LIFE_CYCLE_HOOKS}
     removes = ongoing.operation in ("remove_component", "remove_container")
     for member in runtime.present:
         if id(member) in concerned or member.gone or member.suspended:
@@ -78,7 +78,7 @@ def _find_intrusions(
         if removes and any(c.live is None for c in member.connections):
             continue
         elsewhere = member.container is not ongoing.container
-        if (member.component, member.instance) not in called:
+        if member.body not in called:
             if elsewhere:
                 outcome.others_undisturbed = True
                 outcome.is_plain = outcome.is_plain and ongoing.operation not in ("start", "stop", "remove_container")

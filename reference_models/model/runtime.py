@@ -117,6 +117,11 @@ class Member:
         return self.operational and not self.closing and not self.suspended
 
     @property
+    def body(self) -> tuple[str, int]:
+        """Its component, and the number of its instance; 0 if that is not known."""
+        return self.component, self.instance or 0
+
+    @property
     def lane(self) -> str:
         """The instance's name in findings and diagrams."""
         return lane(self.component, self.instance or 1)
@@ -239,7 +244,7 @@ class Runtime:
         self.ports: dict[str, str] = {}
         self.destroyed = False
         self.changes = 0
-        self.behind: dict[tuple[str, int, str], Behind] = {}
+        self.behind: dict[tuple[tuple[str, int], str], Behind] = {}
 
     def changed(self) -> None:
         """What is behind the port elements of instances may have changed."""
@@ -255,7 +260,7 @@ class Runtime:
         self.present.append(member)
         self.with_policies = self.with_policies or bool(member.declaration.policies)
         if member.instance is not None:
-            self.bodies[(member.component, member.instance)] = member
+            self.bodies[member.body] = member
 
     def let_go(self, member: Member) -> None:
         """An instance has been removed: it may be called, but its connections are nobody's matter unless they are unclear."""
@@ -263,23 +268,19 @@ class Runtime:
         if member in self.present and not any(c.live is not False or c.ambiguous for c in member.connections):
             self.present.remove(member)
 
-    def member_of(self, component: str, instance: int) -> Member | None:
-        """The instance whose body this is, if an ``add_component`` has returned for it."""
-        return self.bodies.get((component, instance))
-
     def provider_of(self, reference: MaybeReference) -> Member | None:
         """The instance that a recognised reference belongs to."""
         return self.bodies.get((reference.component, reference.instance)) if isinstance(reference, Reference) else None
 
     def started_before(self, one: Member, other: Member) -> bool:
         """Was the one started before the other, and for certain? Threads may start two of them at a time."""
-        first = self.startups.get((one.component, one.instance or 0))
-        second = self.startups.get((other.component, other.instance or 0))
+        first = self.startups.get(one.body)
+        second = self.startups.get(other.body)
         return first is not None and second is not None and first[1] == second[1] and first[0] < second[0]
 
     def may_run(self, member: Member) -> bool:
         """Has its last on_startup returned, and the stop that follows not?"""
-        return member.operational or (member.component, member.instance or 0) in self.starting
+        return member.operational or member.body in self.starting
 
     def find_member(self, container: Container, variable: str) -> tuple[Member | None, str]:
         """The live instance that the id in ``variable`` designates in ``container``, else None and why.

@@ -73,8 +73,8 @@ def _serves_several(runtime: ObservedRuntime, member: Member | None, port: str |
 
 def _comes_back(call: MethodCall, server: Member) -> bool:
     """Is the server among those who wait for this call?"""
-    body = server.component, server.instance
-    return any((one.enter.component, one.enter.instance) == body for one in call.business.callers())
+    body = server.body
+    return any(one.enter.body == body for one in call.business.callers())
 
 
 def is_nested(one: ServiceCall) -> bool:
@@ -178,8 +178,8 @@ def trouble_with(runtime: ObservedRuntime, one: ServiceCall) -> Trouble:
 
 
 def _answered(left: Exit, reply: Reply) -> Trouble:
-    normally = not reply.raised and reply.exception is None
-    if left.raised or left.exception is not None:
+    normally = not reply.failed
+    if left.failed:
         same = left.raised or (left.exception, left.results) == (reply.exception, reply.results)
         return "swallowed" if normally else "" if same else "translated"
     if not normally:

@@ -25,7 +25,7 @@ def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
     if not call.is_message or call.reply is None or call.caller is None or not call.caller.serving:
         return ()
     results = list(call.reply.results or ())
-    if not call.reply.raised and call.reply.exception is None and len(results) == 1 and results[0] in msg.CODES:
+    if not call.reply.failed and len(results) == 1 and results[0] in msg.CODES:
         return check.kept()
     return _violate(check, call, f"is answered {' or '.join(msg.CODES)}", "unknown")
 
@@ -179,7 +179,7 @@ def failure_noticed(check: Property, runtime: ObservedRuntime, call: MethodCall)
 def _failed_request(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
     reply = call.reply
     assert reply is not None
-    if reply.raised or reply.exception is not None:
+    if reply.failed:
         taken, reading = (yield from takes(runtime, "service-failure", "raise")), "raise"
     elif any(d.exit is not None and d.exit.results == reply.results for d in call.deliveries):
         taken, reading = _is_still_broken(call) or (yield from takes(runtime, "service-failure", "wait")), "wait"
@@ -287,6 +287,6 @@ def _violate(
 def _answer(call: MethodCall) -> str:
     if call.reply is None:
         return "there was no answer"
-    if call.reply.raised or call.reply.exception is not None:
+    if call.reply.failed:
         return f"it ended with exception {call.reply.exception or ''}".rstrip()
     return f"the answer was {', '.join(map(str, call.reply.results or ())) or 'nothing'}"

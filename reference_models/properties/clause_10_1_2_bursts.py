@@ -24,7 +24,7 @@ _ORDER = "R-10.1.6.1-07"
 def burst_answered(check: Property, runtime: ObservedRuntime, event: Pushed) -> Conclusions:
     """Each message of a burst is answered one of the three codes; ok, where the vendor has declared that push waits."""
     burst = runtime.interactions.bursts[-1]
-    emitter = runtime.member_of(event.component, event.instance)
+    emitter = runtime.bodies.get(event.body)
     if emitter is None or not emitter.serving or burst.link is None:
         return
     unknown = [code for code in event.answers if code not in CODES]
@@ -46,7 +46,7 @@ def burst_answered(check: Property, runtime: ObservedRuntime, event: Pushed) -> 
 @property_at("counted", _OK_IS_TRUE, _EMITTERS, _ONCE, _ORIGIN, _ORDER, timed=True)
 def burst_counted(check: Property, runtime: ObservedRuntime, event: Counted) -> Conclusions:
     """What was pushed in bursts and got ok is counted, each message once, and nothing else is."""
-    receiver = runtime.member_of(event.component, event.instance)
+    receiver = runtime.bodies.get((event.component, event.instance))
     link = runtime.interactions.link_to(receiver) if receiver is not None else None
     bursts = [burst for burst in runtime.interactions.bursts if burst.link is link]
     if receiver is None or link is None or not bursts or _is_busy(runtime, link) or not _is_known(bursts):
@@ -60,7 +60,7 @@ def burst_counted(check: Property, runtime: ObservedRuntime, event: Counted) -> 
     step = runtime.scenario.steps[event.step]
     if event.distinct >= due:
         yield check.kept()
-        if len({(b.pushed.component, b.pushed.instance) for b in bursts}) > 1:
+        if len({b.pushed.body for b in bursts}) > 1:
             yield check.kept(_EMITTERS)
     elif isinstance(step, s.AwaitMessages) and event.received < step.count and not runtime.interactions.held:
         expected = f"{receiver.lane} gets each of the {due} messages that were answered ok"
@@ -105,7 +105,7 @@ def _order(check: Property, runtime: ObservedRuntime, receiver: Member, event: C
 def _is_busy(runtime: ObservedRuntime, link: LinkState) -> bool:
     """May an emitter of ``link`` still be pushing?"""
     inside = {body for bodies in runtime.inside.values() for body in bodies}
-    return any((end.member.component, end.member.instance or 0) in inside for end in link.ends if end.role == "emitter")
+    return any(end.member.body in inside for end in link.ends if end.role == "emitter")
 
 
 def _is_known(bursts: list[PushedBurst]) -> bool:

@@ -90,11 +90,11 @@ def runs_again(check: Property, runtime: ObservedRuntime, execution: ex.Executio
     enter = execution.enter
     if execution.way != "run" or execution.met:
         return
-    since = runtime.executions.runs_since_start(enter.component, enter.instance)
+    since = runtime.executions.runs_since_start(enter.body)
     if len(since) > 1 and not (yield from takes(runtime, "run-trigger", "repeated")):
         yield check.fail(
             "repeated",
-            expected=f"run of '{lane(enter.component, enter.instance)}' is called once a start, as declared",
+            expected=f"run of '{lane(*enter.body)}' is called once a start, as declared",
             observed="it was called again",
             at=(since[0].enter.n, enter.n),
         )
@@ -108,7 +108,7 @@ def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> C
     if not isinstance(step, s.ReachGate):
         return
     for member in runtime.present:
-        runs = runtime.executions.runs_since_start(member.component, member.instance or 0)
+        runs = runtime.executions.runs_since_start(member.body)
         plan = member.declaration.plan.get("run", ())
         if not member.serving or len(runs) != 1 or s.HoldAtGate(step.gate) not in plan or s.RaiseError() in plan:
             continue
@@ -126,10 +126,10 @@ def runs_no_more(check: Property, runtime: ObservedRuntime, event: Timeout) -> C
 @property_at("began", *ex.CALL_EXCLUSIONS)
 def circle_entered(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
     """A call came back to the component whose execution waits for it, and was let in, which is the framework's choice."""
-    body = execution.enter.component, execution.enter.instance
+    body = execution.enter.body
     callers = execution.call.callers() if execution.call is not None else ()
-    waiting = [c for c in callers if (c.enter.component, c.enter.instance) == body]
-    member = runtime.member_of(*body)
+    waiting = [c for c in callers if c.enter.body == body]
+    member = runtime.bodies.get(body)
     if waiting and member is not None:
         return _came_round(
             check, runtime, member, waiting[0], execution.way, "enter", (waiting[0].enter.n, execution.enter.n)
@@ -158,9 +158,9 @@ def _look_round(
 ) -> Conclusions:
     callers = list(call.callers())
     for member, port in ex.goals_of(runtime, call):
-        body = member.component, member.instance
+        body = member.body
         for caller in callers:
-            if (caller.enter.component, caller.enter.instance) == body:
+            if caller.enter.body == body:
                 yield from _came_round(check, runtime, member, caller, port, reading, events)
                 return
 

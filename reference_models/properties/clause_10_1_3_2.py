@@ -42,7 +42,7 @@ def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Executio
         if requirement:
             yield check.fail(
                 f"{other.way} {execution.way}",
-                expected=f"nothing else executes '{lane(enter.component, enter.instance)}' while its {other.way} is executed",
+                expected=f"nothing else executes '{lane(*enter.body)}' while its {other.way} is executed",
                 observed=f"its {execution.way} was entered by another thread meanwhile",
                 at=(other.enter.n, enter.n),
                 requirement=requirement,
@@ -64,9 +64,9 @@ def kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution,
     enter = execution.enter
     for call in execution.waited:
         for member, port in ex.goals_of(runtime, call):
-            own = (member.component, member.instance) == (enter.component, enter.instance)
+            own = member.body == enter.body
             requirement = ex.exclusion(member.declaration, runtime.ics, execution.way, port) if own else ""
-            inside = any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries)
+            inside = any(e.body == enter.body for e, _ in call.entries)
             if requirement and not inside:
                 yield check.kept(requirement)
                 yield Measured("exclusions proved")
@@ -79,7 +79,7 @@ def message_kept_out(check: Property, runtime: ObservedRuntime, delivery: Delive
     if call is None or receiver is None or not call.is_message:
         return
     enter = delivery.enter
-    for execution in runtime.executions.past(enter.component, enter.instance):
+    for execution in runtime.executions.past(enter.body):
         was_there = execution.enter.n < call.request.n
         if was_there and _time_passed(runtime, call.request.n, execution.end) and enter.port is not None:
             requirement = ex.exclusion(receiver.declaration, runtime.ics, execution.way, enter.port)
@@ -97,11 +97,11 @@ def _time_passed(runtime: ObservedRuntime, begin: int, end: int) -> bool:
 def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execution, end: int) -> Conclusions:
     """Who waits while an unprotected component is executed is kept out, which is wrong if callers are said to meet."""
     enter = execution.enter
-    body = enter.component, enter.instance
+    body = enter.body
     if ex.protection_of(runtime.scenario.components[enter.component]) != "unprotected":
         return
     for call in execution.waited:
-        inside = any((e.component, e.instance) == body for e, _ in call.entries)
+        inside = any(e.body == body for e, _ in call.entries)
         if inside or not _time_passed(runtime, call.n, end):
             continue
         if not (yield from takes(runtime, "unprotected-concurrency", "may-serialise")):
@@ -134,14 +134,14 @@ def waiting_calls_served(
     enter = waited.enter
     if ex.protection_of(runtime.scenario.components[enter.component]) in ("", "unprotected"):
         return ()
-    if end and any((e.component, e.instance) == (enter.component, enter.instance) for e, _ in call.entries):
+    if end and any(e.body == enter.body for e, _ in call.entries):
         return check.kept()
     ending = runtime.interactions.ends_phases(call.n, end or NEVER)
     if ending or not all(member.serving for member, _ in ex.goals_of(runtime, call)):
         return ()  # who is being stopped serves nobody
     return check.fail(
         "refused" if end else "never",
-        expected=f"the call that waits while '{lane(enter.component, enter.instance)}' is executed is carried out afterwards",
+        expected=f"the call that waits while '{lane(*enter.body)}' is executed is carried out afterwards",
         observed="it ended without having been carried out" if end else "it did not end",
         at=(enter.n, call.n, *((end,) if end else ())),
     )
@@ -154,7 +154,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
     if member is None or port is None or not call.possible or not member.serving or member.raises("exchange"):
         return
     promised = ex.calls_promised(member.declaration, port)
-    own = [(e, x) for e, x in call.entries if (e.component, e.instance) == (member.component, member.instance)]
+    own = [(e, x) for e, x in call.entries if e.body == member.body]
     if not promised or (call.waited and not own):  # who waits in vain is waiting_calls_served's matter
         return
     right = [x for e, x in own if e.port == port and e.value == call.value and x is not None]
@@ -178,7 +178,7 @@ def no_self_execution(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: ex.BusinessCall | None
 ) -> Concluded:
     """A passive component is executed because somebody calls it."""
-    member = runtime.member_of(event.component, event.instance)
+    member = runtime.bodies.get(event.body)
     requirement = _BY_ITSELF.get(ex.protection_of(member.declaration), "") if member is not None else ""
     if member is None or not requirement or member.suspended:
         return ()
@@ -204,7 +204,7 @@ def policy_supported(check: Property, runtime: ObservedRuntime, ongoing: Operati
     if not isinstance(ongoing.end, Return) or not ongoing.judged:
         return
     for member in ongoing.container.live_members():
-        hooks = [c.hook for c in ongoing.by_body.get((member.component, member.instance), ())]
+        hooks = [c.hook for c in ongoing.by_body.get(member.body, ())]
         requirement = _SUPPORT.get(ex.protection_of(member.declaration), "")
         if requirement and "on_startup" in hooks:
             yield check.kept(requirement)
@@ -243,7 +243,7 @@ def one_execution_policy(check: Property, runtime: ObservedRuntime, ongoing: Ope
 def run_phases(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Conclusions:
     """run is called on an operational component, and needs neither connections nor callers."""
     enter = execution.enter
-    member = runtime.member_of(enter.component, enter.instance)
+    member = runtime.bodies.get(enter.body)
     if enter.hook != "run" or (member is not None and member.suspended):
         return
     if member is not None and runtime.may_run(member):
@@ -252,7 +252,7 @@ def run_phases(check: Property, runtime: ObservedRuntime, execution: ex.Executio
         if not member.connections and not member.served:
             yield check.kept(_UNPROMPTED)
         return
-    who = lane(enter.component, enter.instance)
+    who = lane(*enter.body)
     yield check.fail(
         "not operational",
         expected=f"run of '{who}' begins after its on_startup returned and before stop returned",
@@ -269,7 +269,7 @@ def run_triggered(check: Property, runtime: ObservedRuntime, event: Timeout) -> 
     if not isinstance(step, s.ReachGate):
         return
     for member in runtime.present:
-        runs = runtime.executions.runs_since_start(member.component, member.instance or 0)
+        runs = runtime.executions.runs_since_start(member.body)
         if member.serving and not runs and HoldAtGate(step.gate) in member.declaration.plan.get("run", ()):
             unprompted = not member.connections and not member.served
             for requirement in (_RUN_IS_CALLED, *((_UNPROMPTED,) if unprompted else ())):

@@ -34,7 +34,7 @@ def clock_answers(check: Property, runtime: ObservedRuntime, call: MethodCall) -
         if _has_told(runtime, call, *(other for other in clocks.CLOCK_METHODS if other != method)):
             return check.kept()
         return ()
-    failed = reply.raised or reply.exception is not None
+    failed = reply.failed
     return check.fail(
         f"{method} {'raises' if failed else 'no time'}",
         expected=f"{method} tells '{caller.lane}' the time",
@@ -93,7 +93,7 @@ def one_clock(check: Property, runtime: ObservedRuntime, ongoing: OperationInPro
             event=ongoing.end,
         )
     for member in ongoing.container.live_members() if ongoing.judged and not members else ():
-        if policies_of(member.declaration, s.CLOCK) and (member.component, member.instance) in ongoing.by_body:
+        if policies_of(member.declaration, s.CLOCK) and member.body in ongoing.by_body:
             yield check.kept()
 
 

@@ -67,7 +67,7 @@ def log_returns(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
     severity, text = str(request.arguments[0]), str(request.arguments[-1])
     if not logs.Threshold.declared(runtime.ics).knows(severity) or not _is_sendable(runtime, text):
         return ()
-    if not reply.raised and reply.exception is None:
+    if not reply.failed:
         return check.kept()
     return check.fail(
         "raises",
@@ -319,7 +319,7 @@ def _violated(
     several = len(policies_of(declaration, s.COMPONENT_TRACE)) > 1
     return check.fail(
         f"{cause}, several traces" if several else cause,
-        expected=f"{expected} of '{lane(request.component, request.instance)}'",
+        expected=f"{expected} of '{lane(*request.body)}'",
         observed=observed,
         at=(request.n, *contents.events),
         step=contents.step,

@@ -93,7 +93,7 @@ def _what_failed(runtime: ObservedRuntime, one: ServiceCall, trouble: Trouble) -
     astray = led_astray(runtime, one)
     if astray is not None:
         enter = astray.enter
-        return f"it entered '{lane(enter.component, enter.instance)}' at {enter.port}"
+        return f"it entered '{lane(*enter.body)}' at {enter.port}"
     reply = one.call.reply
     how = "returned" if reply is not None and not reply.raised else "ended with an exception"
     return f"it {how}, and the server was not entered"
@@ -151,7 +151,7 @@ def service_exceptions(check: Property, runtime: ObservedRuntime) -> Conclusions
     """An exception of the server's is one for the client: the same one, unless it may be any."""
     for one, trouble in _undisturbed(runtime):
         left, reply = one.exit, one.call.reply
-        if left is None or reply is None or left.n > reply.n or not (left.raised or left.exception is not None):
+        if left is None or reply is None or left.n > reply.n or not left.failed:
             continue
         if left.raised and trouble != "swallowed":
             continue  # arrives as any exception
@@ -223,7 +223,7 @@ def _how_it_ended(one: ServiceCall, reply: Reply) -> str:
     gave = (left.exception, left.results, left.raised) if left is not None and left.n < reply.n else None
     if gave == (reply.exception, reply.results, reply.raised):
         return "finishes"
-    return "aborted" if reply.raised or reply.exception is not None else ""
+    return "aborted" if reply.failed else ""
 
 
 @property_at("closed", _CALLS)
@@ -234,7 +234,7 @@ def service_uncalled(check: Property, runtime: ObservedRuntime) -> Conclusions:
         if any(delivery is other for other in explained) or _may_be_late(runtime, delivery.enter.n):
             continue
         enter = delivery.enter
-        who = lane(enter.component, enter.instance)
+        who = lane(*enter.body)
         yield check.fail(
             "no caller",
             expected=f"'{who}' is entered at {enter.port} when a client calls it",
@@ -254,7 +254,7 @@ def servers_that_left(check: Property, runtime: ObservedRuntime) -> Conclusions:
         if delivery.fit == "same" and interactions.has_left(delivery):
             yield check.fail(
                 "no server any more",
-                expected=f"'{lane(enter.component, enter.instance)}' is not called through {link.name}, which it was detached from",
+                expected=f"'{lane(*enter.body)}' is not called through {link.name}, which it was detached from",
                 observed=f"a later call of {call.request.component} entered {enter.method}",
                 at=(call.request.n, enter.n),
             )
@@ -349,7 +349,7 @@ def _started(check: Property, ongoing: OperationInProgress, observed: str) -> Fi
 
 def _violate(check: Property, requirement: str, cause: str, one: ServiceCall, expected: str, observed: str) -> Finding:
     request, reply = one.call.request, one.call.reply
-    client, server = lane(request.component, request.instance), one.server.member.lane
+    client, server = lane(*request.body), one.server.member.lane
     events = (request.n, *(d.enter.n for d in one.served), *((reply.n,) if reply is not None else ()))
     return check.fail(
         cause,

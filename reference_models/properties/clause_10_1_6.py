@@ -58,10 +58,10 @@ def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
 def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Whether the others have the message while one of its receivers is held."""
     interactions = runtime.interactions
-    held = {(event.component, event.instance) for event in interactions.held}
+    held = {event.body for event in interactions.held}
     for call in msg.messages(runtime):
         holding = {d.receiver for d in call.deliveries if d.receiver is not None and d.exit is None}
-        own = {(member.component, member.instance or 0) for member in holding}
+        own = {member.body for member in holding}
         if (
             not held
             or not held <= own

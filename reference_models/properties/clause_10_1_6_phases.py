@@ -66,7 +66,7 @@ def kept_for_later_phases(check: Property, runtime: ObservedRuntime, timeout: Ti
         if call.code != msg.OK or not msg.is_whole(runtime, call):
             continue
         for end, was_ready in call.targets:
-            since, _ = runtime.startups.get((end.member.component, end.member.instance or 0), (0, 0))
+            since, _ = runtime.startups.get(end.member.body, (0, 0))
             lost = (
                 end.member.serving and end.until is None and since > call.request.n and not msg.was_delivered(call, end)
             )
@@ -134,7 +134,7 @@ def unready_receivers(check: Property, runtime: ObservedRuntime, call: MethodCal
 
 def _was_kept_waiting(runtime: ObservedRuntime, call: MethodCall, receiver: Member) -> bool:
     """Has this message, or one before it, been pushed when it could have come while the receiver was not operational?"""
-    since = runtime.startups.get((receiver.component, receiver.instance or 0), (0, 0))[0]
+    since = runtime.startups.get(receiver.body, (0, 0))[0]
     starts = [o.begin.n for o in runtime.interactions.operations if isinstance(o.step, s.Start)]
     started = max((n for n in starts if n < since), default=0)
     last = min(call.request.n, started - 1)

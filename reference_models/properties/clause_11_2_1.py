@@ -97,12 +97,7 @@ def connect_arguments(check: Property, runtime: ObservedRuntime, callback: Callb
     if ongoing is None or not isinstance(ongoing.step, s.Connect):
         return ()
     member = ongoing.subject
-    if (
-        member is None
-        or member.suspended
-        or outside_life(runtime, callback)
-        or (member.component, member.instance) != (event.component, event.instance)
-    ):
+    if member is None or member.suspended or outside_life(runtime, callback) or member.body != event.body:
         return ()
     reference, _ = runtime.reference(ongoing.step.to)
     wrong = event.port != ongoing.step.port
@@ -175,7 +170,7 @@ def container_interface(check: Property, runtime: ObservedRuntime, callback: Cal
 @property_at("noted", "R-11.2.1.4-03")
 def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Siblings) -> Concluded:
     """What a fragment learns of its container's members is what they are, unless an operation is changing that."""
-    member = runtime.member_of(event.component, event.instance)
+    member = runtime.bodies.get(event.body)
     if ongoing is not None or member is None or not member.declaration.fragment:
         return ()
     if member.suspended or not member.operational:

@@ -198,7 +198,7 @@ def right_body(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
         return ()
     if ongoing.outcome.right_body:
         return check.kept()
-    bodies = sorted({(c.component, c.instance) for c in new})
+    bodies = sorted({c.body for c in new})
     return check.fail(
         "wrong body" if len(bodies) == 1 else "several bodies",
         expected=f"add_component initialises one body of {ongoing.step.component}",

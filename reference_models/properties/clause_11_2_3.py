@@ -153,7 +153,7 @@ def outside_life(runtime: ObservedRuntime, callback: Callback) -> str:
     early, late = event.hook != "on_init" and not history.initialised, history.removed
     if not (early or late) or (early and ongoing is not None and not ongoing.judged):
         return ""
-    removal = ongoing.by_body.get((event.component, event.instance), ()) if late and ongoing is not None else ()
+    removal = ongoing.by_body.get(event.body, ()) if late and ongoing is not None else ()
     if any(c.hook == "on_remove" for c in removal):
         return ""  # within the removal itself it is a matter of order
     if member is not None and (member.suspended or _is_stray(runtime, callback)):
@@ -170,7 +170,7 @@ def nothing_outside_life(check: Property, runtime: ObservedRuntime, callback: Ca
     when = outside_life(runtime, callback)
     if not when:
         return ()
-    who = lane(event.component, event.instance)
+    who = lane(*event.body)
     finding = check.fail(
         f"{event.hook} {when}",
         expected=f"{who} hears nothing {when}",
@@ -204,7 +204,7 @@ def alternation(check: Property, runtime: ObservedRuntime, callback: Callback) -
 def discarded(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """What a failed add_component made hears nothing more but its on_remove."""
     event = callback.event
-    if (event.component, event.instance) not in runtime.discarded or event.hook == "on_remove":
+    if event.body not in runtime.discarded or event.hook == "on_remove":
         return ()
     return check.fail(
         event.hook,

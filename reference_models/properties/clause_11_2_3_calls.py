@@ -24,7 +24,7 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
         return
     if port is not None and calls_promised(member.declaration, port):
         return  # its execution policy's matter
-    component, instance = member.component, member.instance
+    component, instance = member.body
     own = call.entries
     if len(own) != 1 or own[0][0].instance != instance or own[0][0].component != component:
         own = [(e, x) for e, x in own if e.instance == instance and e.component == component]
@@ -77,7 +77,7 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
     names = " or ".join(sorted(p.lane for p in providers))
     expected = f"{reply.component}'s call of {reply.port} with {call.value} reaches {names} and brings back its result"
     if not reached:
-        where = ", ".join(f"{lane(e.component, e.instance)} with {e.value}" for e, _ in call.entries) or "no body"
+        where = ", ".join(f"{lane(*e.body)} with {e.value}" for e, _ in call.entries) or "no body"
         observed = f"it reached {where}"
     elif not came_back:
         observed = f"the body returned {reached[0][1].value if reached[0][1] else None}, the caller got {reply.value}"
@@ -93,7 +93,7 @@ def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, 
     request = call.request
     if not call.possible or request is None:
         return ()
-    caller = runtime.bodies.get((reply.component, reply.instance))
+    caller = runtime.bodies.get(reply.body)
     if caller is None or not caller.serving:
         return ()
     providers = behind_call(runtime, call, request).providers
@@ -113,7 +113,7 @@ def disabled_ports(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
 ) -> Concluded:
     """Before start was called on its container, no component is called by another one or by the framework."""
-    member = runtime.bodies.get((event.component, event.instance))
+    member = runtime.bodies.get(event.body)
     if member is None:
         return _called_while_added(check, ongoing, event, call)
     if member.startups and not member.operational:
@@ -128,10 +128,10 @@ def disabled_ports(
         return ()
     caller = call.request.component if call is not None and call.request is not None else "the framework"
     if call is not None and call.request is not None:
-        other = runtime.member_of(call.request.component, call.request.instance)
+        other = runtime.bodies.get(call.request.body)
         if other is not None and other.container is not container and other.container.started is not False:
             return ()
-        if (call.request.component, call.request.instance) in runtime.startups and ongoing is None:
+        if call.request.body in runtime.startups and ongoing is None:
             return ()  # it has kept the reference that it heard of in a start that failed
     return check.fail(
         "called before start",
@@ -157,7 +157,7 @@ def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: B
         return ()
     if ongoing.container.started is not False:
         return ()
-    who = lane(event.component, event.instance)
+    who = lane(*event.body)
     caller = call.request.component if call is not None and call.request is not None else "the framework"
     return check.fail(
         "called while added",
@@ -173,7 +173,7 @@ def nothing_after_stop(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
 ) -> Concluded:
     """After stop returned, no business method begins but those that are called."""
-    member = runtime.member_of(event.component, event.instance)
+    member = runtime.bodies.get(event.body)
     if member is None or member.suspended or member.operational or not member.startups:
         return ()
     if ongoing is not None and ongoing.operation in ("start", "stop", "add_component"):

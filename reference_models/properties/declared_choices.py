@@ -127,11 +127,7 @@ def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: Operation
         return
     inside = {body for bodies in runtime.inside.values() for body in bodies}
     for member in ongoing.container.live_members():
-        if (
-            not member.operational
-            or ongoing.outcome.is_unknown(member)
-            or (member.component, member.instance) not in inside
-        ):
+        if not member.operational or ongoing.outcome.is_unknown(member) or member.body not in inside:
             continue
         if not (yield from takes(runtime, "stop-drain", "abandon")):
             yield check.fail(
