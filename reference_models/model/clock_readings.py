@@ -1,7 +1,7 @@
 """What bodies read off their clocks, and what the host's own clocks showed meanwhile (10.1.4.1).
 
-Nobody knows at what instant a clock was read, only between which two: when the body asked and when it was told. Whatever
-is concluded holds for each instant between them, so that a slow machine makes conclusions weaker and never wrong.
+The instant at which a clock was read is not known. It lies between the body's question and the answer. Conclusions hold
+for each instant between them, so that a slow machine makes conclusions weaker and never wrong.
 """
 
 from __future__ import annotations
@@ -11,10 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Declaration
 from ucm_cts.adapters.contract.trace import Paused, Return
-from ucm_cts.reference_models.model.interactions import Interactions
 from ucm_cts.reference_models.model.method_calls import MethodCall
+from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Container
 from ucm_cts.reference_models.model.service_policies import policy_elements
 
@@ -31,8 +30,12 @@ _WRAP = 2**32 * SECOND
 
 @dataclass(frozen=True, slots=True)
 class ClockReading:
-    """A body asked for the time at ``asked`` and was told ``time`` at ``told``; all in nanoseconds, the latter two by the
-    host's monotonic clock. By then ``advanced`` virtual time had passed beside.
+    """A body asked for the time and got it. All times are in nanoseconds.
+
+    ``begin``, ``end``: the events.
+    ``asked``, ``told``: when, by the host's monotonic clock.
+    ``time``: what the body's clock gave.
+    ``advanced``: the virtual time that had passed by then.
     """
 
     call: MethodCall
@@ -50,7 +53,7 @@ class ClockReading:
 
     @property
     def container(self) -> Container | None:
-        """Where the body is; None if nobody knows."""
+        """Where the body is; None if that is not known."""
         return self.call.caller.container if self.call.caller is not None else None
 
     def is_before(self, other: ClockReading) -> bool:
@@ -58,12 +61,12 @@ class ClockReading:
         return self.end < other.begin
 
 
-def clock_call(call: MethodCall, components: dict[str, Declaration]) -> str:
+def clock_call(runtime: ObservedRuntime, call: MethodCall) -> str:
     """The method of its clock that a body calls; empty if it calls something else."""
     request = call.request
     if request.method not in CLOCK_METHODS:
         return ""
-    is_clock = request.port in policy_elements(components.get(request.component), s.CLOCK)
+    is_clock = request.port in policy_elements(runtime.scenario.components.get(request.component), s.CLOCK)
     return request.method if is_clock else ""
 
 
@@ -81,20 +84,20 @@ def time_told(call: MethodCall) -> tuple[int, int] | None:
     return seconds, microseconds
 
 
-def readings_of(interactions: Interactions, components: dict[str, Declaration], method: str) -> list[ClockReading]:
-    """The times that bodies were told by ``method``, in the order in which they asked; of very many some are left out."""
+def readings_of(runtime: ObservedRuntime, method: str) -> list[ClockReading]:
+    """The times that ``method`` gave to bodies, in the order in which they asked; of very many some are left out."""
     advances = [
         (o, o.step.milliseconds * MILLISECOND)
-        for o in interactions.operations
+        for o in runtime.interactions.operations
         if isinstance(o.step, s.Advance) and isinstance(o.end, Return)
     ]
     readings = []
-    for call in interactions.calls:
-        told = time_told(call) if clock_call(call, components) == method else None
+    for call in runtime.interactions.calls:
+        told = time_told(call) if clock_call(runtime, call) == method else None
         if told is not None and call.reply is not None:
             request, reply = call.request, call.reply
             if any(o.overlaps(request.n, reply.n) for o, _ in advances):
-                continue  # nobody knows which came first
+                continue  # it is open which came first
             advanced = sum(virtual for o, virtual in advances if o.begin.n < request.n)
             time = told[0] * SECOND + told[1] * MICROSECOND
             readings.append(ClockReading(call, request.n, reply.n, request.t, reply.t, time, advanced))
@@ -108,7 +111,7 @@ def passed(earlier: int, later: int) -> int:
 
 def calendar_at(pauses: Sequence[Paused], begin: int, end: int) -> tuple[int, int] | None:
     """What the calendar clock showed at ``begin`` (both by the monotonic clock), and by how much it left the pace of the
-    monotonic clock until ``end``. None if nobody looked before and after.
+    monotonic clock until ``end``. None if it was not read before and after.
     """
     before = max((index for index, pause in enumerate(pauses) if pause.t <= begin), default=None)
     after = min((index for index, pause in enumerate(pauses) if pause.t >= end), default=None)

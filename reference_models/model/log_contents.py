@@ -12,10 +12,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.adapters.contract.scenario import Declaration, Policy
+from ucm_cts.adapters.contract.scenario import Policy
 from ucm_cts.adapters.contract.trace import Call, LogRecord, Return
 from ucm_cts.reference_models.model.ics import Ics
-from ucm_cts.reference_models.model.interactions import Interactions
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.service_policies import policy_elements, port_traces
@@ -153,35 +152,25 @@ class Contents:
         return [m for m in self.messages if m.due and m.record is None and m.altered is None]
 
 
-def log_readings(interactions: Interactions) -> list[LogReading]:
+def log_readings(runtime: ObservedRuntime) -> list[LogReading]:
     """Each time that the log was read so far."""
     return [
         LogReading(o.begin, o.end, len(o.end.records) < o.step.records)
-        for o in interactions.operations
+        for o in runtime.interactions.operations
         if isinstance(o.step, s.ReadLog) and isinstance(o.end, Return) and o.end.records is not None
     ]
 
 
 def contents_read(runtime: ObservedRuntime, event: Return) -> Contents | None:
     """What was read of the log by the step that ``event`` ends; None if that step does not read it."""
-    reading = next((reading for reading in log_readings(runtime.interactions) if reading.end is event), None)
-    if reading is None:
-        return None
-    return contents_of(reading, runtime.interactions, runtime.scenario.components, runtime.ics)
+    reading = next((reading for reading in log_readings(runtime) if reading.end is event), None)
+    return contents_of(reading, runtime) if reading is not None else None
 
 
-def contents_of(
-    reading: LogReading, interactions: Interactions, components: dict[str, Declaration], ics: Ics
-) -> Contents:
+def contents_of(reading: LogReading, runtime: ObservedRuntime) -> Contents:
     """What ``reading`` found, and what it was to find."""
-    threshold = Threshold.declared(ics)
-    contents = Contents(
-        reading,
-        list(_messages(reading, interactions, components, threshold)),
-        _tracings(reading, interactions, components, threshold),
-    )
-    rest = _without_messages(contents)
-    for record in rest:
+    contents = Contents(reading, list(_messages(reading, runtime)), _tracings(reading, runtime))
+    for record in _without_messages(contents):
         named = [method for method in contents.tracings if method in record.message]
         if named:  # of names that are parts of others the whole one is meant
             contents.tracings[max(named, key=len)].records.append(record)
@@ -190,12 +179,11 @@ def contents_of(
     return contents
 
 
-def _messages(
-    reading: LogReading, interactions: Interactions, components: dict[str, Declaration], threshold: Threshold
-) -> Iterator[Message]:
-    for call in interactions.calls:
+def _messages(reading: LogReading, runtime: ObservedRuntime) -> Iterator[Message]:
+    threshold = Threshold.declared(runtime.ics)
+    for call in runtime.interactions.calls:
         request, reply = call.request, call.reply
-        elements = policy_elements(components.get(request.component), s.COMPONENT_TRACE)
+        elements = policy_elements(runtime.scenario.components.get(request.component), s.COMPONENT_TRACE)
         arguments = request.arguments or ()
         if request.port not in elements or len(arguments) != 2 or request.n > reading.end.n:
             continue
@@ -211,8 +199,7 @@ def _without_messages(contents: Contents) -> list[LogRecord]:
     by_text: dict[str, list[Message]] = {}
     for message in contents.messages:
         by_text.setdefault(message.text, []).append(message)
-    rest = []
-    late = []
+    rest, late = [], []
     for record in contents.reading.records:
         if record.message not in by_text:
             rest.append(record)
@@ -256,22 +243,20 @@ def _name(message: Message) -> str:
     return found[0] if found is not None else ""
 
 
-def _tracings(
-    reading: LogReading, interactions: Interactions, components: dict[str, Declaration], threshold: Threshold
-) -> dict[str, Tracing]:
+def _tracings(reading: LogReading, runtime: ObservedRuntime) -> dict[str, Tracing]:
     """All methods that were called through port elements of bodies, by name."""
+    threshold = Threshold.declared(runtime.ics)
     tracings: dict[str, Tracing] = {}
-    for component, port, method, begin, end in _ends(interactions, components):
+    for component, port, method, begin, end in _ends(runtime):
         if begin > reading.end.n:
             continue
         tracing = tracings.setdefault(method, Tracing(method))
-        policies = port_traces(components.get(component), port, method)
+        policies = port_traces(runtime.scenario.components.get(component), port, method)
         if not policies:
             tracing.others += 1
         for policy in policies:
-            tracing.ports[component, port] += _add(
-                tracing, policy, end is not None and end < reading.begin.n, threshold
-            )
+            over = end is not None and end < reading.begin.n
+            tracing.ports[component, port] += _add(tracing, policy, over, threshold)
     return tracings
 
 
@@ -289,28 +274,20 @@ def _add(tracing: Tracing, policy: Policy, over: bool, threshold: Threshold) -> 
     return False
 
 
-def _ends(
-    interactions: Interactions, components: dict[str, Declaration]
-) -> Iterator[tuple[str, str, str, int, int | None]]:
+def _ends(runtime: ObservedRuntime) -> Iterator[tuple[str, str, str, int, int | None]]:
     """Component, port and method of each call, at either end, with when it began and, if all went well, when it was over."""
-    for call in interactions.calls:
+    components = runtime.scenario.components
+    for call in runtime.interactions.calls:
         request, reply = call.request, call.reply
         declaration = components.get(request.component)
         if declaration is not None and request.port in declaration.requires and request.method is not None:
-            over = reply is not None and not reply.failed
-            yield request.component, request.port, request.method, request.n, reply.n if over and reply else None
-    for delivery in interactions.deliveries:
+            over = reply.n if reply is not None and not reply.failed else None
+            yield request.component, request.port, request.method, request.n, over
+    for delivery in runtime.interactions.deliveries:
         enter, end = delivery.enter, delivery.exit
-        over = end is not None and not end.failed
-        yield enter.component, enter.port or "", enter.method or "", enter.n, end.n if over and end else None
-    yield from _on_the_way(interactions, components)
-
-
-def _on_the_way(
-    interactions: Interactions, components: dict[str, Declaration]
-) -> Iterator[tuple[str, str, str, int, None]]:
-    """Traced ends that calls may have come to without the body having been entered there yet, or ever."""
-    for call in interactions.calls:
+        over = end.n if end is not None and not end.failed else None
+        yield enter.component, enter.port or "", enter.method or "", enter.n, over
+    for call in runtime.interactions.calls:  # the body may not have been entered yet, or never
         method = call.request.method or ""
         for member, port in call.goals:
             if port_traces(components.get(member.component), port, method) and not call.delivered_to(member, port):

@@ -129,7 +129,6 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
     connection.stale = provider is not None and provider.gone
     if connection.stale:
         connection.live = None
-    if connection.stale:
         member.suspended = True
     member.connections.append(connection)
     member.forget_repetitions()
@@ -309,11 +308,17 @@ def _unsure(member: Member) -> bool:
     return bool(open_ports) or member.instance is None or member.raises("on_init", "set_container_interface")
 
 
+def handed_over(startup: Enter) -> dict[str, list[MaybeReference]]:
+    """The non-null references of ``on_startup`` by port element name; several entries of one name are one."""
+    by_port: dict[str, list[MaybeReference]] = {}
+    for dependency in startup.dependencies or ():
+        by_port.setdefault(dependency.port, []).extend(r for r in dependency.references if r is not None)
+    return by_port
+
+
 def _resolve(member: Member, startup: Enter) -> None:
     """What on_startup handed over tells which of the doubtful connections stand."""
-    given: dict[str, list[MaybeReference]] = {}
-    for dependency in startup.dependencies or ():
-        given.setdefault(dependency.port, []).extend(r for r in dependency.references if r is not None)
+    given = handed_over(startup)
     for connection in member.connections:
         if connection.live is not None:
             continue

@@ -44,7 +44,7 @@ def values_carried(runtime: ObservedRuntime) -> list[Carried]:
     interactions = runtime.interactions
     if not interactions.links:
         return []
-    carried = [one for call in interactions.calls for one in _carried_by(interactions, runtime, call)]
+    carried = [one for call in interactions.calls for one in _carried_by(runtime, call)]
     lost, altered = _lost_ways(carried), _altered_types(carried)
     return [
         one
@@ -92,17 +92,16 @@ def _is_lost_in_exceptions(one: Carried, carried: Sequence[Carried]) -> bool:
     return well == {False} and wrong == {True}
 
 
-def _carried_by(interactions: Interactions, runtime: ObservedRuntime, call: MethodCall) -> Iterator[Carried]:
+def _carried_by(runtime: ObservedRuntime, call: MethodCall) -> Iterator[Carried]:
+    interactions = runtime.interactions
     method = method_of(runtime, call)
     if method is None:
         return
     for delivery in call.deliveries:
         if delivery.fit in ("same", "altered") and not _is_of_another(interactions, call, delivery):
             ways = [MESSAGE if call.is_message else f"{p.direction} argument" for p in method.arguments]
-            events = (call.request.n, delivery.enter.n)
-            yield from _paired(
-                interactions, call, method.arguments, ways, call.request.arguments, delivery.enter.arguments, events
-            )
+            sent, got, events = call.request.arguments, delivery.enter.arguments, (call.request.n, delivery.enter.n)
+            yield from _paired(interactions, call, method.arguments, ways, sent, got, events)
     if not call.is_message and len(call.deliveries) == 1:
         yield from _brought_back(interactions, method, call, call.deliveries[0])
 

@@ -27,18 +27,17 @@ _LONG_ENOUGH = 3
 @property_at("completed", "R-10.1.4.1-06")
 def clock_answers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """Both methods of the clock return, from on_startup to on_shutdown."""
-    method, caller, reply = clocks.clock_call(call, runtime.scenario.components), call.caller, call.reply
+    method, caller, reply = clocks.clock_call(runtime, call), call.caller, call.reply
     if not method or reply is None or caller is None or caller.suspended:
         return ()
     if clocks.time_told(call) is not None:
         if _has_told(runtime, call, *(other for other in clocks.CLOCK_METHODS if other != method)):
             return check.kept()
         return ()
-    failed = reply.failed
     return check.fail(
-        f"{method} {'raises' if failed else 'no time'}",
+        f"{method} {'raises' if reply.failed else 'no time'}",
         expected=f"{method} tells '{caller.lane}' the time",
-        observed="it raised" if failed else f"it gave {list(reply.results or ())}",
+        observed="it raised" if reply.failed else f"it gave {list(reply.results or ())}",
         at=(call.request.n, reply.n),
     )
 
@@ -47,13 +46,13 @@ def _has_told(runtime: ObservedRuntime, call: MethodCall, *methods: str) -> bool
     """Have other methods told this caller the time, too?"""
     calls = runtime.interactions.calls
     own = (c for c in reversed(calls) if c.caller is call.caller and clocks.time_told(c) is not None)
-    return any(clocks.clock_call(c, runtime.scenario.components) in methods for c in own)
+    return any(clocks.clock_call(runtime, c) in methods for c in own)
 
 
 @property_at("completed", "R-10.1.4.2-14")
 def time_range(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """The microseconds of a time are those of one second, and its seconds have 32 bits without sign."""
-    told = clocks.time_told(call) if clocks.clock_call(call, runtime.scenario.components) else None
+    told = clocks.time_told(call) if clocks.clock_call(runtime, call) else None
     if told is None or call.reply is None:
         return ()
     seconds, microseconds = told
@@ -136,12 +135,8 @@ def synchronized_time_passes(check: Property, runtime: ObservedRuntime) -> Concl
         went = clocks.passed(earlier.time, later.time)
         if earlier.body != later.body or went >= least - tolerance - drift:
             continue
-        yield check.fail(
-            "too slow",
-            expected=f"synchronized time goes on by {_milliseconds(least - int(tolerance))} ms at least",
-            observed=f"'{_who(later)}' saw it go on by {_milliseconds(went)} ms",
-            at=(earlier.end, later.end),
-        )
+        expected = f"synchronized time goes on by {_milliseconds(least - int(tolerance))} ms at least"
+        yield _paced(check, earlier, later, "too slow", expected)
         return
 
 
@@ -160,12 +155,8 @@ def local_time_rate(check: Property, runtime: ObservedRuntime) -> Conclusions:
             if least >= _LONG_ENOUGH * tolerance and drift <= tolerance:
                 yield check.kept()
             continue
-        yield check.fail(
-            "too slow" if went < least else "too fast",
-            expected=f"local time goes on by {_milliseconds(least)} to {_milliseconds(most)} ms, more or less",
-            observed=f"'{_who(later)}' saw it go on by {_milliseconds(went)} ms",
-            at=(earlier.end, later.end),
-        )
+        expected = f"local time goes on by {_milliseconds(least)} to {_milliseconds(most)} ms, more or less"
+        yield _paced(check, earlier, later, "too slow" if went < least else "too fast", expected)
         return
 
 
@@ -175,7 +166,7 @@ def local_time_epoch(check: Property, runtime: ObservedRuntime) -> Conclusions:
     if runtime.ics.reading("clock-epoch") != "unix":
         return
     tolerance = runtime.ics.tolerance("epoch-tolerance") * clocks.MILLISECOND
-    for reading in _readings(runtime, clocks.LOCAL):
+    for reading in clocks.readings_of(runtime, clocks.LOCAL):
         calendar = clocks.calendar_at(runtime.interactions.pauses, reading.asked, reading.told)
         if calendar is None:
             continue
@@ -193,10 +184,6 @@ def local_time_epoch(check: Property, runtime: ObservedRuntime) -> Conclusions:
         return
 
 
-def _readings(runtime: ObservedRuntime, method: str) -> list[clocks.ClockReading]:
-    return clocks.readings_of(runtime.interactions, runtime.scenario.components, method)
-
-
 def _is_never_set(runtime: ObservedRuntime) -> bool:
     return runtime.ics.reading("local-clock") == "monotonic"
 
@@ -208,7 +195,7 @@ def _pairs(
 
     Pairs of which nobody can know that are left out.
     """
-    readings = _readings(runtime, method)
+    readings = clocks.readings_of(runtime, method)
     pauses = runtime.interactions.pauses
     for later in readings:
         for earlier in (r for r in readings if r.is_before(later)):
@@ -226,6 +213,14 @@ def _went_back(check: Property, earlier: clocks.ClockReading, later: clocks.Cloc
         observed=f"it was told one that is {back} ms earlier",
         at=(earlier.begin, earlier.end, later.begin, later.end),
     )
+
+
+def _paced(
+    check: Property, earlier: clocks.ClockReading, later: clocks.ClockReading, cause: str, expected: str
+) -> Finding:
+    went = _milliseconds(clocks.passed(earlier.time, later.time))
+    observed = f"'{_who(later)}' saw it go on by {went} ms"
+    return check.fail(cause, expected=expected, observed=observed, at=(earlier.end, later.end))
 
 
 def _width(reading: clocks.ClockReading) -> int:

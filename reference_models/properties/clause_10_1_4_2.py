@@ -251,7 +251,7 @@ def port_trace_selective(check: Property, runtime: ObservedRuntime, contents: lo
 def _unexplained(runtime: ObservedRuntime, contents: logs.Contents) -> int:
     """The number of unexplained records that came while only calls were made that are not traced."""
     interactions = runtime.interactions
-    readings = logs.log_readings(interactions)
+    readings = logs.log_readings(runtime)
     if len(readings) < 2:
         return 0
     before, now = readings[-2:]
@@ -261,7 +261,7 @@ def _unexplained(runtime: ObservedRuntime, contents: logs.Contents) -> int:
     written = [c for c in calls if c.request.port in policy_elements(components.get(c.request.component), *TRACES)]
     if not calls or written or any(isinstance(step, s.ContainerCall) for step in between):
         return 0
-    earlier = logs.contents_of(before, interactions, components, runtime.ics)
+    earlier = logs.contents_of(before, runtime)
     if sum(t.most for t in contents.tracings.values()) > sum(t.most for t in earlier.tracings.values()):
         return 0
     return max(len(contents.strays) - len(earlier.strays), 0)

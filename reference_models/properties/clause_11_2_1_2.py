@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-from ucm_cts.adapters.contract.trace import Enter, MaybeReference, Reference
+from ucm_cts.adapters.contract.trace import MaybeReference, Reference
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow
 from ucm_cts.reference_models.model.callback_history import Callback
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
+from ucm_cts.reference_models.model.operation_effects import handed_over
 from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.model.service_policies import SERVICES, policy_elements
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _RESOLVED, _HANDED_OVER, _AGAIN = "R-11.2.1.2-03", "R-11.2.1.2-09", "R-11.2.3-10"
 _ONE_REFERENCE, _DANGLING = "R-12.10-25", "R-11.2.3-14"
-
-
-def handed_over(event: Enter) -> dict[str, list[MaybeReference]]:
-    """The non-null references of ``on_startup`` by port element name; several entries of one name are one."""
-    by_port: dict[str, list[MaybeReference]] = {}
-    for dependency in event.dependencies or ():
-        by_port.setdefault(dependency.port, []).extend(r for r in dependency.references if r is not None)
-    return by_port
 
 
 @property_at("entered", _RESOLVED, _HANDED_OVER, _AGAIN, _ONE_REFERENCE, at=("on_startup",))
