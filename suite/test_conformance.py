@@ -1,8 +1,10 @@
-"""The pytest door: one node a test purpose. The plugin of ``ucm_cts.harness.cli`` fills in the purposes, named by clause."""
+"""The suite under pytest: one node a test purpose. ``ucm_cts.harness.cli.pytest_suite`` gives the purposes, named by clause."""
 
 from __future__ import annotations
 
 from typing import Any
+
+pytest_plugins = ["ucm_cts.harness.cli.pytest_suite"]
 
 
 def test_clause(purpose: Any, check: Any) -> None:

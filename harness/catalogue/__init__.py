@@ -1,1 +1,1 @@
-"""What is required: documents with line numbers, requirements, interpretations, profiles."""
+"""Reads requirements, interpretations, profiles and other documents."""

@@ -37,7 +37,7 @@ class DocumentError(Exception):
 
 
 def _shown(problem: str) -> str:
-    """One line for a terminal, whatever the document holds."""
+    """``problem`` as one printable line."""
     line = " ".join(problem.split())
     line = line if len(line) <= LONGEST_PROBLEM else f"{line[:LONGEST_PROBLEM]}..."
     return "".join(character if character.isprintable() else "\ufffd" for character in line)
@@ -47,7 +47,7 @@ _Loader: type[Any] = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def read(path: Path, type_: type[T]) -> T:
-    """The document at ``path`` as a ``type_``; raises ``DocumentError`` with the line of whatever does not fit."""
+    """The document at ``path`` as a ``type_``; raises ``DocumentError`` with the line of the first misfit."""
     value, lines = read_lines(path)
     return convert(path, value, type_, lines)
 
@@ -69,7 +69,7 @@ def convert(path: Path, value: object, type_: type[T], lines: dict[str, int]) ->
 
 
 def read_text(path: Path, largest: int = LARGEST) -> str:
-    """What the file at ``path`` holds. Raises ``DocumentError`` if it is not there, too large or not UTF-8."""
+    """The text of the file at ``path``. Raises ``DocumentError`` if it cannot be read, is too large or not UTF-8."""
     try:
         with path.open("rb") as stream:
             raw = stream.read(largest + 1)
@@ -127,7 +127,7 @@ _KEY = re.compile(r"[ \t]*(?:\"([^\"\\\n]*)\"|'([^'\n]*)'|([A-Za-z0-9_-]+))[ \t]
 
 
 def _toml_lines(text: str) -> dict[str, int]:
-    """Where tables and keys stand, as far as lines show it; messages name these lines."""
+    """The line of each table and key that begins a line."""
     lines: dict[str, int] = {}
     table = ""
     for number, line in enumerate(text.split("\n"), 1):

@@ -1,4 +1,4 @@
-"""The requirement catalogue: every normative statement of the clauses under test, as data with provenance."""
+"""The catalogue: requirements, interpretations and capabilities, read from ``suite``."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ Level = Literal["shall", "should", "may", "statement"]
 
 
 class Requirement(Value, frozen=True):
-    """One statement of the specification, in the project's own words. It has exactly one of ``rules``, ``pending`` and ``untestable``.
+    """One demand of the specification, in the project's own words. It has exactly one of ``rules``, ``pending`` and ``untestable``.
 
     ``id``: ``R-<clause>-<number>``.
     ``clause``: the clause of the specification.
     ``title``: a few words for lists.
-    ``level``: the force of the statement.
+    ``level``: its force.
     ``meaning``: what it demands.
     ``observed``: how a trace or a model shows that it was kept or broken.
     ``rules``: the properties or model checks that decide it.
@@ -70,7 +70,7 @@ class Interpretation(Value, frozen=True):
 
     @property
     def lines(self) -> tuple[str, ...]:
-        """All its sentences, a line for each field that is given."""
+        """Its sentences: a line for each field that is given."""
         labelled = (("Readings", "; ".join(self.readings)), ("Decision", self.decision), ("Checked", self.checked))
         return (self.reason, *(f"{label}: {text}" for label, text in labelled if text))
 

@@ -1,1 +1,1 @@
-"""What people use: the command line and the pytest plugin."""
+"""The command line and the pytest plugin."""

@@ -1,4 +1,4 @@
-"""What ``ucm-cts explain`` shows of a requirement."""
+"""The output of ``ucm-cts explain``: one requirement, or the whole catalogue."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from ucm_cts.reference_models.properties.table import PROPERTIES
 
 
 def explanation(identifier: str) -> RenderableType:
-    """The requirement ``identifier``: clause, meaning, how observed, interpretations, properties, scenarios."""
+    """Everything about the requirement ``identifier``. Raises ``WrongUse`` if there is none."""
     requirement = _find(identifier)
     interpretations = {i.id: i for i in load_interpretations()}
     lines: list[RenderableType] = [

@@ -1,4 +1,4 @@
-"""``ucm-cts explore``: run ADAPTER on generated scenarios"""
+"""``ucm-cts explore``: run ADAPTER on generated scenarios."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Budget:
     is_time: bool = True
 
     def spent(self, far: HowFar, seconds: float) -> float:
-        """How much of it is gone."""
+        """The part of ``amount`` that is used up."""
         return seconds if self.is_time else far.scenarios
 
 

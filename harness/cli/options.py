@@ -30,7 +30,7 @@ DEFAULT_ADAPTER = "reference-cpp"
 
 
 class Seconds(click.FloatRange):
-    """A time that passes."""
+    """A finite number of seconds."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         seconds = super().convert(value, param, ctx)
@@ -40,7 +40,7 @@ class Seconds(click.FloatRange):
 
 
 class Folder(click.Path):
-    """A folder that has a name."""
+    """A folder; its name must not be empty."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         if value == "":
@@ -49,7 +49,7 @@ class Folder(click.Path):
 
 
 class Profile(click.Choice):  # type: ignore[type-arg] # generic since click 8.2
-    """What a run can check."""
+    """A profile that can be chosen; the message for another one says why."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         unfinished = in_the_making(value)
@@ -94,7 +94,7 @@ def name_of(identity: Identity) -> str:
 
 
 def greet(console: Output, what: str, profile: str, seed: int) -> None:
-    """Say what is examined."""
+    """Print product, profile and seed."""
     console.say(f"UCM-CTS {ucm_cts.__version__}: {what}, profile {profile}, seed {seed}")
 
 
@@ -107,7 +107,7 @@ def leave_with(
     interrupted: bool,
     cut_short: str = "",
 ) -> NoReturn:
-    """Print the end of a run, and end with its status. Of ``known`` failures that are gone it tells if the run ``is_whole``."""
+    """Print the end of a run, and end with its status. If the run ``is_whole``, ``known`` failures that are gone are named."""
     console.print(summary(report, out))
     outdated = stale(known, report.requirements) if is_whole and not interrupted else []
     for entry in outdated:

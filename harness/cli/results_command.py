@@ -1,4 +1,4 @@
-"""``ucm-cts results``: what is kept of reports and kill matrices under version control, and the pages made of it."""
+"""``ucm-cts results``: published results of reports and kill matrices, and their pages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``ucm-cts selftest``: does the suite catch what is wrong, and spare what is right?"""
+"""``ucm-cts selftest``: runs mutants, variants and cheats."""
 
 from __future__ import annotations
 
@@ -150,7 +150,7 @@ def summary(matrix: Matrix) -> Table:
 
 
 def is_well(result: Result) -> bool:
-    """Is it as it should be?"""
+    """Is the mutant killed without spill, the variant spared, the cheat found out?"""
     match result:
         case MutantResult():
             return result.is_killed and not result.spills

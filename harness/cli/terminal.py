@@ -1,4 +1,4 @@
-"""The terminal: characters that it cannot show are replaced, and a terminal that has closed does not end the run."""
+"""The terminal: replaces characters that it cannot show; a closed terminal does not end the run."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ class Output(Console):
 
     @property
     def error(self) -> str:
-        """Why something was lost; empty if nothing was, or if the reader went away."""
+        """Why output was lost; empty if none was lost, or if the reader closed the pipe."""
         return self._stream.error
 
 
 class _Stream(io.TextIOBase):
-    """Writes to standard output until that fails, and to nowhere from then on."""
+    """Writes to standard output. After the first failure it discards all text."""
 
     error = ""
 

@@ -1,4 +1,4 @@
-"""``ucm-cts run --toolchain``: what the command line does for a tool chain."""
+"""``ucm-cts run --toolchain``: certifies a tool chain."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def certify_toolchain(
 
 
 def profiles_of(toolchain: ToolChain) -> tuple[str, ...]:
-    """The profiles that ``toolchain`` says a command for. Raises ``WrongUse`` if there is none."""
+    """The profiles for which ``toolchain`` has a command. Raises ``WrongUse`` if there is none."""
     profiles = tuple(p for p in TOOLCHAIN_PROFILES if toolchain.command_for(TASKS[p]) is not None)
     if not profiles:
         raise WrongUse(f"{toolchain.source} says of no task how it is done; there is [check], [idl], [cpp11], [cpp03]")

@@ -1,1 +1,1 @@
-"""Runs scenarios on one implementation under test: drive, judge, confirm, shorten."""
+"""Runs scenarios on one IUT: drives, judges, confirms and shortens."""

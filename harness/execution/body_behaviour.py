@@ -13,7 +13,7 @@ _NONE_HELD: dict[str, int] = {}
 
 
 class Body:
-    """One that was made; ``held`` is how many references it holds of each port element."""
+    """An instance of a component; ``held`` is the number of references that it holds for each port element."""
 
     __slots__ = ("declaration", "held", "plans")
 
@@ -23,7 +23,7 @@ class Body:
         self.plans: dict[str, Plan] = {}
 
     def plan(self, hook: s.Hook) -> Plan:
-        """What it has to do there."""
+        """Its plan for ``hook``."""
         plan = self.plans.get(hook)
         if plan is None:
             plan = self.plans[hook] = plan_of(self.declaration, hook)
@@ -38,8 +38,8 @@ class Body:
 
 
 class Frame:
-    """What a thread is inside of: an operation, a call of a body, or a ``body``. There ``acts`` is what it has done by now,
-    and ``held`` what it held when it was entered.
+    """An activity on a thread: an operation, a call that a body makes, or a call of ``body``. ``acts`` are the actions of that
+    body so far, and ``held`` the references that it held at the beginning.
     """
 
     __slots__ = ("acts", "body", "event", "held")
@@ -52,7 +52,7 @@ class Frame:
 
 
 class Thread:
-    """``clock`` is when its last event was, ``frames`` what it is inside of, ``number`` how the trace calls it."""
+    """A thread of the trace: its ``number``, the time of its last event (``clock``), and its open activities (``frames``)."""
 
     __slots__ = ("clock", "frames", "number")
 
@@ -62,7 +62,7 @@ class Thread:
         self.frames: list[Frame] = []
 
     def entered(self, event: t.BodyEvent) -> Frame | None:
-        """Where the body that acts is; None if this thread is not inside it."""
+        """The activity in which the body of ``event`` acts; None if this thread is not inside that body."""
         frame = self.frames[-1] if self.frames else None
         inside = frame.event if frame is not None else None
         if type(inside) is t.Enter and inside.instance == event.instance and inside.component == event.component:
@@ -78,7 +78,7 @@ class BodyChecks:
         self.made: dict[str, list[Body]] = {name: [] for name in scenario.components}
 
     def exists(self, component: str, instance: int) -> bool:
-        """Was it made?"""
+        """Has this instance been made?"""
         return 1 <= instance <= len(self.made.get(component, ()))
 
     def body(self, event: t.BodyEvent) -> Body | None:
@@ -176,7 +176,7 @@ class BodyChecks:
 
 
 def _due_results(plan: Plan, enter: t.Enter) -> tuple[tuple[Datum, ...] | None, str | None]:
-    """What a method gives back, and the exception that it is left with."""
+    """The results of a method, and the exception with which it ends."""
     answers = [a for a in plan.actions if isinstance(a, s.Answer) and a.method == enter.method]
     if not answers:
         return (), None

@@ -1,4 +1,4 @@
-"""One run against one implementation under test: drive, judge, confirm, shorten, and add up."""
+"""One run on one IUT: drives scenarios, judges, confirms, shortens and adds up."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ from ucm_cts.harness.execution.integrity import believable, contradiction
 from ucm_cts.harness.hosting.hosts import Answer as HostAnswer
 from ucm_cts.harness.hosting.hosts import Hosts, Limits
 from ucm_cts.harness.hosting.locate import Endpoint
-from ucm_cts.harness.results.incidents import Patience
+from ucm_cts.harness.results.incidents import IncidentTime
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 
 __all__ = ["Answer", "Circumstances", "Driver", "Limits"]
@@ -82,7 +82,7 @@ class Driver:
         self.gaps = ClockGaps()
         self._disguise: Disguise | None = None
         self._numbers = itertools.count()
-        self._patience = Patience(self._hosts.limits.incident_seconds)
+        self._incident_time = IncidentTime(self._hosts.limits.incident_seconds)
         self._is_near = endpoint.kind in ("python", "executable")
         self._clock: tuple[int, HostClock] = (0, HostClock(self._is_near))
 
@@ -109,8 +109,8 @@ class Driver:
     def run(self, cases: Iterable[tuple[str, Scenario]], insist: bool = False) -> Iterator[Answer]:
         """The answers to ``cases`` (name, scenario), in order; many are on their way at a time.
 
-        When patience with incidents has run out, some are answered as ``untried``, unless the caller does ``insist``. There
-        may be no end to ``cases``: never are many drawn for an answer.
+        When the time for incidents is used up, some are answered as ``untried``, unless the caller does ``insist``.
+        ``cases`` may be endless: few of them are drawn for an answer.
         """
         source = iter(cases)
         returned: deque[_Case] = deque()
@@ -125,7 +125,7 @@ class Driver:
                 if case is None:
                     more = False
                     return
-                untried = None if insist else self._patience.not_tried(case.scenario)
+                untried = None if insist else self._incident_time.not_tried(case.scenario)
                 waiting.append(replace(case, untried=untried))
                 left_out = left_out + 1 if untried is not None else 0
                 if untried is None:
@@ -144,10 +144,10 @@ class Driver:
                     yield from untried()
                     case = waiting.popleft()
                     trace, incident = self._examine(case, reply, insist)
-                    self._patience.note_skips(case.run.scenario, trace if incident is None else ())
+                    self._incident_time.note_skips(case.run.scenario, trace if incident is None else ())
                     lost = incident is not None and incident.kind in _HOST_IS_GONE
                     if incident is not None and lost:
-                        self._patience.spend(time.monotonic() - began, case.run.scenario, incident, trace)
+                        self._incident_time.spend(time.monotonic() - began, case.run.scenario, incident, trace)
                     is_whole = isinstance(reply.reply, Traced) and incident is not None and incident.kind == "hang"
                     yield Answer(case.name, case.scenario, case.run.scenario, trace, incident, is_whole)
                     if lost:
@@ -198,7 +198,7 @@ class Driver:
             return (), Incident("refused", reply.reason)
         if reply.kind not in FRAMEWORK_INCIDENTS:
             return (), reply
-        if not insist and not self._patience.is_worth_confirming(run.scenario, reply.kind):
+        if not insist and not self._incident_time.is_worth_confirming(run.scenario, reply.kind):
             return (), reply
         return self._run_again(run, reply)
 
@@ -214,7 +214,7 @@ class Driver:
         """Run the scenario once more and have each event sent as it happens, to find what led to the incident."""
         began = time.monotonic()
         second = self._hosts.run_again(run)
-        self._patience.spend_confirming(time.monotonic() - began)
+        self._incident_time.spend_confirming(time.monotonic() - began)
         if isinstance(second.reply, Incident) and second.reply.kind == first.kind:
             return believable(run.scenario, second.happened), msgspec.structs.replace(
                 second.reply, stacks=second.reply.stacks or first.stacks

@@ -94,7 +94,7 @@ class _Check(BodyChecks):
         return f"{held.component} goes on although gate {held.gate!r} is closed"
 
     def is_silent(self, number: int) -> bool:
-        """No event tells that the step has succeeded."""
+        """No event shows that the step has succeeded."""
         return not self.scenario.steps[number].ends_with
 
     def check_order(self, number: int, thread: Thread) -> str | None:

@@ -1,4 +1,4 @@
-"""What a run leaves behind for people and machines: HTML, JSON, JUnit, and a summary for the terminal.
+"""Writes reports: HTML, JSON, JUnit, and a summary for the terminal.
 
-Everything a framework said is foreign text here; ``foreign`` is the one gate through which it passes.
+All text of a framework passes through ``foreign`` first.
 """

@@ -1,4 +1,4 @@
-"""``comparison.html``: reports side by side, one file that needs nothing else."""
+"""``comparison.html``: reports side by side, in one self-contained file."""
 
 from __future__ import annotations
 

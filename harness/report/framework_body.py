@@ -1,4 +1,4 @@
-"""What the page of a framework shows: diagrams of failures, incidents, and the life-cycle table."""
+"""The page of a framework: diagrams of failures, incidents, and the life-cycle table."""
 
 from __future__ import annotations
 

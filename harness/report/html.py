@@ -1,4 +1,4 @@
-"""``report.html``: one file that needs nothing else, for the person who has to find out what is wrong."""
+"""``report.html``: one self-contained file for the person who examines failures."""
 
 from __future__ import annotations
 

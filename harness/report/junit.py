@@ -1,4 +1,4 @@
-"""``junit.xml``: one test case a requirement, so that every CI shows the verdicts without being taught anything."""
+"""``junit.xml``: one test case for each requirement, so that every CI shows the verdicts."""
 
 from __future__ import annotations
 

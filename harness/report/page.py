@@ -1,4 +1,4 @@
-"""Makes pages of the templates beside this module: each is one file that needs nothing else."""
+"""Makes pages of the templates beside this module; each page is one self-contained file."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Published results: what a report says that is the same each time one product is tested. Such files are under version control.
+"""Published results: the part of a report that is the same in every run on one product. The files are under version control.
 
-There is neither time nor seed nor count nor path in them, so a difference between two of them is a changed verdict.
+They hold no time, seed, count or path, so a difference between two of them is a changed verdict.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What reports show of a finding of a tool chain: the model, its differences from the legal twin, the command and its answer."""
+"""A finding of a tool chain in reports: the model, its differences from the legal twin, the command and its response."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ def write_failures(report: Report, out: Path) -> None:
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Put ``content`` into place at once: readers see the old file or the new one."""
+    """Replace the file at ``path`` at once: readers see the old file or the new one."""
     handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
     try:
         with os.fdopen(handle, "wb") as file:

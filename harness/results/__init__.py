@@ -1,1 +1,1 @@
-"""What a run says: executions, incidents, verdicts, the vendor's statement, known failures."""
+"""The results of a run: executions, incidents, verdicts; the vendor's statement; known failures."""

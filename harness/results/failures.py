@@ -1,4 +1,4 @@
-"""Failing scenarios as files: their names, their text, and the command that plays them again."""
+"""Failing scenarios as files: names, text, and the command that replays them."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ def shortest_first(findings: tuple[v.ReportedFinding, ...]) -> list[v.ReportedFi
 
 
 def reading_length(failed: v.ReportedFinding) -> tuple[int, int]:
-    """How long a reader has to read: a scenario's steps, then events; or a model's lines."""
+    """The length for a reader: a scenario's steps, then events; or a model's lines."""
     if isinstance(failed.evidence, v.FactEvidence):
         return failed.evidence.processed.model.count("\n"), 0
     return length(failed.execution)
 
 
 def length(execution: v.Execution | None) -> tuple[int, int]:
-    """How long a reader has to read: steps, then events."""
+    """The length for a reader: steps, then events."""
     return (len(execution.scenario.steps), len(execution.trace)) if execution is not None else (0, 0)
 
 
@@ -53,7 +53,7 @@ def incident_file(number: int) -> str:
 
 
 def replay_command(file: str, report: v.Report) -> str:
-    """The command that plays a saved scenario again, from the report's folder."""
+    """The command that replays a saved scenario, in the report's folder."""
     statement = f" --ics {STATEMENT}" if report.statement.source else ""
     return f"ucm-cts replay {file} {shlex.quote(one_line(report.adapter))}{statement}"
 

@@ -1,7 +1,7 @@
-"""The gate for foreign text: what a framework under test said is bounded and made harmless before it is shown.
+"""Cleans foreign text: text of a framework under test is bounded and made harmless before it is shown.
 
 Products, error details and stack traces come from the framework and may hold anything: markup, terminal escapes, NULs,
-lone surrogates, megabytes. Markup is left to the escaping of each format; everything else ends here.
+lone surrogates, megabytes. Each format escapes markup; this module removes everything else.
 """
 
 from __future__ import annotations
@@ -38,13 +38,13 @@ def clean(text: str, limit: int = LONGEST) -> str:
 
 
 def one_line(text: str, limit: int = 200) -> str:
-    """``text`` on one line, at most ``limit`` characters long, an ellipsis standing for the rest."""
+    """``text`` on one line, at most ``limit`` characters long, with an ellipsis for the rest."""
     text = _SPACE.sub(" ", clean(text[: 4 * limit], 4 * limit)).strip()
     return text if len(text) <= limit else text[: limit - 1] + "…"
 
 
 def clean_report(report: AnyReport) -> AnyReport:
-    """The same report with every text cleaned; ``write_report`` lets no other one through."""
+    """The same report with every text cleaned."""
     return msgspec.convert(_walk(msgspec.to_builtins(report)), type(report))
 
 

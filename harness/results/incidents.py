@@ -1,7 +1,6 @@
 """Incidents of the framework: the finding that each gives, and the time that a run spends on them.
 
-Every scenario is tried and waited for in full, as long as that does not take for ever. Once incidents have taken their
-time, scenarios with an operation that has met one are no longer tried; all others still are.
+Once incidents have used up their time, scenarios with an operation that has met an incident are left out.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ CONFIRMATIONS = 2
 """After that part, an operation with this many incidents of a kind explains the next one of that kind."""
 
 
-class Patience:
+class IncidentTime:
     """The time that a run spends on incidents: ``seconds`` in all."""
 
     def __init__(self, seconds: float) -> None:
@@ -43,9 +42,9 @@ class Patience:
                     self._unoffered.add(step.connector)
 
     def not_tried(self, scenario: Scenario) -> Incident | None:
-        """Why ``scenario`` is not worth a try; None if it is.
+        """Why ``scenario`` is left out; None if it is to be run.
 
-        Where a connector is not offered nothing comes through it, and waiting for that would take minutes.
+        A scenario with a connector that is not offered is left out, because each of its waits would last in vain.
         """
         links = (step.connector for step in scenario.steps if isinstance(step, s.Link))
         unoffered = next((connector for connector in links if connector in self._unoffered), None)
@@ -129,7 +128,7 @@ def may_wait(scenario: Scenario, trace: Trace) -> bool:
 
 
 def is_waiting(execution: Execution) -> bool:
-    """Did it hang in a call that may wait for a component to be started?"""
+    """Does the execution hang in a call that may wait for the start of a component?"""
     hangs = execution.incident is not None and execution.incident.kind == "hang"
     return hangs and may_wait(execution.scenario, execution.trace)
 

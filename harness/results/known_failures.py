@@ -1,7 +1,7 @@
 """Known failures: a file that says which failures are expected for now, why, and until when (docs/known-failures.md).
 
-An entry matches a requirement *and* the text of what was observed. Entries that match nothing are errors, so that the
-list cannot outlive the defects it excuses. A known failure keeps its verdict in the report; only the exit status changes.
+An entry matches a requirement *and* the text of what was observed. Entries that match nothing are errors,
+so that no entry stays longer than its defect. A known failure keeps its verdict in the report; only the exit status changes.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def load_known_failures(path: Path, requirements: Sequence[str], today: datetime
 
 
 def waiver_for(finding: Finding, known: Sequence[KnownFailure]) -> str:
-    """Why ``finding`` is known, or nothing."""
+    """The reason of the entry that matches ``finding``; empty if none does."""
     for entry in known:
         if entry.requirement == finding.requirement and _matches(entry.observed, finding.observed):
             return entry.reason
@@ -74,7 +74,7 @@ def _matches(pattern: str, text: str) -> bool:
 
 
 def all_known(report: Report) -> bool:
-    """Is nothing but known failures in the way of ``report`` being conformant?"""
+    """Would ``report`` be conformant without its known failures?"""
     return (
         report.verdict == "not conformant"
         and not incidents_of(report)
@@ -86,11 +86,11 @@ def all_known(report: Report) -> bool:
 
 
 def succeeded(report: Report) -> bool:
-    """Does a build that expects the known failures pass?"""
+    """Is ``report`` conformant but for known failures?"""
     return report.verdict == "conformant" or all_known(report)
 
 
 def stale(known: Sequence[KnownFailure], results: Sequence[RequirementResult]) -> list[KnownFailure]:
-    """Entries that excused nothing in this run."""
+    """Entries that match no finding of this run."""
     findings = [f.finding for r in results for f in r.findings]
     return [entry for entry in known if not any(waiver_for(finding, [entry]) for finding in findings)]

@@ -92,7 +92,7 @@ class Statement(Value, frozen=True):
         return tuple(f"{option}={value}" for option, value in self.readings.items())
 
     def meets(self, need: str) -> bool:
-        """Is ``need`` claimed, a part, or declared, a reading (``option=value``, several values with ``|`` between them)?"""
+        """Is ``need`` claimed (a capability) or declared (a reading as ``option=value``, with ``|`` between permitted values)?"""
         option, _, values = need.partition("=")
         return self.readings[option] in values.split("|") if values else self.capabilities[need]
 

@@ -90,7 +90,7 @@ class Tally:
         self._reasons.setdefault(requirement, reason)
 
     def deny(self, finding: Finding) -> None:
-        """The vendor's statement itself shows ``finding``."""
+        """Add a finding that the vendor's statement itself shows."""
         self.exercised[finding.requirement] += 1
         self.add_failure(finding, None)
 
@@ -200,7 +200,7 @@ class Tally:
         return "inconclusive", reason
 
     def transitions(self, table: LifeCycleTable) -> tuple[v.TransitionResult, ...]:
-        """How each row of the table fared."""
+        """The result of each row of the table."""
         empty = RowTally()
         rows = [(row.id, self.rows.get(row.id, empty)) for row in table.rows]
         return tuple(v.TransitionResult(i, t.exercised, t.violated, tuple(sorted(t.readings))) for i, t in rows)
@@ -212,7 +212,7 @@ def _repeatable(evidence: v.Evidence | None) -> object:
 
 
 def overall(results: Sequence[v.RequirementResult], incidents: Sequence[v.IncidentReport]) -> v.Overall:
-    """Not conformant if any requirement failed; conformant if all passed and nothing went wrong besides."""
+    """Not conformant if any requirement failed; conformant if all passed and there was no incident."""
     if any(r.verdict == "fail" for r in results):
         return "not conformant"
     if incidents or any(r.verdict in ("inconclusive", "error") for r in results) or not results:

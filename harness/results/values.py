@@ -150,7 +150,7 @@ class TransitionResult(Value, frozen=True):
 
 
 class IncidentReport(Value, frozen=True):
-    """An incident with the execution it cost, or the shortest one of all ``occurrences`` that met it."""
+    """An incident with its execution, or the shortest one of all ``occurrences`` that met it."""
 
     incident: Incident
     execution: Execution
@@ -158,8 +158,8 @@ class IncidentReport(Value, frozen=True):
 
 
 class Effort(Value, frozen=True):
-    """What was behind the verdicts: ``measures`` are the sums that properties report (overlaps provoked, calls stressed ...),
-    ``seconds`` where the time went, by clause.
+    """The effort of a run: ``measures`` are the sums that properties report (overlaps provoked, calls stressed ...),
+    ``seconds`` the time spent, by clause.
     """
 
     measures: dict[str, int] = {}
@@ -167,7 +167,7 @@ class Effort(Value, frozen=True):
 
 
 class Report(Value, frozen=True):
-    """What a run says of any product."""
+    """The results of a run, for any product."""
 
     product: str
     version: str
@@ -185,7 +185,7 @@ class Report(Value, frozen=True):
 
 
 class FrameworkReport(Report, frozen=True, kw_only=True):
-    """What a run says of a framework."""
+    """The results of a run on a framework."""
 
     transitions: tuple[TransitionResult, ...]
     incidents: tuple[IncidentReport, ...]
@@ -197,7 +197,7 @@ class FrameworkReport(Report, frozen=True, kw_only=True):
 
 
 class ToolChainReport(Report, frozen=True, kw_only=True):
-    """What a run says of a tool chain."""
+    """The results of a run on a tool chain."""
 
     models: int
     facts: int

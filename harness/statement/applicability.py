@@ -21,7 +21,7 @@ Cases = tuple[tuple[str, Scenario], ...]
 
 
 def purposes_for(statement: Statement, profile: str, extra_states: int = 0) -> tuple[TestPurpose, ...]:
-    """The test purposes of ``profile``, with those scenarios that ask for nothing that is not claimed; systematic suites are
+    """The test purposes of ``profile``, with the scenarios that need only claimed parts; systematic suites are
     those for ``extra_states`` additional states.
     """
     reduced = (_reduced(purpose, statement) for purpose in _all_purposes(statement, profile, extra_states))
@@ -51,7 +51,7 @@ def why_not(requirement: Requirement, statement: Statement) -> tuple[Verdict, st
     return verdict, f"{said} {' and '.join(dict.fromkeys(_shown(need, statement) for need in decisive))}"
 
 
-def asked_in_vain(statement: Statement, profile: str) -> Mapping[str, str]:
+def lacking_claims(statement: Statement, profile: str) -> Mapping[str, str]:
     """The capabilities that are not claimed and that every scenario of a requirement needs, by requirement id."""
     lacking: dict[str, set[str]] = {}
     found: set[str] = set()
@@ -97,7 +97,7 @@ def _reduced(purpose: TestPurpose, statement: Statement) -> TestPurpose:
 
 
 def fitting(cases: Iterable[tuple[str, Scenario]], statement: Statement) -> Cases:
-    """Those of ``cases`` that ask for nothing that is not claimed, with the patience that is declared."""
+    """The ``cases`` that need only claimed parts, with the declared patience."""
     return tuple(
         (name, _fitted(scenario, statement))
         for name, scenario in cases

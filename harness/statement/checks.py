@@ -9,7 +9,7 @@ from ucm_cts.harness.catalogue.requirements import Requirement
 from ucm_cts.harness.models.core_models import compare
 from ucm_cts.harness.results.statement import Statement
 from ucm_cts.harness.results.tally import Tally
-from ucm_cts.harness.statement.applicability import asked_in_vain, why_not
+from ucm_cts.harness.statement.applicability import lacking_claims, why_not
 from ucm_cts.reference_models.findings import Finding
 
 
@@ -24,7 +24,7 @@ def check_statement(statement: Statement, profile: str, requirements: Sequence[R
     for part, claimed in statement.capabilities.items():
         if not claimed:
             tally.deny(_left_out(part, statement))
-    for requirement_id, parts in asked_in_vain(statement, profile).items():
+    for requirement_id, parts in lacking_claims(statement, profile).items():
         tally.explain(requirement_id, f"all scenarios that are to exercise it ask for what is not claimed: {parts}")
     if statement.meets("core-models=shipped"):
         tally.add_models(compare(statement.model_paths, statement.readings))

@@ -17,7 +17,7 @@ from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver, Limits
 from ucm_cts.harness.hosting.locate import locate
 from ucm_cts.harness.purposes.selection import load_purposes, select
-from ucm_cts.harness.results.incidents import Patience
+from ucm_cts.harness.results.incidents import IncidentTime
 from ucm_cts.harness.results.values import Incident
 from ucm_cts.harness.statement.applicability import purposes_for
 from ucm_cts.harness.statement.files import stated_by
@@ -100,43 +100,43 @@ def test_crash_in_a_common_operation_leaves_every_scenario_its_try() -> None:
         removes = any(isinstance(step, s.RemoveComponent) for step in answer.scenario.steps)
         assert answer.incident is None or (answer.incident.kind == "crash" and removes)
     assert sum(answer.incident is not None for answer in answers) > 50
-    assert sum(bool(answer.incident and answer.trace) for answer in answers) > 10, "many are looked at again"
+    assert sum(bool(answer.incident and answer.trace) for answer in answers) > 10, "many are run again"
 
 
-def test_patience_is_for_all_incidents_together() -> None:
-    patience = Patience(10)
+def test_time_is_for_all_incidents_together() -> None:
+    incident_time = IncidentTime(10)
     call = (Call(1, 0, 0, 0),)
-    patience.spend(9, STOPS, CRASH, call)
-    assert patience.not_tried(STARTS) is None
-    patience.spend(1, STOPS, CRASH, call)
-    assert patience.not_tried(STARTS)
-    assert patience.not_tried(LISTS) is None, "nothing is known against get_components"
-    patience.spend(1, LISTS, CRASH, ())
-    assert patience.not_tried(LISTS), "nobody knows what to leave out"
+    incident_time.spend(9, STOPS, CRASH, call)
+    assert incident_time.not_tried(STARTS) is None
+    incident_time.spend(1, STOPS, CRASH, call)
+    assert incident_time.not_tried(STARTS)
+    assert incident_time.not_tried(LISTS) is None, "nothing is known against get_components"
+    incident_time.spend(1, LISTS, CRASH, ())
+    assert incident_time.not_tried(LISTS), "the operation to leave out is not known"
 
 
-def test_second_looks_are_for_what_is_not_explained() -> None:
-    patience = Patience(10)
-    patience.spend_confirming(5)
+def test_confirmations_are_for_incidents_that_are_not_explained() -> None:
+    incident_time = IncidentTime(10)
+    incident_time.spend_confirming(5)
     for _ in range(2):
-        assert patience.is_worth_confirming(STARTS, "crash")
-        patience.spend(1, STARTS, CRASH, (Call(1, 0, 0, 0),))
-    assert not patience.is_worth_confirming(STOPS, "crash")
-    assert patience.is_worth_confirming(STOPS, "hang")
-    assert patience.is_worth_confirming(LISTS, "crash")
+        assert incident_time.is_worth_confirming(STARTS, "crash")
+        incident_time.spend(1, STARTS, CRASH, (Call(1, 0, 0, 0),))
+    assert not incident_time.is_worth_confirming(STOPS, "crash")
+    assert incident_time.is_worth_confirming(STOPS, "hang")
+    assert incident_time.is_worth_confirming(LISTS, "crash")
 
 
 @pytest.mark.parametrize("connector", [s.SERVICE_CONNECTOR, s.MESSAGE_CONNECTOR])
 def test_connector_that_is_not_offered_is_not_asked_for_again(connector: str) -> None:
-    patience = Patience(60)
+    incident_time = IncidentTime(60)
     asked = {kind: Scenario({}, (s.Link(kind, "any", "link"),)) for kind in (s.SERVICE_CONNECTOR, s.MESSAGE_CONNECTOR)}  # type: ignore[arg-type]
-    assert patience.not_tried(asked[connector]) is None
-    patience.note_skips(asked[connector], (Call(1, 0, 0, 0), Skip(2, 0, 0, 0, "link")))
-    refused = patience.not_tried(asked[connector])
+    assert incident_time.not_tried(asked[connector]) is None
+    incident_time.note_skips(asked[connector], (Call(1, 0, 0, 0), Skip(2, 0, 0, 0, "link")))
+    refused = incident_time.not_tried(asked[connector])
     assert refused is not None
     assert connector in refused.detail
-    assert [patience.not_tried(other) for kind, other in asked.items() if kind != connector] == [None]
-    assert patience.not_tried(STARTS) is None
+    assert [incident_time.not_tried(other) for kind, other in asked.items() if kind != connector] == [None]
+    assert incident_time.not_tried(STARTS) is None
 
 
 def test_threads_that_never_come_back_fail_the_requirement_that_forbids_it() -> None:

@@ -28,7 +28,7 @@ from ucm_cts.harness.purposes.selection import load_purposes
 from ucm_cts.harness.report.write import save_report
 from ucm_cts.harness.results.statement import HOOKS, IXIT, Statement, default_statement
 from ucm_cts.harness.results.values import Report
-from ucm_cts.harness.statement.applicability import asked_in_vain, needs_of, purposes_for, why_not
+from ucm_cts.harness.statement.applicability import lacking_claims, needs_of, purposes_for, why_not
 from ucm_cts.harness.statement.files import LARGEST, check_subject, read_statement, stated_by
 from ucm_cts.harness.statement.writing import to_toml, write_statement
 
@@ -203,7 +203,7 @@ def test_needs_name_what_there_is() -> None:
 def test_everything_applies_and_is_run_where_everything_is_claimed() -> None:
     everything = stating()
     assert [r.id for r in load_requirements() if why_not(r, everything)] == []
-    assert asked_in_vain(everything, "core") == {}
+    assert lacking_claims(everything, "core") == {}
     readings = tuple(f"{hook}=hook" for hook in HOOKS)
     assert len(purposes_for(everything, "core")) == len(load_purposes("core", *readings))
     reduced, whole = purposes_for(default_statement(), "container"), load_purposes("container")
@@ -214,7 +214,7 @@ def test_without_means_of_tests_only_what_needs_them_is_left() -> None:
     default = default_statement()
     unmet = {r.id: why_not(r, default) for r in CORE_REQUIREMENTS if why_not(r, default)}
     assert {verdict for verdict, _ in filter(None, unmet.values())} == {"inconclusive"}
-    assert asked_in_vain(default, "core").keys() <= unmet.keys()
+    assert lacking_claims(default, "core").keys() <= unmet.keys()
     steps = [step for p in purposes_for(default, "core") for _, scenario in p.scenarios for step in scenario.steps]
     assert not [step for step in steps if isinstance(step, s.Break | s.ReadLog)]
     exercised = {r for p in purposes_for(default, "core") for r in p.requirements}

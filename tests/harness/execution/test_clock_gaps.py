@@ -1,4 +1,4 @@
-"""What depends on time is held against nobody whose machine stood still, and against nobody who does it once only."""
+"""A finding that depends on time counts only if the machine did not stand still and the finding is shown twice."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ ANSWER = Answer("a", Scenario({}, ()), Scenario({}, (), patience=100), trace(0, 
 
 
 class MadeUp:
-    """A driver, a judge and a watch in one: the second look finds ``second``, and the machine stood still for ``gaps``."""
+    """A driver, a monitor and a watch in one: the second run finds ``second``, and the machine stood still for ``gaps``."""
 
     def __init__(self, second: list[Finding], *gaps: int) -> None:
         self.second, self.gaps = second, list(gaps)
@@ -203,7 +203,7 @@ def test_verdict_is_inconclusive_if_the_machine_stood_still(monkeypatch: pytest.
     )
 
 
-# second looks at whole runs
+# confirmations in whole runs
 
 
 def looked_at_again(
@@ -235,7 +235,7 @@ def test_failure_that_is_not_shown_again_is_unstable_and_both_traces_are_kept(sl
 
 
 @pytest.mark.parametrize(("slips", "verdict"), [(4, "inconclusive"), (1000, "fail")])
-def test_failure_that_was_seen_more_than_once_is_looked_at_again_too(slips: int, verdict: str) -> None:
+def test_failure_that_was_seen_more_than_once_is_confirmed_too(slips: int, verdict: str) -> None:
     unsteady.Slips.left = slips
     result = looked_at_again("Slipping", "same-connection-twice", True, "R-11.2.1.2-06", times=2)
     assert result.verdict == verdict
