@@ -1,4 +1,4 @@
-"""Random spellings: a framework sees names and payloads that are different in each run, so nothing can be hard-coded.
+"""The disguise of a run: random names and payloads, different in each run, so that a framework cannot hard-code answers.
 
 Traces are judged in the disguised spelling, against the disguised scenario; only what people read is revealed.
 A name the framework made up stays as it is and therefore never equals a name of the scenario.
@@ -62,7 +62,7 @@ class Disguise:
         )
 
     def reveal(self, value: T) -> T:
-        """``value``, any message value or finding, with each known disguise replaced by what it stands for."""
+        """``value``, any message value or finding, in the script's own names and payloads."""
         if self._pattern is None:
             alternatives = sorted(self._plain, key=len, reverse=True)
             self._pattern = re.compile("|".join(map(_found, alternatives)) or r"(?!)")
@@ -83,7 +83,7 @@ class Disguise:
         return token
 
     def _name_methods(self, methods: Sequence[str]) -> None:
-        """A method whose name begins with that of another one, which comes before it, still does so in disguise."""
+        """If the name of a method begins with the name of an earlier one, its random name does so, too."""
         for number, method in enumerate(methods):
             beginnings = [other for other in methods[:number] if method.startswith(other)]
             if beginnings and method not in self._tokens and not s.STANDARD_METHODS & {method, beginnings[-1]}:
@@ -128,7 +128,7 @@ class Disguise:
         )
 
     def _configured(self, plain: str) -> str:
-        """Only words are disguised; values of types are read by some frameworks."""
+        """Only words are disguised, because some frameworks parse values of types."""
         return self._name(plain) if read_spelled(plain) is None else plain
 
     def _policy(self, policy: Policy) -> Policy:
@@ -173,7 +173,7 @@ class Disguise:
                 return call.arguments
 
     def _step(self, step: Step) -> Step:
-        """Variables, gates and workers keep their names, which no framework sees."""
+        """Variables, gates and workers keep their names, because no framework sees them."""
         changed: dict[str, str | int] = {}
         for field, trait in fields(type(step)):
             plain = getattr(step, field)

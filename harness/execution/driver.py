@@ -1,4 +1,4 @@
-"""Drives scenarios through a host: disguised, pipelined, and once more after an incident."""
+"""Sends scenarios to a host, disguised and pipelined, and runs them again after an incident."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ class Driver:
 
     @property
     def disguise(self) -> Disguise:
-        """The random spelling of this run."""
+        """The disguise of this run."""
         if self._disguise is None:
             self._disguise = Disguise(self.seed, self.identity.port_element_name)
         return self._disguise

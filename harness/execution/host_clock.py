@@ -1,4 +1,4 @@
-"""Checks a host's clock from answer to answer. A replayed trace has old times, or invented ones that do not fit the harness's clock.
+"""Checks a host's clock from answer to answer. The times of a replayed trace are old, or do not fit the harness's clock.
 
 Events of one host have times of one monotonic clock (trace.py), so that a later scenario has later times. And where the harness
 starts the host their clocks run alike: no event comes before its scenario was sent, and none after its answer.

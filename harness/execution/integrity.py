@@ -35,7 +35,7 @@ def contradiction(scenario: Scenario, trace: Iterable[t.Event], stuck: bool = Fa
 
 
 def believable(scenario: Scenario, events: Sequence[t.Event]) -> tuple[t.Event, ...]:
-    """``events`` as far as they can be true."""
+    """The first of ``events``, up to the first contradiction."""
     check = _Check(scenario)
     for index, event in enumerate(events):
         if check.take(event):
@@ -44,7 +44,7 @@ def believable(scenario: Scenario, events: Sequence[t.Event]) -> tuple[t.Event, 
 
 
 class _Check(BodyChecks):
-    """Follows the steps of a scenario, and bodies on the way."""
+    """Follows the steps of a scenario, and the bodies that they reach."""
 
     def __init__(self, scenario: Scenario) -> None:
         super().__init__(scenario)
@@ -61,7 +61,7 @@ class _Check(BodyChecks):
         self.shortest_wait = patience * _PUNCTUALITY - _GRAIN
 
     def take(self, event: t.Event) -> str | None:
-        """What is wrong with the next event."""
+        """The contradiction that the next event makes; None if it makes none."""
         self.taken += 1
         if event.n != self.taken:
             return f"event number {event.n} where {self.taken} is due"
@@ -77,7 +77,7 @@ class _Check(BodyChecks):
         return f"event {event.n}: {problem}" if problem else None
 
     def end(self) -> str | None:
-        """What is wrong if nothing follows."""
+        """The contradiction if the trace ends here; None if there is none."""
         for number, step in enumerate(self.scenario.steps):
             ended = isinstance(step, s.Join) or (self.done.get(number) if step.ends_with else not self.why_open(number))
             if not ended:
@@ -85,7 +85,7 @@ class _Check(BodyChecks):
         return None
 
     def check_gate(self, event: t.Event) -> str | None:
-        """A body that is held lets its thread go on when the gate is open, patience has run out or all is over."""
+        """A body that is held lets its thread go on when the gate is open, patience has run out or all steps have ended."""
         held = self.waiting.pop(event.thread, None)
         if held is None or held.gate in self.opened or event.t - held.t >= self.shortest_wait:
             return None
@@ -98,7 +98,7 @@ class _Check(BodyChecks):
         return not self.scenario.steps[number].ends_with
 
     def check_order(self, number: int, thread: Thread) -> str | None:
-        """A thread takes its steps one by one, in order; what it leaves behind without a trace must be over."""
+        """A thread takes its steps one by one, in order; steps that it passes without an event must have ended."""
         if thread.frames:
             return f"step {number} begins while another one is open on thread {thread.number}"
         problem = self.order.begin(number, thread.number)
@@ -154,7 +154,7 @@ class _Check(BodyChecks):
         return problem
 
     def missing(self, step: s.Step) -> list[str]:
-        """The variables that ``step`` reads and that are not bound, or that hold nothing it could call."""
+        """The variables that ``step`` reads and that are not bound, or that hold no reference to call."""
         if type(step) is s.Invoke:
             return [] if step.ref in self.bound and step.ref not in self.null else [step.ref]
         return [variable for variable in used_by(step) if variable not in self.bound]
@@ -230,7 +230,7 @@ class _Check(BodyChecks):
         return self.check_value(step, event)
 
     def step(self, event: t.StepEvent) -> s.Step | str:
-        """The event's step, or that there is none."""
+        """The step of the event, or why there is none."""
         if not 0 <= event.step < len(self.scenario.steps):
             return f"there is no step {event.step}"
         return self.scenario.steps[event.step]
@@ -252,7 +252,7 @@ class _Check(BodyChecks):
 
 
 def _fits(value: object, returns: s.Returns | None) -> bool:
-    """Can a call that returns such a thing have returned ``value``?"""
+    """Is ``value`` of the kind that the call ``returns``?"""
     match returns:
         case "id" | "value":
             return isinstance(value, int)

@@ -54,12 +54,12 @@ def is_as_planned(plan: Sequence[Action], acts: Sequence[Act], held: tuple[dict[
 
 
 def _are(acts: Sequence[Act], action: Action, times: int) -> bool:
-    """Is this ``action``, so many times?"""
+    """Is each of ``acts`` this ``action``, and are there so many?"""
     return len(acts) == times and all(_is(act, action) for act in acts)
 
 
 def _is(act: Act, action: Action) -> bool:
-    """Does ``act`` tell of this action?"""
+    """Does ``act`` show this action?"""
     match act:
         case Request(method=None):
             return isinstance(action, s.CallPort) and (action.port, action.value) == (act.port, act.value)

@@ -1,4 +1,4 @@
-"""The shortest scenario that still shows a failure: leave out steps, components and plans as long as it fails the same."""
+"""Shortens a scenario: leaves out steps, components and plans as long as the same failure shows."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def shortest(scenario: Scenario, first_failing: Callable[[Sequence[Scenario]], i
 
 
 def _halves(scenario: Scenario) -> Iterator[Scenario]:
-    """Scenarios with far fewer components: one after the other, because most often neighbours have to do with each other."""
+    """Scenarios with far fewer components: neighbours stay together, because most often they are connected."""
     names = list(scenario.components)
     size = len(names)
     for most in (size // 4, size // 2):
@@ -44,7 +44,7 @@ def _halves(scenario: Scenario) -> Iterator[Scenario]:
 
 
 def _shorter(scenario: Scenario) -> Iterator[Scenario]:
-    """Scenarios with less in them, the boldest first, that keep one thread at a time on the containers."""
+    """Shorter scenarios, the shortest first, with one thread at a time on the containers."""
     return (shorter for shorter in _with_less(scenario) if not any(overlaps(shorter.steps)))
 
 
@@ -72,7 +72,7 @@ def _with_less(scenario: Scenario) -> Iterator[Scenario]:
 
 
 def _plainer(declaration: Declaration) -> Iterator[Declaration]:
-    """The same component, and it knows less of the framework or is configured less."""
+    """The same component with fewer callbacks or without attributes."""
     if declaration.connectable:
         yield msgspec.structs.replace(declaration, connectable=False)
     if declaration.fragment:

@@ -56,7 +56,7 @@ class _Sent:
         return len(encoded), encoded
 
     def scenario(self, pause: int = 0) -> Scenario:
-        """A short scenario that has it carried; with ``pause``, milliseconds, a message is not waited for any longer."""
+        """A short scenario that sends it; with ``pause``, the wait for a message ends after so many milliseconds."""
         loads = with_parts([Load("value", self.of, (corners(self.of)[0], self.value))])
         made = services(loads) if self.connector == s.SERVICE_CONNECTOR else messages(loads, pause)
         return msgspec.structs.replace(made, patience=self.patience)
@@ -82,7 +82,7 @@ def smallest(finding: Finding, execution: Execution, first_failing: FirstFailing
 
 
 class _TimeIsUp(BaseException):
-    """No more tries. Hypothesis lets it through."""
+    """The time for tries is used up. Hypothesis does not catch it."""
 
 
 class _Search:
@@ -107,7 +107,7 @@ class _Search:
 
 
 def _parts_of(whole: _Sent) -> Sequence[_Sent]:
-    """What ``whole`` is made of and itself, the smallest first."""
+    """The parts of ``whole`` and itself, the smallest first."""
     inside = [replace(whole, of=of, value=value) for of, value in parts(whole.of, whole.value)]
     found = {(part.size, msgspec.json.encode(part.of)): part for part in inside}
     return [part for _, part in sorted(found.items(), key=lambda item: item[0])][-_PARTS:]

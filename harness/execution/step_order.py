@@ -11,7 +11,7 @@ from ucm_cts.adapters.contract.scenario import Scenario
 
 
 class StepOrder:
-    """The steps of each worker, by number, and the threads that turned out to be theirs. ``None`` is the scenario itself."""
+    """The steps of each worker, by number, and the threads on which they run. ``None`` is the main thread."""
 
     def __init__(self, scenario: Scenario) -> None:
         self.steps: dict[str | None, array[int]] = {None: array("q")}
@@ -23,7 +23,7 @@ class StepOrder:
         self._passed: Sequence[int] = ()
 
     def begin(self, number: int, thread: int) -> str | None:
-        """Step ``number`` begins on ``thread``; why it cannot be so."""
+        """Note that step ``number`` begins on ``thread``. Returns why it cannot."""
         worker = self._scenario.steps[number].thread
         known = self._threads.get(worker)
         if known is not None and thread != known:

@@ -1,1 +1,1 @@
-"""Finds the host of an adapter, starts it and gets an answer to each message, whatever the host does."""
+"""Finds and starts the host of an adapter, and gets an answer or an incident for each message."""

@@ -1,4 +1,4 @@
-"""Ways to a host: processes forked by a template, and connections. No watching: that is ``host_watch``."""
+"""Channels to hosts: processes forked by a template, and connections. ``host_watch`` watches them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _LAST_LINES = 20
 
 
 class HostUnavailable(Exception):
-    """There is no host to be had behind an endpoint; ``incident`` says why, the text the end of it."""
+    """No host can be started or reached at an endpoint; ``incident`` says why, the text has its last lines."""
 
     def __init__(self, incident: Incident) -> None:
         printed = incident.stacks.strip().splitlines()
@@ -107,7 +107,7 @@ class TemplateProcess:
         self._log.close()
 
     def kill(self, pid: int, number: int) -> None:
-        """Have the template send a signal: it alone knows whether the process number is still taken."""
+        """Let the template send a signal: only its parent knows whether the process number is still in use."""
         if self._control and pid not in self._ended:
             with suppress(OSError):
                 self._control.sendall(b"kill %d %d\n" % (pid, number))
@@ -263,7 +263,7 @@ class HostProcess:
 
 
 class Connector:
-    """Connects to a host that somebody else runs; retries for a moment, since a replaced host may still be ending."""
+    """Connects to a host that runs already; retries for a moment, because a replaced host may still be ending."""
 
     def __init__(self, endpoint: Endpoint) -> None:
         self._endpoint = endpoint
@@ -280,7 +280,7 @@ class Connector:
             time.sleep(0.05)
 
     def close(self) -> None:
-        """Nothing to end: the other side runs on."""
+        """Nothing to end: the host runs on."""
 
     def _connect(self) -> socket.socket:
         if self._endpoint.kind == "unix":
@@ -298,7 +298,7 @@ class Connector:
 
 
 class Connection:
-    """A host at the other end of a socket: it can be dropped, not killed."""
+    """A host at the other end of a socket: it can be disconnected, not killed."""
 
     pid: int | None = None
     error: int | None = None
@@ -312,7 +312,7 @@ class Connection:
         self._open = True
 
     def signal(self, number: int) -> None:
-        """Out of reach."""
+        """A remote host gets no signals."""
 
     def status(self, seconds: float) -> int | None:
         return None

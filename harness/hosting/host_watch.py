@@ -1,4 +1,4 @@
-"""One host under watch: lines out, lines in, and an incident instead of anything that must not happen."""
+"""Watches one host: sends and receives lines, and reports every violation of limits or protocol as an incident."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Limits:
 
 
 class Deadline(msgspec.Struct, frozen=True):
-    """A point of time by ``time.monotonic``, and how many seconds it was away when it was set."""
+    """A point of time by ``time.monotonic``, and the seconds until then when it was set."""
 
     end: float
     seconds: float
@@ -79,7 +79,7 @@ class Host(Protocol):
         """End the host because of its message: raises ``HostIncident``."""
 
     def keep_to_one_core(self) -> None:
-        """Let the threads that it will start take turns on one core, where the host is this machine's to schedule."""
+        """Restrict the threads that a local host will start to one core."""
 
     def close(self) -> None:
         """Let the host go."""
@@ -259,7 +259,7 @@ class WatchedHost:
 
 
 class InProcessHost:
-    """The adapter inside the harness itself, without any watch: for debuggers and sanitizers."""
+    """The adapter inside the harness process, not watched: for debuggers and sanitizers."""
 
     def __init__(self, answer: Answer) -> None:
         self._answer = answer
@@ -279,7 +279,7 @@ class InProcessHost:
         raise HostIncident(Incident(kind, detail))
 
     def keep_to_one_core(self) -> None:
-        """The cores are the harness's own."""
+        """Nothing to do: the cores are those of the harness."""
 
     def close(self) -> None:
         self._questions.clear()

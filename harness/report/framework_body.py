@@ -79,7 +79,7 @@ class FrameworkBody:
 
 
 def framework_body(report: FrameworkReport, table: LifeCycleTable) -> FrameworkBody:
-    """Incidents and life cycle as ``report`` has them."""
+    """Incidents and life cycle of ``report``."""
     rows = rows_seen(table, report.transitions)
     return FrameworkBody(
         tuple(_incident(item, number, report) for number, item in enumerate(report.incidents)),

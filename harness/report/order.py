@@ -1,4 +1,4 @@
-"""Which requirements a report shows first, and how it counts."""
+"""The order of requirements in reports, and their counts."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NUMBER = re.compile(r"\d+")
 
 
 def counted(report: Report) -> tuple[tuple[int, str], tuple[int, str]]:
-    """How much a run did, with the two units of its product."""
+    """The extent of a run, in the two units of its product."""
     match report:
         case FrameworkReport():
             return (report.scenarios, "scenarios"), (report.events, "events")
@@ -33,7 +33,7 @@ def clause_key(clause: str) -> tuple[int, ...]:
 
 
 def to_fix(results: Iterable[RequirementResult]) -> list[RequirementResult]:
-    """Failed requirements in the order to work on them: what was met most often first, then by clause."""
+    """Failed requirements in the order to work on them: the most frequent first, then by clause."""
 
     def key(result: RequirementResult) -> tuple[int, tuple[int, ...], str]:
         return -sum(failed.occurrences for failed in result.findings), clause_key(result.clause), result.id

@@ -1,4 +1,4 @@
-"""The Markdown pages of published results: one a product, and the tables of all products. They follow from the results alone."""
+"""The Markdown pages of published results: one for each product, and the tables of all products."""
 
 from __future__ import annotations
 

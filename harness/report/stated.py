@@ -1,4 +1,4 @@
-"""The vendor's statement as a report shows it, with what the run observed beside it."""
+"""The vendor's statement as a report shows it, with the observed readings."""
 
 from __future__ import annotations
 

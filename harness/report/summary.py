@@ -1,4 +1,4 @@
-"""The report in the terminal: the verdict, what failed in three lines each, and where to read on."""
+"""The report in the terminal: the verdict, each failure in three lines, and the path of the page."""
 
 from __future__ import annotations
 
@@ -86,6 +86,6 @@ def _failure(result: RequirementResult) -> list[Text]:
 
 
 def cut(text: Text) -> Text:
-    """One line stays one line."""
+    """``text`` on one line, cut where the terminal ends."""
     text.no_wrap, text.overflow = True, "ellipsis"
     return text

@@ -1,4 +1,4 @@
-"""Expected against observed: two diagrams of one failure that share their beginning and part where the fault shows."""
+"""Expected against observed: two diagrams of one failure, equal up to the fault."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def compare(finding: Finding, execution: Execution) -> Comparison:
     lines = list(whole.lines)
     first = next((i for i, line in enumerate(lines) if line.style == "offending" and line.kind != "end"), None)
     if first is None:
-        # something is missing: nothing in the trace can be pointed at, so the place where it should be is marked
+        # an event is missing, so the place where it is due is marked
         first = _place_of_step(finding, execution, lines)
         lines.insert(first, _missing(finding, whole))
     asked = lines[first].source
@@ -46,7 +46,7 @@ def compare(finding: Finding, execution: Execution) -> Comparison:
         Line("note", TEST, TEST, one_line(finding.expected, 90), style="expected")
     ]
     kept = _kept(lines)
-    # what the test asked for is no fault: only what came of it should have been another
+    # a call of the test is no fault; only its consequences differ
     parting = (
         first + 1 if _asked(lines[first]) and (expected[0].source != TEST or expected[0].kind == "note") else first
     )
@@ -62,7 +62,7 @@ def compare(finding: Finding, execution: Execution) -> Comparison:
 
 
 def excerpt(execution: Execution, longest: int = TAIL) -> Diagram:
-    """The diagram of an execution, its end above all: what led to a crash or a hang."""
+    """The diagram of the end of an execution, before a crash or a hang."""
     whole = lay_out(execution)
     lines = list(whole.lines)
     start = max(0, len(lines) - longest)
@@ -79,7 +79,7 @@ def _missing(finding: Finding, diagram: Diagram) -> Line:
 
 
 def _expected(arrow: Arrow, diagram: Diagram, asked: str) -> Line:
-    """An expected event as a line; a lane that the diagram does not have stands for the one that asked."""
+    """An expected event as a line; where the diagram lacks a lane, the caller's lane takes its place."""
     source, target = find_lane(arrow.source, diagram.lanes) or asked, find_lane(arrow.target, diagram.lanes) or asked
     kind: LineKind = "answer" if target == TEST or arrow.label.startswith(("return", "raise", "result")) else "call"
     return Line(kind, source, target, one_line(arrow.label, 90), style="expected")

@@ -27,7 +27,7 @@ LineKind = Literal["call", "answer", "note", "gap", "end"]
 
 @dataclass(frozen=True)
 class Lane:
-    """One column: ``key`` is how lines name it, ``label`` what stands on top."""
+    """One column: lines refer to it by ``key``; ``label`` is its heading."""
 
     key: str
     label: str
@@ -113,7 +113,7 @@ def last_call(execution: Execution) -> str:
 
 
 def find_lane(name: str, lanes: Sequence[Lane]) -> str | None:
-    """The key of the lane that a finding calls ``name``; None if it takes no part in the diagram."""
+    """The key of the lane with this key or label; None if the diagram has none."""
     return next((one.key for one in lanes if name in (one.key, one.label)), None)
 
 
@@ -128,7 +128,7 @@ class _Walk:
         self.bodies: list[tuple[str, int]] = []
 
     def lanes(self) -> tuple[Lane, ...]:
-        """All lanes that were met, in their final order."""
+        """All lanes of the execution, in their final order."""
         return (
             Lane(TEST, TEST, "test"),
             *(Lane(name, one_line(name, 40), "container") for name in self.containers),

@@ -1,4 +1,4 @@
-"""How much room text takes in a drawing. Drawings use one monospaced face, so columns are enough to know."""
+"""The width of text in a drawing. Drawings use one monospaced face, so the width follows from the columns."""
 
 from __future__ import annotations
 

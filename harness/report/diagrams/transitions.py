@@ -1,4 +1,4 @@
-"""What a run says about each row and each transition of the life-cycle table."""
+"""The results of a run for each row and each transition of the life-cycle table."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _WORST: tuple[Verdict, ...] = ("fail", "inconclusive", "pass")
 
 @dataclass(frozen=True)
 class RowSeen:
-    """One row of the table with what the run saw of it."""
+    """One row of the table with its results."""
 
     row: Row
     exercised: int
@@ -66,7 +66,7 @@ def transitions(rows: Sequence[RowSeen]) -> tuple[Transition, ...]:
 
 @dataclass(frozen=True)
 class Choice:
-    """One freedom the text leaves: the readings the table permits, and those that were observed."""
+    """One option: the readings that the table permits, and those that were observed."""
 
     option: str
     permitted: tuple[str, ...]
@@ -74,7 +74,7 @@ class Choice:
 
 
 def choices(rows: Sequence[RowSeen]) -> tuple[Choice, ...]:
-    """What the framework made of each freedom, in the table's order; readings are written as ``option=reading``."""
+    """The observed readings of each option, in the table's order; readings are written as ``option=reading``."""
     permitted: dict[str, dict[str, bool]] = {}
     for seen in rows:
         for outcome in seen.row.outcomes:

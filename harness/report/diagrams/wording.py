@@ -1,4 +1,4 @@
-"""The words of a diagram: steps, callbacks and values, said in the names that the scenario itself uses."""
+"""The labels of a diagram: steps, callbacks and values, in the names of the scenario."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ Answered = int | tuple[int, ...] | Reference | str | None
 
 
 def body_key(component: str, instance: int) -> str:
-    """How lines name the lane of a body."""
+    """The key of the lane of a body."""
     return f"{component}#{instance}"
 
 
 class Wording:
-    """Words one execution. It follows calls, returns and creations to know what names stand for."""
+    """Makes the labels of one execution. It follows calls, returns and creations to resolve variables."""
 
     def __init__(self, execution: Execution) -> None:
         self.patience = execution.scenario.patience
@@ -35,7 +35,7 @@ class Wording:
     # what happened so far
 
     def called(self, number: int) -> None:
-        """Step ``number`` began: from here on its names mean what it binds."""
+        """Note that step ``number`` began and binds its variables."""
         match self._step(number):
             case s.AddComponent() as step:
                 self._added[step.bind or step.component] = step
@@ -47,13 +47,13 @@ class Wording:
                 self._connections[step.bind] = step
 
     def returned(self, number: int, value: Answered) -> None:
-        """Step ``number`` came back with ``value``."""
+        """Note that step ``number`` returned ``value``."""
         step = self._step(number)
         if isinstance(step, s.GetPortElement) and isinstance(value, Reference):
             self._references[step.bind] = value
 
     def created(self, component: str, instance: int, during: int | None) -> None:
-        """A body was made, on the thread on which step ``during`` is under way."""
+        """Note that a body was created during step ``during``."""
         step = self._step(during) if during is not None else None
         if isinstance(step, s.AddComponent) and step.component == component:
             self._homes[component, instance] = step.container
@@ -89,7 +89,7 @@ class Wording:
         return body_key(added.component, max(1, len(self._adds.get(added.component, []))))
 
     def container(self, number: int) -> str:
-        """The container that the step speaks to."""
+        """The container on which the step operates."""
         step = self._step(number)
         if step is None or isinstance(step, s.RemoveContainer | s.CreateContainer | s.Destroy):
             return s.MANAGER
@@ -140,12 +140,12 @@ class Wording:
         return one_line(f"{event.hook}({arguments})", 90)
 
     def request(self, event: Request) -> str:
-        """What a body calls."""
+        """The call that a body makes."""
         called = f"exchange({event.value})" if event.method is None else f"{event.method}({self.data(event.arguments)})"
         return f"{called} through {event.port}"
 
     def outcome(self, event: Exit | Reply) -> str:
-        """What a call or a hook came back with; empty for nothing."""
+        """The result of a call or a hook; empty for none."""
         if event.raised:
             return "an exception"
         if event.exception is not None:
@@ -166,14 +166,14 @@ class Wording:
         return request
 
     def reference(self, reference: MaybeReference) -> str:
-        """A reference as the scenario would call it."""
+        """A reference in the names of the scenario."""
         if isinstance(reference, Reference):
             number = "" if reference.instance == 1 else f"#{reference.instance}"
             return f"{reference.component}{number}.{reference.port}"
         return "nil" if reference is None else "a reference"
 
     def value(self, value: Answered) -> str:
-        """What an operation came back with; empty for nothing."""
+        """The value that an operation returned; empty for none."""
         if value is None:
             return ""
         if isinstance(value, tuple):

@@ -19,7 +19,7 @@ from ucm_cts.adapters.contract.messages import PROTOCOL, Welcome
 from ucm_cts.harness.catalogue.documents import DocumentError
 from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES, PROFILES
 from ucm_cts.harness.catalogue.requirements import load_capabilities, load_options, load_requirements
-from ucm_cts.harness.cli.pytest_plugin import _undecided
+from ucm_cts.harness.cli.pytest_suite import _undecided
 from ucm_cts.harness.execution.campaign import Campaign
 from ucm_cts.harness.execution.driver import Driver
 from ucm_cts.harness.hosting.locate import WrongUse, locate
