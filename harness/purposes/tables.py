@@ -1,4 +1,4 @@
-"""Test purposes as tables of rows (``suite/purposes``).
+"""Tables of rows: test purposes (``suite/purposes``), and other lists of YAML files.
 
 An item of a list with the key ``rows`` stands for as many items as there are rows, in each of which ``$name`` is replaced by
 the value of ``name`` in the row, or in the row of an item around it. A text that is nothing but ``$name`` becomes that value,
@@ -10,13 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from string import Template
-from typing import Any
+from typing import Any, TypeVar
 
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.catalogue.documents import convert, read_lines
 from ucm_cts.harness.catalogue.requirements import SUITE
 from ucm_cts.harness.purposes.scripts import TestPurpose
+
+T = TypeVar("T")
 
 
 class _NamedScenario(Scenario, frozen=True, kw_only=True):
@@ -36,13 +38,16 @@ class _Purpose(Value, frozen=True):
 
 def purposes_of(table: str, directory: Path = SUITE / "purposes") -> list[TestPurpose]:
     """The test purposes of ``<table>.yaml``. Raises ``DocumentError``, and ``KeyError`` for a name that no row has."""
-    path = directory / f"{table}.yaml"
-    written, _ = read_lines(path)
-    read = convert(path, _filled(written, {}), list[_Purpose], lines={})  # places in what is written out have no line
     return [
         TestPurpose(p.id, p.clause, p.text, p.requirements, tuple(map(_scenario, p.scenarios)), under=p.under)
-        for p in read
+        for p in read_table(directory / f"{table}.yaml", _Purpose)
     ]
+
+
+def read_table(path: Path, type_: type[T]) -> list[T]:
+    """The list in the file at ``path``, its rows written out. Raises as ``purposes_of`` does."""
+    written, _ = read_lines(path)
+    return convert(path, _filled(written, {}), list[type_], lines={})  # type: ignore[valid-type] # places have no line then
 
 
 def _scenario(named: _NamedScenario) -> tuple[str, Scenario]:

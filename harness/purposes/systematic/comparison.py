@@ -20,7 +20,7 @@ from ucm_cts.harness.purposes.systematic.faults import Fault, Subject, Tried
 from ucm_cts.harness.purposes.systematic.identification import reduced
 from ucm_cts.harness.purposes.systematic.machine import Machine
 from ucm_cts.harness.purposes.systematic.rivals import hypothesis_walks, random_walks
-from ucm_cts.harness.purposes.systematic.settings import Setting, across, below, one, relays, two
+from ucm_cts.harness.purposes.systematic.settings import Setting, relays, setting
 from ucm_cts.harness.purposes.systematic.suites import Suite, hsi, tour, transition_cover, w, wp
 
 READINGS: Mapping[str, str] = {
@@ -54,7 +54,7 @@ FEW = 2000
 FEWER = 300
 """So many faults of a kind are drawn of the large machine."""
 
-CASES = ((one, 2), (two, 0), (two, 1), (below, 1), (across, 0), (across, 1))
+CASES = (("one", 2), ("two", 0), ("two", 1), ("below", 1), ("across", 0), ("across", 1))
 """The compared settings, each with extra states."""
 
 
@@ -91,10 +91,10 @@ class Comparison:
     rows: tuple[Row, ...]
 
 
-def compare(setting: Setting, readings: Mapping[str, str], extra: int, seed: int, most: int) -> Comparison:
+def compare(of: Setting, readings: Mapping[str, str], extra: int, seed: int, most: int) -> Comparison:
     """Try wrong machines with all suites; of each kind at most ``most``, drawn."""
     began = time.process_time()
-    machine = derive(load_life_cycle(), setting, readings)
+    machine = derive(load_life_cycle(), of, readings)
     if machine.final:
         machine = reduced(machine)
     derived = time.process_time() - began
@@ -112,7 +112,7 @@ def compare(setting: Setting, readings: Mapping[str, str], extra: int, seed: int
         "hypothesis, same budget": lambda: hypothesis_walks(machine, budget, seed),
     }.items():
         rows.append(_row(name, make, subject, faults))
-    return Comparison(setting, machine, derived, Counter(fault.kind for fault in faults), tuple(rows))
+    return Comparison(of, machine, derived, Counter(fault.kind for fault in faults), tuple(rows))
 
 
 def systematic_suites(machine: Machine, extra: int) -> dict[str, Callable[[], Suite]]:
@@ -203,8 +203,8 @@ def main(seed: int, most: int, undeclared: bool, large: bool) -> None:
     """
     readings = {} if undeclared else READINGS
     kept = True
-    for build, extra in CASES:
-        comparison = compare(build(), readings, extra, seed, most)
+    for name, extra in CASES:
+        comparison = compare(setting(name), readings, extra, seed, most)
         click.echo("\n".join(table_of(comparison)))
         kept = kept and keeps_its_guarantee(comparison)
     if large:

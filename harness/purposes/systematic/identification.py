@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
 
 from ucm_cts.harness.purposes.systematic.machine import Machine, Move, Word
 
@@ -116,16 +116,16 @@ def harmonised_identifiers(machine: Machine) -> tuple[tuple[Word, ...], ...]:
             for state in pair:
                 identifiers[state].add(best[: distinguishes[best][pair]])
         open_pairs -= distinguishes[best].keys()
-    return tuple(tuple(_without_prefixes(sorted(words))) for words in identifiers)
+    return tuple(map(without_beginnings, identifiers))
 
 
 def characterisation_set(machine: Machine) -> tuple[Word, ...]:
     """W: words such that any two states are distinguished by one of them."""
-    return tuple(_without_prefixes(sorted({w for words in harmonised_identifiers(machine) for w in words})))
+    return without_beginnings(itertools.chain.from_iterable(harmonised_identifiers(machine)))
 
 
-def _without_prefixes(words: Sequence[Word]) -> Iterator[Word]:
-    """Of sorted ``words`` those that are not the beginning of another one."""
-    for word, following in itertools.zip_longest(words, words[1:]):
-        if following is None or following[: len(word)] != word:
-            yield word
+def without_beginnings(words: Iterable[Word]) -> tuple[Word, ...]:
+    """Each of ``words`` that is not the beginning of another one, once, sorted."""
+    ordered = sorted(set(words))
+    pairs = itertools.zip_longest(ordered, ordered[1:])
+    return tuple(word for word, after in pairs if after is None or after[: len(word)] != word)

@@ -10,12 +10,9 @@ from ucm_cts.harness.purposes.scripts import TestPurpose
 from ucm_cts.harness.purposes.systematic.derivation import derive
 from ucm_cts.harness.purposes.systematic.identification import reduced
 from ucm_cts.harness.purposes.systematic.machine import Machine
-from ucm_cts.harness.purposes.systematic.settings import Setting, across, below, one, relays, two
+from ucm_cts.harness.purposes.systematic.settings import NAMES, Setting, relays, setting
 from ucm_cts.harness.purposes.systematic.suites import Suite, hsi, tour
 from ucm_cts.harness.purposes.systematic.wording import scenario_of
-
-IDENTIFIED = (one, two, below, across)
-"""The settings whose states a suite identifies."""
 
 CLAUSE = "11.2.3"
 
@@ -39,17 +36,17 @@ def _purposes(readings: tuple[tuple[str, str], ...], extra: int) -> tuple[TestPu
 
 
 def _all(readings: Mapping[str, str], extra: int) -> Iterator[TestPurpose]:
-    for setting in (build() for build in IDENTIFIED):
-        machine = reduced(derive(load_life_cycle(), setting, readings))
-        text = f"Every transition of {setting.text}, and every state identified, with {extra} extra states (HSI)."
-        yield _purpose(setting, machine, hsi(machine, extra), text)
+    for known in map(setting, NAMES):
+        machine = reduced(derive(load_life_cycle(), known, readings))
+        text = f"Every transition of {known.text}, and every state identified, with {extra} extra states (HSI)."
+        yield _purpose(known, machine, hsi(machine, extra), text)
     if extra:
-        setting = relays(3)
-        machine = derive(load_life_cycle(), setting, readings)
-        yield _purpose(setting, machine, tour(machine), f"Every transition of {setting.text} (a tour).")
+        three = relays(3)
+        machine = derive(load_life_cycle(), three, readings)
+        yield _purpose(three, machine, tour(machine), f"Every transition of {three.text} (a tour).")
 
 
-def _purpose(setting: Setting, machine: Machine, suite: Suite, text: str) -> TestPurpose:
-    name = f"systematic/{setting.name}"
-    scenarios = ((f"{name}/{n}", scenario_of(setting, machine, word)) for n, word in enumerate(suite, 1))
+def _purpose(of: Setting, machine: Machine, suite: Suite, text: str) -> TestPurpose:
+    name = f"systematic/{of.name}"
+    scenarios = ((f"{name}/{n}", scenario_of(of, machine, word)) for n, word in enumerate(suite, 1))
     return TestPurpose(name, CLAUSE, text, _REQUIREMENTS, tuple(scenarios))

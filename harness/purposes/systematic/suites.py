@@ -8,9 +8,13 @@ not permitted, does so while it takes the suite.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
-from ucm_cts.harness.purposes.systematic.identification import characterisation_set, harmonised_identifiers
+from ucm_cts.harness.purposes.systematic.identification import (
+    characterisation_set,
+    harmonised_identifiers,
+    without_beginnings,
+)
 from ucm_cts.harness.purposes.systematic.machine import Machine, Word
 
 Suite = tuple[Word, ...]
@@ -21,7 +25,7 @@ Method = Callable[[Machine, int], Suite]
 def hsi(machine: Machine, extra: int) -> Suite:
     """After each state, and after all words of up to ``extra`` + 1 inputs more, the identifiers of the state reached."""
     identifiers = harmonised_identifiers(machine)
-    return _maximal(
+    return without_beginnings(
         (*word, *end) for word, state in _traversed(machine, extra + 1) for end in identifiers[state] or ((),)
     )
 
@@ -29,7 +33,7 @@ def hsi(machine: Machine, extra: int) -> Suite:
 def w(machine: Machine, extra: int) -> Suite:
     """The same with the characterisation set in place of identifiers."""
     ends = characterisation_set(machine)
-    return _maximal(
+    return without_beginnings(
         (*word, *_defined(machine, state, end)) for word, state in _traversed(machine, extra + 1) for end in (*ends, ())
     )
 
@@ -45,12 +49,12 @@ def wp(machine: Machine, extra: int) -> Suite:
         for word, state in _traversed(machine, extra + 1):
             yield from ((*word, *end) for end in identifiers[state] or ((),))
 
-    return _maximal(words())
+    return without_beginnings(words())
 
 
 def transition_cover(machine: Machine) -> Suite:
     """Each transition once, without identifying the next state: a suite without a guarantee, for comparison."""
-    return _maximal(word for word, _ in _traversed(machine, 1))
+    return without_beginnings(word for word, _ in _traversed(machine, 1))
 
 
 def tour(machine: Machine, longest: int = 400) -> Suite:
@@ -125,12 +129,3 @@ def _defined(machine: Machine, state: int, word: Word) -> Word:
             return word[:length]
         state = move.next
     return word
-
-
-def _maximal(words: Iterable[Word]) -> Suite:
-    """Each of ``words`` that is not the beginning of another one, once."""
-    kept: list[Word] = []
-    for word in sorted(set(words), reverse=True):
-        if not kept or kept[-1][: len(word)] != word:
-            kept.append(word)
-    return tuple(reversed(kept))
