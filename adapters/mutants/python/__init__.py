@@ -1,7 +1,7 @@
 """Frameworks derived from the Python reference framework: ``MUTANTS`` are wrong, ``VARIANTS`` conformant,
 and ``CHEATS`` are adapters that hide what is wrong.
 
-Each is a few lines put in front of the reference framework; the docstring says how it lies, or which freedom it uses.
+Each changes a few lines of the reference framework; the docstring names the defect, or the freedom that it uses.
 Every module of this package registers its own. ``ucm_cts.adapters.mutants.python:NAME`` names the adapter of one.
 """
 

@@ -1,4 +1,4 @@
-"""Connectors that change values on their way, each place by its type: what wrong and unusual frameworks are made of."""
+"""Connectors that change values on their way by the types of the values, for mutants and variants."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ucm_cts.adapters.mutants.python.registry import Row, family
 from ucm_cts.adapters.reference.python.connectors import Link
 
 Change = Callable[[Any, Any], Any]
-"""What becomes of a value of a type; what it is made of has been changed already."""
+"""Makes another value of a type and a value of it, whose parts have been changed already."""
 
 
 def rebuilt(of: AnyType, value: Any, change: Change) -> Any:
@@ -71,7 +71,7 @@ def carries(requirement: str, kind: type = object, also: tuple[str, ...] = ()) -
 
 
 def made_to(kind: type, change: Change, *kinds: str) -> Change:
-    """``change``, made to values of one sort of types only."""
+    """``change``, applied only to values of one class of types, and of ``kinds`` if there are any."""
 
     def only(of: Any, value: Any) -> Any:
         return change(of, value) if isinstance(of, kind) and (not kinds or getattr(of, "kind", "") in kinds) else value

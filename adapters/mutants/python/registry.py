@@ -1,7 +1,7 @@
 """Where derived frameworks are registered: mutants by the requirements they must fail, conformant variants by name.
 
 ``@breaks(requirement, ...)`` names what the suite must find: every named requirement fails, and no other, except those
-in ``also``: requirements that are truly broken by the same defect.
+in ``also``: requirements that the same defect breaks, too.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Mutant:
 
     @property
     def lie(self) -> str:
-        """What it does wrong, in one sentence or two."""
+        """The defect, in one sentence or two."""
         return " ".join((self.adapter.__doc__ or "").split())
 
 
@@ -75,16 +75,16 @@ MUTANTS: dict[str, Mutant] = {}
 VARIANTS: dict[str, Variant] = {}
 CHEATS: dict[str, Cheat] = {}
 UNSEEN: dict[str, Cheat] = {}
-"""Cheats that an auditor has to look for (docs/honesty.md)."""
+"""Cheats that no observation detects; an auditor must find them (docs/honesty.md)."""
 
 
 def mutants_of(clauses: tuple[str, ...]) -> dict[str, Mutant]:
-    """Those that test purposes of some of these clauses are to find out."""
+    """The mutants that the test purposes of some of these clauses must detect."""
     return {name: mutant for name, mutant in MUTANTS.items() if mutant.clauses[0].startswith(clauses)}
 
 
 def variants_of(clauses: tuple[str, ...]) -> dict[str, Variant]:
-    """Those that are of interest for some of these clauses."""
+    """The variants that are of interest for some of these clauses."""
     return {name: variant for name, variant in VARIANTS.items() if variant.clauses[0].startswith(clauses)}
 
 
@@ -111,7 +111,7 @@ def breaks(
     clauses: tuple[str, ...] = CONTAINER,
     readings: Mapping[str, str] = {},
 ) -> Callable[[type], type]:
-    """Register the decorated mixin as a mutant that the test purposes of ``clauses`` are to find out."""
+    """Register the decorated mixin as a mutant that the test purposes of ``clauses`` must detect."""
 
     def register(mixin: type) -> type:
         name = mixin.__name__
@@ -133,7 +133,7 @@ def _variant_below(mixin: type) -> str:
 
 
 class Row(NamedTuple):
-    """A mutant of a family: it breaks ``requirement``, because ``value`` is not as it should be."""
+    """A mutant of a family: ``value`` is what is wrong, and ``requirement`` what it breaks."""
 
     requirement: str
     lie: str
@@ -172,7 +172,7 @@ def variant_of(*clauses: str, readings: Mapping[str, str] = {}) -> Callable[[typ
 def cheats(
     *detected_by: str, clauses: tuple[str, ...] = CONTAINER, rehearsals: int = 0
 ) -> Callable[[type[ReferenceAdapter]], type[ReferenceAdapter]]:
-    """Register the decorated adapter as a cheat; without ``detected_by`` as one that no observation shows."""
+    """Register the decorated adapter as a cheat; without ``detected_by`` as one that no observation detects."""
 
     def register(adapter: type[ReferenceAdapter]) -> type[ReferenceAdapter]:
         name = adapter.__name__
@@ -192,11 +192,11 @@ def variant(mixin: type) -> type:
 
 
 class Base(Container):
-    """Typing only: what a mixin can rely on."""
+    """The base of mixins; it gives them the types of a container."""
 
 
 class Proxy(PortElementObject):
-    """What a framework could give out instead of a body's own object."""
+    """Stands for a body's port element; calls go through it."""
 
     def __init__(self, target: PortElementObject, member: Member) -> None:
         self.target, self.member = target, member
@@ -209,7 +209,7 @@ class Proxy(PortElementObject):
 
 
 class PeerProxy(Proxy):
-    """What a framework could hand over to ``member`` instead of another body's own object."""
+    """A proxy that only ``member`` uses, which gets it at start."""
 
 
 class HandsOverProxies(Base):

@@ -1,8 +1,8 @@
-"""The connectors of 10.1.5 and 10.1.6: what stands between the port elements of the ends of a connection.
+"""The connectors of 10.1.5 and 10.1.6, which join the port elements at the ends of a connection.
 
-Every value is copied on its way, as if it had been sent. What is sent can be lost only by a transport that is broken, and
-then the sender is told. Messages wait in a queue of each receiver and are delivered by a thread of it, one by one; a
-receiver that is not operational gets none. A component that is being stopped lets calls end that have come in, and lets no more in.
+Every value is copied on its way. Only a broken transport loses values, and then the sender gets an error. Each receiver has a
+queue of messages and a thread that delivers them one by one; a receiver that is not operational gets no messages. A component
+that is being stopped finishes the calls in progress and accepts no others.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Entrance:
 
     @property
     def is_open(self) -> bool:
-        """Is somebody let in now?"""
+        """Can calls enter now?"""
         return self._is_open
 
     def open(self) -> None:
@@ -85,7 +85,7 @@ class Taker:
         return self.entrance.visit(work)
 
     def close(self) -> None:
-        """Nothing comes in any more, and nothing waits."""
+        """Accept no more calls and messages, and drop the messages that wait."""
         self.entrance.close()
         with self.lock:
             self.forget()
@@ -95,14 +95,14 @@ class Taker:
                 thread.join()
 
     def forget(self) -> None:
-        """What waits is dropped."""
+        """Drop the messages that wait."""
         with suppress(queue.Empty):
             while True:
                 self.messages.get_nowait()
 
 
 class LinkElement(pm.PortElementObject):
-    """What a client or an emitter is connected to."""
+    """The port element that a client or an emitter is connected to."""
 
     def __init__(self, link: Link) -> None:
         self.link = link
@@ -126,7 +126,7 @@ class Link:
         self.takers: list[Taker] = []
         self.broken = ""
 
-    # what an adapter calls
+    # operations of the adapter
 
     def attach(self, role: str, container: HasMembers, comp_instance: int, port: str) -> None:
         with container._operation():
@@ -183,14 +183,14 @@ class Link:
         return isinstance(target, LinkElement) and target.link is self
 
     def remove(self, taker: Taker) -> None:
-        """It is no longer an end."""
+        """Detach ``taker``."""
         self.takers.remove(taker)
         taker.close()
 
     # calls and messages
 
     def send(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        """What happens when a client or emitter calls."""
+        """Carry out the call of a client or an emitter."""
         if self.connector == SERVICE_CONNECTOR:
             return self._request(method, arguments)
         return [self._emit(method, arguments)]
@@ -223,7 +223,7 @@ class Link:
 
     def _deliver(self, taker: Taker, method: str) -> None:
         while (message := taker.messages.get()) is not None:
-            with suppress(Exception):  # nobody is there who could be told
+            with suppress(Exception):  # push has returned, so no caller gets the exception
                 taker.enter(method, [message])
 
     def _copied(self, values: Sequence[Datum]) -> list[Datum]:

@@ -1,7 +1,7 @@
-"""Clock and trace (10.1.4): what a container offers to its components as their policies say.
+"""Clock and trace (10.1.4), which a container provides to its components by their policies.
 
 A body gets the clock and the trace among its dependencies, under the names that its policies give. Calls are recorded
-where they are made or come in, before anybody else learns of them; the runtime keeps the log.
+where they are made or come in, before they are carried out; the runtime keeps the log.
 """
 
 from __future__ import annotations
@@ -109,10 +109,10 @@ class OffersServices(ExecutesComponents):
         if sum(policy.definition == s.CLOCK for policy in implementation.policies) > 1:
             raise UcmError(f"{implementation.name!r} has more than one clock")
 
-    # what bodies and others get to know of port elements
+    # references to port elements
 
     def _with_services(self, member: Member, connections: Iterable[PortConnection]) -> list[PortConnection]:
-        """What a body gets at start: its connections, traced where that is asked for, and what its policies require."""
+        """The dependencies of a body at start: its connections, traced as its policies say, and its clocks and traces."""
         traced = [PortConnection(c.from_port, self._traced_references(member, c)) for c in connections]
         elements = [self._service_element(member, p) for p in member.implementation.policies if p.element is not None]
         return [*traced, *elements]
@@ -158,11 +158,11 @@ class OffersServices(ExecutesComponents):
         return [p for p in member.implementation.policies if p.definition == s.PORT_TRACE and p.port == port]
 
     def _log(self, member: Member, severity: str, message: str) -> None:
-        """A body writes to the trace."""
+        """Record a message of a body."""
         self._write((severity, message))
 
     def _trace_call(self, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
-        """A method is called through a traced port element."""
+        """Record and carry out a call through a traced port element."""
         for policy in self._port_traces(member, port):
             if self._is_traced(policy, method):
                 self._write((policy.parameters[s.LOG_SEVERITY], self._call_message(member, port, method)))

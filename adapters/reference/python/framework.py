@@ -1,10 +1,10 @@
 """A small UCM framework: containers of components with the life cycle of clause 11.2 and the API of 12.10.
 
 It knows nothing of the test suite but the interfaces of clause 11 that bodies implement. Where the specification leaves
-a choice it takes the strictest one: what it cannot do it refuses, and a refused operation changes nothing.
+a choice it takes the strictest one: it refuses what it does not support, and a refused operation changes nothing.
 
-Operations that change something are carried out one after the other, whatever thread they come from, and are refused
-when a callback of a body makes them; ``get_port_element`` and ``get_components`` may be called at any time.
+Operations that change something are carried out one after the other, on any thread, and are refused if a callback of a
+body calls them; ``get_port_element`` and ``get_components`` may be called at any time.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ class Container(OffersServices, UsesConnectors):
         self._check_alive()
         return list(self.members)
 
-    # one concern each; what a variant of this framework overrides
+    # one concern each, for variants to override
 
     def _find_implementation(self, name: str, attributes: Mapping[str, str]) -> pm.Implementation:
         implementation = self.manager.implementations.get(name)
@@ -119,7 +119,7 @@ class Container(OffersServices, UsesConnectors):
         return implementation
 
     def _check_startable(self) -> None:
-        """Only a container whose members are all configured starts, so that nothing ever starts halfway."""
+        """A container starts only if all its members are configured, so that it never starts a part of them."""
         for member in self.members.values():
             for port in member.implementation.requires:
                 if not self._is_connected(member, port):

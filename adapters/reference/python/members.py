@@ -1,4 +1,4 @@
-"""Members of containers and the connections between them (11.2): what all other parts of a container build on."""
+"""Members of containers and the connections between them (11.2), which all other parts of a container use."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class HasMembers:
 
     @contextmanager
     def _operation(self) -> Iterator[None]:
-        """One operation at a time; a body that calls back into its container is told that it cannot."""
+        """Carry out one operation at a time. A body that calls its container meanwhile gets ``UcmError``."""
         if self.manager.busy_thread == threading.get_ident():
             raise pm.UcmError("the runtime is in the middle of an operation")
         with self.manager.lock:
@@ -119,7 +119,7 @@ class HasMembers:
         return [c for c in self.manager.connections.values() if c.client is member]
 
     def _reference_to(self, member: Member, port: str) -> pm.PortElementObject | None:
-        """What others get to know of a provided port element: always the same object."""
+        """The reference to a provided port element: always the same object."""
         return member.body.get_portElement(port)
 
     def _connect_to(self, member: Member, port: str, target: pm.PortElementObject) -> int:

@@ -1,7 +1,7 @@
 """Execution policies (10.1.3): which components are protected, which have a thread, and what the threads do.
 
-Whatever enters a protected component, through any reference or as ``run``, enters with the component's lock. A thread
-that is inside may enter again; calls that come back to the component on another thread wait, as any other call does.
+Every call of a protected component, through any reference or of ``run``, takes the component's lock. A thread
+that is inside may enter again; calls that come back to the component on another thread wait like all others.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Adapters that cheat: they hide what a framework does, or that there is none. Each docstring says how.
 
-Most stand before a mutant whose defect they hide from whoever only looks at the Container API.
+Most bind a mutant, and hide its defect from a test that observes the Container API only.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class answers_without_the_framework(ReferenceAdapter):
 
 
 class _Answering(pm.PortElementObject):
-    """Answers as bodies do that have no plan."""
+    """Answers every call as a body does for which a scenario prescribes no behaviour."""
 
     def exchange(self, value: int) -> int:
         return ~value
@@ -136,7 +136,7 @@ class invents_ids(ReferenceAdapter):
 
 
 class _Forwards(ReferenceAdapter):
-    """All operations go through one place."""
+    """All operations go through ``forwarded``."""
 
     def forwarded(self, operation: Callable[[], T]) -> T:
         raise NotImplementedError
@@ -209,7 +209,7 @@ class leaves_when_it_fails(_Forwards):
 
 @cheats("refused")
 class refuses_what_it_cannot(before(containers.adds_two_member_only)):  # type: ignore[misc]
-    """Stands before a framework that holds two components only; says that it cannot set it up for more."""
+    """Binds a framework that holds two components only; fails to create a runtime for more."""
 
     def create_runtime(self, implementations: Sequence[pm.Implementation]) -> Any:
         if len(implementations) > 2:
@@ -227,7 +227,7 @@ class _lists_a_stranger(Base):
 
 @cheats("R-11.2.1.4-03")
 class lists_from_a_table_of_its_own(before(_lists_a_stranger)):  # type: ignore[misc]
-    """Stands before a framework that lists members wrongly; lists them from what it has added and removed itself."""
+    """Binds a framework that lists members wrongly; lists the members that it added itself."""
 
     def __init__(self) -> None:
         self.members: dict[int, list[int]] = {}
@@ -269,7 +269,7 @@ class _forgets_shutdown(Base):
 
 @cheats("R-11.1.3-04")
 class calls_the_bodies_itself(_CollectsBodies, before(_forgets_shutdown)):  # type: ignore[misc]
-    """Stands before a framework that forgets on_shutdown; calls it itself, on all bodies that it has seen made."""
+    """Binds a framework that does not call on_shutdown; calls it itself, on all bodies that were made."""
 
     def stop(self, container: ContainerHandle) -> None:
         super().stop(container)
@@ -292,7 +292,7 @@ class _Serialised(pm.PortElementObject):
 
 @cheats("R-10.1.3.2-13", clauses=POLICIES)
 class serialises_calls(before(policies.leaves_passive_components_open)):  # type: ignore[misc]
-    """Stands before a framework that protects nothing; calls made by the test go through a lock of the adapter's."""
+    """Binds a framework that protects nothing; calls of the test take a lock of the adapter."""
 
     def get_port_element(self, container: Container, comp_instance: int, port_name: str) -> pm.PortElementObject | None:
         found = super().get_port_element(container, comp_instance, port_name)
@@ -314,9 +314,8 @@ _SHAPES: set[tuple[Any, ...]] = set()
 
 @cheats("R-11.2.2.1-13", rehearsals=1)
 class knows_the_scenarios(ReferenceAdapter):
-    """Stands before a framework that stops in the wrong order; where the components of a scenario are as they were in an
-    earlier run, names apart, it uses another framework, which is made for that.
-    """
+    """Binds a framework that stops in the wrong order; if a scenario has the same components as one of an earlier run,
+    apart from names, it runs the reference framework instead."""
 
     rehearsing: ClassVar[bool] = True
     wrong: ClassVar[type[ReferenceAdapter]] = before(containers.stops_in_startup_order)
@@ -342,7 +341,7 @@ class is_another_product(ReferenceAdapter):
 
 @cheats()
 class checks_states_itself(before(states.starts_twice)):  # type: ignore[misc]
-    """Stands before a framework that starts what is started; knows itself what is started, and does not ask it again."""
+    """Binds a framework that calls on_startup twice; keeps account of what is started, and does not call start again."""
 
     def __init__(self) -> None:
         self.started: set[int] = set()
@@ -358,7 +357,7 @@ class checks_states_itself(before(states.starts_twice)):  # type: ignore[misc]
 
 
 class SwallowsSecondStartups:
-    """Wraps a body and is what it is; passes all calls on, but no on_startup where one has succeeded."""
+    """Wraps a body and has its class; passes all calls on, except on_startup after one that succeeded."""
 
     def __init__(self, body: Any) -> None:
         self.body, self.startup, self.shutdown = body, body.on_startup, body.on_shutdown
@@ -383,7 +382,7 @@ class SwallowsSecondStartups:
 
 @cheats()
 class wraps_bodies(before(states.starts_twice)):  # type: ignore[misc]
-    """Stands before a framework that calls on_startup twice; hosts bodies of its own in it, which pass on the first call only."""
+    """Binds a framework that calls on_startup twice; gives it wrapped bodies, which pass on the first call only."""
 
     def create_runtime(self, implementations: Sequence[pm.Implementation]) -> Any:
         return super().create_runtime([with_bodies(one, SwallowsSecondStartups) for one in implementations])

@@ -1,4 +1,4 @@
-"""Hosts that cheat: they have recorded an honest framework in an earlier run, and tell its traces again in new names.
+"""Hosts that cheat: they record an honest framework in one run, and send its traces again with new names in later runs.
 
 A host that answers messages itself is a module with a function ``answer``; those of this cheat are the modules
 ``replays_*.py`` beside this one.
@@ -19,16 +19,16 @@ from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python.engine import Engine
 
 _DISGUISED = re.compile(r"(?<![0-9a-z])(?:[bcdfghjklmnpqrstvwxz]{9}|-?\d{10})(?![0-9a-z])")
-"""What is another one in each run: names, and payloads."""
+"""Names and payloads that differ in each run."""
 
 Times = Literal["old", "new", "lived through"]
 
 
 class Player:
-    """Answers as a host does. While ``rehearsing`` it runs the reference framework and remembers; afterwards it tells again
-    what it knows, and runs a framework that stops in the wrong order where it knows nothing.
+    """Answers messages as a host does. While ``rehearsing`` it runs the reference framework and keeps the traces; later it
+    sends these again. For unknown scenarios it runs a framework that stops in the wrong order.
 
-    Events have their ``old`` times, ``new`` ones, or it lets as much time pass as they tell of (``lived through``).
+    Events have their ``old`` times or ``new`` ones; or the host waits until as much time has passed (``lived through``).
     """
 
     memory: ClassVar[dict[str, str]] = {}
@@ -68,8 +68,8 @@ class Player:
 
 
 def _template(text: str, names: list[str], known: tuple[str, ...] | None = None) -> tuple[str, list[str]]:
-    """``text`` with numbers in place of what is another one in each run, and what that was. With ``known`` ones no other
-    is replaced.
+    """``text`` with numbers in place of names and payloads that differ in each run, and these names. If ``known`` names are
+    given, no others are replaced.
     """
 
     def number(found: re.Match[str]) -> str:
@@ -96,4 +96,5 @@ def _filled(template: str, names: list[str]) -> str:
 
 def plays(name: str, lie: str, *detected_by: str, clauses: tuple[str, ...] = CONTAINER) -> None:
     """Register the module ``name`` of this package as a cheat."""
+    lie = " ".join(lie.split())
     CHEATS[name] = Cheat(name, f"{__package__}.{name}", lie, detected_by, clauses, rehearsals=1)

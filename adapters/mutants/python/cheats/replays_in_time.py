@@ -1,4 +1,6 @@
-"""Tells traces of an earlier run again in new names, and lets as much time pass as they tell of; where it knows no trace it runs a framework that stops in the wrong order."""
+"""Sends traces of an earlier run again with new names, after as much time as they took. For unknown scenarios it runs a framework
+that stops in the wrong order.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tells traces of an earlier run again, as they were, names apart."""
+"""Sends traces of an earlier run again with new names and the old times."""
 
 from __future__ import annotations
 

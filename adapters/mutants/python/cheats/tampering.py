@@ -24,7 +24,7 @@ _record = recorder.Recorder.record
 
 
 class _KnowsThePerformance(ReferenceAdapter):
-    """Looks up the stack for the performance of the scenario that it is part of."""
+    """Finds the performance of the running scenario on the stack."""
 
     performance: Any
 
@@ -41,7 +41,7 @@ class _KnowsThePerformance(ReferenceAdapter):
 
 @cheats("refused")
 class drops_second_callbacks(_KnowsThePerformance, before(states.starts_twice)):  # type: ignore[misc]
-    """Stands before a framework that calls on_startup twice; has the recorder take no second one."""
+    """Binds a framework that calls on_startup twice; replaces the recorder's method, which then drops the second call."""
 
     def tamper(self) -> None:
         hooks: dict[tuple[str, int], Any] = {}
@@ -62,7 +62,7 @@ class drops_second_callbacks(_KnowsThePerformance, before(states.starts_twice)):
 
 @cheats("refused")
 class takes_events_away(_KnowsThePerformance, before(states.starts_twice)):  # type: ignore[misc]
-    """Stands before a framework that calls on_startup twice; takes what that left out of the recorder's list again."""
+    """Binds a framework that calls on_startup twice; removes the events of the second call from the recorder's list."""
 
     def start(self, container: Container) -> None:
         events: list[Event] = self.performance._recorder._events
@@ -74,9 +74,8 @@ class takes_events_away(_KnowsThePerformance, before(states.starts_twice)):  # t
 
 @cheats("refused")
 class counts_anew(_KnowsThePerformance, before(states.starts_twice)):  # type: ignore[misc]
-    """Stands before a framework that calls on_startup twice; takes what that left out of the recorder's list again, and sets
-    its counter back.
-    """
+    """Binds a framework that calls on_startup twice; removes the events of the second call from the recorder's list,
+    and sets its counter back."""
 
     def start(self, container: Container) -> None:
         keeper = self.performance._recorder
@@ -89,7 +88,7 @@ class counts_anew(_KnowsThePerformance, before(states.starts_twice)):  # type: i
 
 @cheats("refused")
 class looks_away(_KnowsThePerformance, before(states.starts_twice)):  # type: ignore[misc]
-    """Stands before a framework that calls on_startup twice; has nothing recorded meanwhile."""
+    """Binds a framework that calls on_startup twice; switches recording off meanwhile."""
 
     def start(self, container: Container) -> None:
         self.performance._recorder.recording = not container.is_started
@@ -101,7 +100,7 @@ class looks_away(_KnowsThePerformance, before(states.starts_twice)):  # type: ig
 
 @cheats("refused")
 class replaces_for_a_moment(_KnowsThePerformance, before(states.starts_twice)):  # type: ignore[misc]
-    """Stands before a framework that calls on_startup twice; the recorder has another function meanwhile, which does nothing."""
+    """Binds a framework that calls on_startup twice; meanwhile the recorder's method is one that does nothing."""
 
     def start(self, container: Container) -> None:
         if container.is_started:
@@ -114,9 +113,8 @@ class replaces_for_a_moment(_KnowsThePerformance, before(states.starts_twice)): 
 
 @cheats("refused")
 class shadows_callbacks(before(states.starts_twice)):  # type: ignore[misc]
-    """Stands before a framework that calls on_startup twice; gives each body an on_startup of its own that does nothing when
-    it is called again.
-    """
+    """Binds a framework that calls on_startup twice; gives each body an on_startup that does nothing when it is
+    called again."""
 
     def create_runtime(self, implementations: Sequence[Implementation]) -> Any:
         return super().create_runtime([with_bodies(one, self._shadow) for one in implementations])
@@ -129,7 +127,7 @@ class shadows_callbacks(before(states.starts_twice)):  # type: ignore[misc]
 
 @cheats("contradiction", clauses=("10.1.4",))
 class changes_times(_KnowsThePerformance, before(clocks.clock_runs_double)):  # type: ignore[misc]
-    """Stands before a framework whose clocks go twice as fast as time; has all events happen at the times these show."""
+    """Binds a framework whose clocks go twice as fast as time; changes the times of events to fit."""
 
     def stop(self, container: Container) -> None:
         super().stop(container)
@@ -144,18 +142,18 @@ class changes_times(_KnowsThePerformance, before(clocks.clock_runs_double)):  # 
 
 @cheats("refused", clauses=POLICIES)
 class sees_no_overlap(_KnowsThePerformance, before(policies.leaves_passive_components_open)):  # type: ignore[misc]
-    """Stands before a framework that protects nothing; has bodies under stress count no overlap."""
+    """Binds a framework that protects nothing; replaces the counter of overlaps in bodies under stress."""
 
     def tamper(self) -> None:
         visit = counting.Occupancy.visit
 
-        def nobody_else(occupancy: Any) -> None:
+        def no_overlap(occupancy: Any) -> None:
             visit(occupancy)
             if self.performance._stage.occupancies is not None:
                 occupancy.overlaps = 0
 
         self.kept = visit
-        type.__setattr__(counting.Occupancy, "visit", nobody_else)
+        type.__setattr__(counting.Occupancy, "visit", no_overlap)
 
     def close(self) -> None:
         type.__setattr__(counting.Occupancy, "visit", self.kept)

@@ -1,4 +1,4 @@
-"""Connectors that fail inside of other interactions, keep ends that are gone, or are not there (10.1, 10.1.5, 10.1.6)."""
+"""Connectors that fail inside other interactions, keep detached ends, or are not offered (10.1, 10.1.5, 10.1.6)."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ _ARRIVES = "R-10.1.2-10"
 # interactions inside others
 
 
-class _KnowsWhatIsGoingOn(Link):
-    """On each thread: how many calls are being served, and how many messages are being received."""
+class _CountsInteractions(Link):
+    """Knows of each thread how many calls it is serving, and whether it receives messages."""
 
     here: ClassVar[threading.local] = threading.local()
 
@@ -40,27 +40,27 @@ class _KnowsWhatIsGoingOn(Link):
 
 
 @refuses_if("_request", _CALLS, clauses=("10.1.5",), also=("R-10.1.5.1-03",))
-def refuses_calls_of_servers(self: _KnowsWhatIsGoingOn, *_: object) -> bool:
+def refuses_calls_of_servers(self: _CountsInteractions, *_: object) -> bool:
     """A server that is handling a call can call no server."""
     return bool(getattr(self.here, "served", 0))
 
 
 @refuses_if("_request", _CALLS, clauses=("10.1.5",))
-def refuses_calls_of_receivers(self: _KnowsWhatIsGoingOn, *_: object) -> bool:
+def refuses_calls_of_receivers(self: _CountsInteractions, *_: object) -> bool:
     """A receiver that is handling a message can call no server."""
     return getattr(self.here, "receives", False)
 
 
 @replaces("_emit", _ARRIVES, clauses=("10.1.2",))
-def loses_what_servers_push(self: _KnowsWhatIsGoingOn, method: str, arguments: Sequence[Datum]) -> str:
+def loses_what_servers_push(self: _CountsInteractions, method: str, arguments: Sequence[Datum]) -> str:
     """Messages pushed while a call is being served are lost, and push returns ok."""
-    return OK if getattr(self.here, "served", 0) else _KnowsWhatIsGoingOn._emit(self, method, arguments)
+    return OK if getattr(self.here, "served", 0) else _CountsInteractions._emit(self, method, arguments)
 
 
 @replaces("_emit", _ARRIVES, clauses=("10.1.2",))
-def loses_what_receivers_push(self: _KnowsWhatIsGoingOn, method: str, arguments: Sequence[Datum]) -> str:
+def loses_what_receivers_push(self: _CountsInteractions, method: str, arguments: Sequence[Datum]) -> str:
     """Messages pushed while a message is being received are lost, and push returns ok."""
-    return OK if getattr(self.here, "receives", False) else _KnowsWhatIsGoingOn._emit(self, method, arguments)
+    return OK if getattr(self.here, "receives", False) else _CountsInteractions._emit(self, method, arguments)
 
 
 # restarts
@@ -120,38 +120,38 @@ def loses_the_second_field_of_exceptions(self: Link, method: str, arguments: Seq
 _CALLS, _ORIGIN = "R-10.1.5.1-01", "R-10.1.6.1-06"
 
 
-class _Haunted(Link):
-    """Remembers the ends that have been detached."""
+class _KeepsDetached(Link):
+    """Keeps the ends that have been detached."""
 
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
-        self.ghosts: list[Taker] = []
+        self.detached: list[Taker] = []
 
     def remove(self, taker: Taker) -> None:
         super().remove(taker)
-        self.ghosts.append(taker)
+        self.detached.append(taker)
 
-    def _haunt(self, method: str, arguments: Sequence[Datum]) -> None:
-        for taker in self.ghosts:
+    def _call_detached(self, method: str, arguments: Sequence[Datum]) -> None:
+        for taker in self.detached:
             element = taker.member.body.get_portElement(taker.port)
             with suppress(Exception):
                 element.call(method, self._copied(arguments))  # type: ignore[union-attr]
 
 
 @alters("_emit", _ORIGIN, clauses=("10.1.6",))
-def delivers_to_those_who_are_gone(self: _Haunted, code: str, method: str, arguments: Sequence[Datum]) -> str:
+def delivers_to_those_who_are_gone(self: _KeepsDetached, code: str, method: str, arguments: Sequence[Datum]) -> str:
     """Receivers get messages after they have been detached or removed."""
-    self._haunt(method, arguments)
+    self._call_detached(method, arguments)
     return code
 
 
 @replaces("_request", _CALLS, clauses=("10.1.5",))
-def is_served_by_those_who_are_gone(self: _Haunted, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
+def is_served_by_those_who_are_gone(self: _KeepsDetached, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
     """A detached server still serves calls, unless another server has been attached."""
-    if self.connector == SERVICE_CONNECTOR and not self.takers and self.ghosts:
-        element = self.ghosts[-1].member.body.get_portElement(self.ghosts[-1].port)
+    if self.connector == SERVICE_CONNECTOR and not self.takers and self.detached:
+        element = self.detached[-1].member.body.get_portElement(self.detached[-1].port)
         return self._copied(element.call(method, self._copied(arguments)))  # type: ignore[union-attr]
-    return _Haunted._request(self, method, arguments)
+    return _KeepsDetached._request(self, method, arguments)
 
 
 _CORE = "R-10.1-01"

@@ -54,7 +54,7 @@ class hears_one_thread_only(Link):
 def refuses_a_second_receiver(self: Link) -> None:
     """A connection refuses a second receiver."""
     if self.takers:
-        raise UcmError("there is somebody already")
+        raise UcmError("there is a receiver already")
 
 
 @replaces("_emit", "R-10.1.6.1-04", clauses=_MESSAGES, also=("R-10.1.6.1-08", "R-10.1.2-10"))
@@ -127,7 +127,7 @@ def mixes_connections_of_different_types(self: _Mixing, other: Link) -> bool:
     return other.interface != self.interface
 
 
-@breaks("R-10.1.6.1-06", clauses=_MESSAGES, also=("R-10.1.1-07",))  # it may be another one that arrived changed
+@breaks("R-10.1.6.1-06", clauses=_MESSAGES, also=("R-10.1.1-07",))  # it may look like another message that was changed
 class invents_messages(Link):
     """Each third message is followed by one that no emitter pushed."""
 
@@ -153,7 +153,7 @@ def delivers_in_pairs_the_wrong_way_round(_self: Link, taker: Taker, method: str
         with suppress(queue.Empty):
             following = taker.messages.get(timeout=0.01)
             if following is None:
-                taker.messages.put(None)  # the end is not lost
+                taker.messages.put(None)  # keep the end mark
             else:
                 waiting.insert(0, following)
         for one in dict.fromkeys(map(str, waiting)):

@@ -1,4 +1,4 @@
-"""Wrong frameworks, clause 10.1.2: return codes that are unknown, wrong or not true."""
+"""Wrong frameworks, clause 10.1.2: return codes that are unknown or wrong."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MESSAGES = ("10.1.6",)
 
 
 class _Answering(Link):
-    """What push is answered when nothing is broken, and when something is."""
+    """Push returns what ``answer`` makes of the code, and ``broken_answer`` while the connection is broken."""
 
     def answer(self, code: str) -> str:
         return code

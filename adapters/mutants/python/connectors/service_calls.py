@@ -1,4 +1,4 @@
-"""Service connectors that lose or mix up calls or those who wait, or take too many clients or servers (10.1.5)."""
+"""Service connectors that lose or mix up calls or waiting clients, or take too many clients or servers (10.1.5)."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ _TEMPLATE = "R-10.1.5.1-13"
 
 
 class Services(Link):
-    """Does something else with the calls of services."""
+    """A connector whose mutants treat calls of services in another way."""
 
     @property
     def server(self) -> Taker:
         return self.takers[0]
 
     def parameters(self, method: str) -> Sequence[Parameter]:
-        """Of the method, those that are sent back."""
+        """The parameters of the method that are sent back."""
         return self.interface.methods[method].results
 
     def nothing(self, method: str) -> list[Datum]:
-        """Results that no server gave."""
+        """Empty results of the method."""
         return [0 if p.of.__class__.__name__ == "Integer" else "" for p in self.parameters(method)]
 
 
@@ -75,7 +75,7 @@ def knows_no_inherited_methods(self: Services, method: str, *_: object) -> bool:
     return method in self.interface.inherited
 
 
-@breaks(_TEMPLATE, clauses=_CLAUSES, also=(_CALLS,))  # one of another interface may take the values as they are
+@breaks(_TEMPLATE, clauses=_CLAUSES, also=(_CALLS,))  # a method of another interface may accept the values
 class finds_methods_by_name(Services):
     """A call goes to any connection that has a method of that name."""
 
@@ -248,7 +248,7 @@ class forgets_clients_of_stopped_servers(Services):
         return results
 
     def is_crowded(self, server: Taker) -> bool:
-        """In some of the scenarios only: waiting in vain takes time."""
+        """The defect appears in a part of the scenarios only, because each appearance takes the time limit."""
         return len(self.manager.connections) > 1 and not server.member.execution.definition
 
 
@@ -271,7 +271,7 @@ def never_stops_what_was_called(self: Base, member: Member) -> None:
 
 
 class _Undone(Services):
-    """May be undone while everything is started."""
+    """The connection can be undone while all containers are started."""
 
     undone = False
 

@@ -61,7 +61,7 @@ def sends_no_inout_values(self: Services, method: str, arguments: Sequence[Datum
 
 
 class _Catches(Services):
-    """What becomes of an exception that the server raised."""
+    """A client gets what ``caught`` makes of an exception of the server."""
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
         try:

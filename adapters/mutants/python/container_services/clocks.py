@@ -1,4 +1,4 @@
-"""Wrong frameworks, clause 10.1.4.1: clocks that are not there, and clocks that tell the wrong time."""
+"""Wrong frameworks, clause 10.1.4.1: missing clocks, and clocks with the wrong time."""
 
 from __future__ import annotations
 
@@ -205,7 +205,7 @@ def tells_negative_microseconds(_self: Base, given: list[int], *_: object) -> li
 
 @replaces(
     "_time_value", "R-10.1.4.2-14", clauses=HERE, also=("R-10.1.4.1-08", "R-10.1.4.1-09", "R-10.1.4.1-10")
-)  # what is told passes a thousand times too fast, and falls back each second
+)  # time passes a thousand times too fast, and goes back each second
 def tells_nanoseconds(_self: Base, nanoseconds: int) -> list[Datum]:
     """The microseconds of a time are nanoseconds."""
     return [nanoseconds // SECOND, nanoseconds % SECOND]

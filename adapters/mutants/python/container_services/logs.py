@@ -1,4 +1,4 @@
-"""Wrong frameworks, clause 10.1.4.2: traces that are not there, and logs that lose, alter or invent records."""
+"""Wrong frameworks, clause 10.1.4.2: missing traces, and logs that lose, alter or invent records."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ def traces_no_ports(_self: Base, *_: object) -> list[Policy]:
     return []
 
 
-@alters("_port_traces", "R-10.1.4.2-04", clauses=HERE, also=("R-10.1.4.2-32",))  # of both ends, one is traced
+@alters("_port_traces", "R-10.1.4.2-04", clauses=HERE, also=("R-10.1.4.2-32",))  # only one of both ends is traced
 def traces_provided_ports_only(_self: Base, given: list[Policy], member: Member, port: str) -> list[Policy]:
     """port_trace of a required port is accepted and forgotten."""
     return given if port in member.implementation.provides else []
@@ -82,7 +82,9 @@ def _is_of_a_call(container: Base, record: Record) -> bool:
     return record[1].startswith(tuple(container.manager.implementations))
 
 
-@replaces("_trace_call", "R-10.1.4.2-32", clauses=HERE, also=("R-10.1.4.2-33",))  # others might have made them
+@replaces(
+    "_trace_call", "R-10.1.4.2-32", clauses=HERE, also=("R-10.1.4.2-33",)
+)  # calls of other components might have left them
 def traces_calls_again_and_again(self: Base, member: Member, port: str, method: str, work: Callable[[], T]) -> T:
     """Each traced call has five records."""
     for _ in range(4):

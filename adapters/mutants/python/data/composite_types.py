@@ -1,4 +1,4 @@
-"""Wrong frameworks, clause 10.1.1: structures, unions, arrays, sequences, aliases, and what is inside of others."""
+"""Wrong frameworks, clause 10.1.1: structures, unions, arrays, sequences, aliases, and types inside types."""
 
 from __future__ import annotations
 

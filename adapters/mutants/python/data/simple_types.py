@@ -1,4 +1,4 @@
-"""Wrong frameworks, clause 10.1.1: values that connectors lose, shorten or refuse; attributes that are not there in time."""
+"""Wrong frameworks, clause 10.1.1: values that connectors lose, shorten or refuse; attributes that are set too late."""
 
 from __future__ import annotations
 

@@ -225,11 +225,11 @@ class runs_before_run_has_ended(Base):
             yield
 
 
-# callers that wait get nothing, or the wrong thing
+# callers that wait get no result, or a wrong one
 
 
 class _Meets(Base):
-    """Does something else with those who meet an execution."""
+    """A call that meets an execution is passed to ``_meet``."""
 
     def _execute_alone(self, member: Member, port: str | None, work: Callable[[], T]) -> T:
         if port is None or member.execution.lock.acquire(blocking=False):
@@ -249,7 +249,7 @@ class _Meets(Base):
 
 _THROUGH_CONNECTORS = ("R-10.1.2-10", "R-10.1.5.1-01", "R-10.1.5.1-03")
 _CALLS = ("R-10.1.3.2-08", "R-10.1.3.2-15", "R-11.1.2-02", "R-11.1.3-01", "R-11.2.1.2-07", "R-11.2.3-03")
-"""Business calls do not do what they should."""
+"""Broken by every defect of business calls."""
 
 
 @replaces("_meet", "R-10.1.3.2-17", clauses=POLICIES, also=(*_CALLS, *_THROUGH_CONNECTORS))

@@ -60,7 +60,7 @@ class runs_after_stop(Base):
         pass
 
     def get_components(self) -> list[int]:
-        time.sleep(2 * self.period)  # or who asks at once would not see it
+        time.sleep(2 * self.period)  # so that run is called before the answer
         return super().get_components()
 
     def _remove(self, member: Member, failures: Failures) -> None:

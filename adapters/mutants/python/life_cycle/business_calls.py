@@ -1,4 +1,4 @@
-"""Wrong frameworks whose business calls go astray in few situations only."""
+"""Wrong frameworks that misdirect business calls in few situations only."""
 
 from __future__ import annotations
 

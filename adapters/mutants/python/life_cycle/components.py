@@ -34,12 +34,12 @@ class starts_what_was_removed(Base):
 
     def _remove(self, member: Member, failures: Failures) -> None:
         super()._remove(member, failures)
-        self.__dict__.setdefault("ghosts", []).append(member)
+        self.__dict__.setdefault("removed", []).append(member)
 
     def start(self) -> None:
         super().start()
-        for ghost in self.__dict__.get("ghosts", []):
-            Failures().attempt(ghost.body.on_startup, [])
+        for member in self.__dict__.get("removed", []):
+            Failures().attempt(member.body.on_startup, [])
 
 
 @alters("_dependencies_of", "R-11.2.1.2-03", also=("R-11.1.3-01", "R-11.1.2-02", "R-11.2.3-10"))

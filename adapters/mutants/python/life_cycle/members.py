@@ -1,4 +1,4 @@
-"""Frameworks that mistreat some members, or some of the time: when members are listed, started, removed or fail (11.2)."""
+"""Wrong frameworks whose defect concerns some members or some situations: listing, start, removal, failure (11.2)."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def shows_fragments_the_manager(self: Base, member: Member, attributes: Mapping[
 
 
 class _Remembered:
-    """What a container listed when it was first asked."""
+    """Repeats the first list of a container."""
 
     def __init__(self, container: Container) -> None:
         self.container = container
@@ -226,14 +226,14 @@ class starts_what_failed_to_initialise(Base):
         try:
             super()._configure(member, attributes)
         except Exception:
-            self.__dict__.setdefault("ghosts", []).append(member)
+            self.__dict__.setdefault("failed", []).append(member)
             raise
 
     def start(self) -> None:
         again = self.is_started
         super().start()
-        for ghost in self.__dict__.get("ghosts", []) if not again else ():
-            Failures().attempt(ghost.body.on_startup, [])
+        for member in self.__dict__.get("failed", []) if not again else ():
+            Failures().attempt(member.body.on_startup, [])
 
 
 # changes in the operational phase

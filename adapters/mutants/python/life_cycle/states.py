@@ -197,7 +197,7 @@ class runs_stopped_components(Base):
 
     def get_components(self) -> list[int]:
         if not self.is_started:
-            for member in self.__dict__.pop("ran", []):  # whom it runs may ask again
+            for member in self.__dict__.pop("ran", []):  # the called component may call get_components
                 for port in member.implementation.provides:
                     element = member.body.get_portElement(port)
                     if element is not None:

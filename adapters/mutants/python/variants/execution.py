@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 
 class _SharedExecutor(Executor):
-    """Lets calls that come from its own thread in at once."""
+    """Calls from its own thread enter at once."""
 
     own_thread: int | None = None
 
@@ -81,7 +81,7 @@ def serialises_unprotected_components(_self: Base, given: bool, member: Member) 
 
 
 class _Turnstile:
-    """Lets those who wait in one by one, in the order they came or in reverse."""
+    """Callers enter one by one, in the order they came or in reverse."""
 
     def __init__(self, last_first: bool) -> None:
         self._changed = threading.Condition()

@@ -1,4 +1,4 @@
-"""Conformant variants that deliver messages, and tell of what goes wrong, in their own way (10.1.2, 10.1.6)."""
+"""Conformant variants that deliver messages and report errors in their own way (10.1.2, 10.1.6)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _CLAUSES = ("10.1.2", "10.1.6")
 
 
 class _Codes(Link):
-    """What push is answered beside ok: ``unready`` if a receiver is not operational, ``alone`` if there is none."""
+    """Push returns ``unready`` if a receiver is not operational, ``alone`` if there is no receiver."""
 
     unready = OK
     alone = OK
@@ -112,7 +112,7 @@ def attaches_emitters_where_somebody_receives(self: Link, *_: object) -> bool:
 
 
 class _Holding(_Codes):
-    """What is pushed to a receiver that is not operational comes when it is started."""
+    """Messages to a receiver that is not operational arrive when it is started."""
 
     def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
         for taker in self.takers if not self.broken else ():
@@ -121,13 +121,13 @@ class _Holding(_Codes):
         return super()._emit(method, arguments)
 
     def release(self, taker: Taker) -> None:
-        """It is operational now."""
+        """Deliver the messages held for ``taker``, which is operational now."""
         for method, arguments in taker.__dict__.pop("kept", ()):
             self._post(taker, method, arguments)
 
 
 class _ReleasesHeld(Base):
-    """A component that becomes operational gets what was held for it."""
+    """A component that becomes operational gets the messages held for it."""
 
     def _open_entrances(self, member: Member) -> None:
         super()._open_entrances(member)
@@ -173,7 +173,7 @@ class _Pooled(_Codes):
             self.wait_for(taker)
 
     def wait_for(self, taker: Taker) -> None:
-        """Until all has been delivered that was pushed."""
+        """Wait until all messages have been delivered."""
         posted = taker.__dict__.get("posted", [])
         while posted:
             posted.pop().exception()
@@ -225,7 +225,7 @@ class tells_late_and_refuses_much(_Codes):
 
 
 class _KeepingTaker(Taker):
-    """What waits when it is stopped is kept."""
+    """Keeps the messages that wait at stop."""
 
     def forget(self) -> None:
         with suppress(queue.Empty):
@@ -234,7 +234,7 @@ class _KeepingTaker(Taker):
 
 
 class _Bounded(_Holding):
-    """Push waits until there is room, and what waits at stop is kept."""
+    """Push waits until there is room, and messages that wait at stop are kept."""
 
     def _attach_taker(self, member: Member, port: str) -> None:
         super()._attach_taker(member, port)

@@ -1,4 +1,4 @@
-"""Conformant variants that see the two phases of 11.2.3 their own way: the application's, in parallel, or not over yet."""
+"""Conformant variants that read the two phases of 11.2.3 in other ways: for the application, in parallel, or prolonged."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Conformant variants that use freedoms few would think of."""
+"""Conformant variants that use unusual freedoms: clients restarted with connections, partial starts and removals."""
 
 from __future__ import annotations
 

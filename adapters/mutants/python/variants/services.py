@@ -131,28 +131,28 @@ def raises_system_errors(self: Link, method: str, arguments: Sequence[Datum]) ->
 
 
 class _Aborts(Link):
-    """Calls end with an exception as soon as they are in vain; what the server gives then is dropped."""
+    """``abort`` ends all calls in progress with an exception; later results of the server are dropped."""
 
     def __init__(self, *arguments: object) -> None:
         super().__init__(*arguments)  # type: ignore[arg-type]
-        self.in_vain: Future[Sequence[Datum]] = Future()
+        self.aborted: Future[Sequence[Datum]] = Future()
 
     def abort(self) -> None:
-        self.in_vain.set_exception(UcmError("the call is in vain"))
-        self.in_vain = Future()
+        self.aborted.set_exception(UcmError("the call has been aborted"))
+        self.aborted = Future()
 
     def _request(self, method: str, arguments: Sequence[Datum]) -> Sequence[Datum]:
-        in_vain = self.in_vain
+        aborted = self.aborted
         if not self.takers or not self.takers[0].entrance.is_open:
             raise UcmError("there is no server")
         outcome = _elsewhere(lambda: super(_Aborts, self)._request(method, arguments))
-        wait((outcome, in_vain), return_when=FIRST_COMPLETED)
-        return outcome.result() if outcome.done() else in_vain.result()
+        wait((outcome, aborted), return_when=FIRST_COMPLETED)
+        return outcome.result() if outcome.done() else aborted.result()
 
 
 @_service_variant
 class aborts_calls_of_stopped_servers(Base):
-    """stop does not wait for servers; their clients are told at once."""
+    """stop does not wait for servers; calls in progress fail at once."""
 
     link_class = _Aborts
 
@@ -197,7 +197,7 @@ class undoes_connections_at_once(undoes_connections_at_any_time, _Aborts):
             self.abort()
 
 
-# connectors that are hardly there
+# connections without a connector
 
 
 @alters("_dependencies_of", clauses=("10.1.5",))
