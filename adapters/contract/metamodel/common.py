@@ -51,7 +51,7 @@ def children(element: Element) -> Iterator[Element]:
 
 
 def without_lines(element: T) -> T:
-    """``element`` as if nobody knew where it and all inside it stand: what two files say is then equal or not."""
+    """``element`` with all lines 0, its own and those inside: equal for files with the same contents."""
     changed: dict[str, Any] = {"line": 0}
     for field in child_fields(type(element)):
         changed[field] = tuple(without_lines(child) for child in getattr(element, field))

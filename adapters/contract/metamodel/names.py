@@ -1,4 +1,4 @@
-"""Which element does a reference mean? Names are looked up by kind, because a module, a policy and an interface may share one.
+"""Resolves references to elements, by name and kind: a module, a policy and an interface may share a name.
 
 ``a::b`` is looked up in the module where it stands, then in those around it; ``::a::b`` at the root; ``a::b.c`` is the member
 ``c`` of ``a::b``, or of what that one inherits from. ``::core::a`` and ``::a`` may both name a core definition.
@@ -75,7 +75,7 @@ class Scope:
             return result
 
     def candidates(self, reference: str) -> Iterator[Declared]:
-        """All that ``reference`` could mean here, of whatever kind, the nearest first."""
+        """All that ``reference`` could mean here, of any kind, the nearest first."""
         parts = reference.split(SEPARATOR)
         if not parts[0]:
             yield from self.root.below(parts[1:])

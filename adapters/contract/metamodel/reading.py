@@ -1,4 +1,4 @@
-"""Reads UCM models: bytes of XML in any printed spelling become a ``Model``, and whatever does not fit becomes a problem.
+"""Reads UCM models: bytes of XML in any printed spelling become a ``Model``, and what does not fit becomes a problem.
 
 Models come from others and may be hostile: size, depth and the number of problems are bounded, document types and so entities
 are refused. Reading is fast because the parser hands over attributes under the names of fields already (``_RENAMED``), so
@@ -36,7 +36,7 @@ LONGEST = 10_000_000
 
 MOST_TAGS = 10_000_000
 MOST_PROBLEMS = 1000
-"""How many are told of one file."""
+"""The greatest number of reported problems of one file."""
 
 ENCODINGS = ("utf-8", "utf-16", "us-ascii", "iso-8859-1")
 
@@ -54,8 +54,13 @@ Kind = Literal[
 
 
 class Problem(msgspec.Struct, frozen=True, kw_only=True):
-    """What is wrong in a file: ``element`` is the tag that it is about, ``clause`` the one that says otherwise; either may be
-    empty. ``message`` names the remedy. A problem of kind "not XML" or "refused" ends the reading.
+    """Something wrong in a file.
+
+    ``kind``: the kind of problem; "not XML" and "refused" end the reading.
+    ``line``: where it stands, counted from 1.
+    ``element``: the tag of the element, empty if there is none.
+    ``message``: what is wrong, and the remedy.
+    ``clause``: the clause that says otherwise, empty if there is none.
     """
 
     kind: Kind
@@ -66,7 +71,12 @@ class Problem(msgspec.Struct, frozen=True, kw_only=True):
 
 
 class Reading(msgspec.Struct, frozen=True, kw_only=True):
-    """What could be read of the file called ``name``, and what could not. After "not XML" and "refused" the model is empty."""
+    """The result of reading a file.
+
+    ``name``: the file.
+    ``model``: what could be read; empty after "not XML" and "refused".
+    ``problems``: what could not be read, in the order of lines.
+    """
 
     name: str
     model: Model
@@ -74,7 +84,7 @@ class Reading(msgspec.Struct, frozen=True, kw_only=True):
 
 
 def read_model(xml: bytes, name: str) -> Reading:
-    """The model that ``xml`` holds. Never raises, whatever ``xml`` is."""
+    """The model that ``xml`` holds. Never raises."""
     reader = _Reader(xml)
     reader.read(texts=False)
     if reader.has_text:
@@ -100,9 +110,9 @@ _RENAMED = {field: _HIDDEN + field for field in _FIELDS} | {
     attribute: field for spelling in SPELLINGS.values() for attribute, field in spelling.attributes.items()
 }
 """Names of attributes as the parser is to hand them over: fields for those in canonical spelling. Others that are called like
-a field are hidden, so that nobody can write to it.
+a field are hidden, so that no model can set it.
 """
-_PRINTED = {told: printed for printed, told in _RENAMED.items()}
+_PRINTED = {renamed: printed for printed, renamed in _RENAMED.items()}
 
 _SPACE = " \t\r\n"
 
@@ -124,13 +134,13 @@ class _Reader:
         self._children: dict[str, list[Element]] = {}
         self._stack: list[_Frame] = []
         self._skipped = 0
-        self._told: _Frame | None = None
+        self._reported: _Frame | None = None
         self._parser = expat.ParserCreate(namespace_separator=_BETWEEN, intern=dict(_RENAMED))
         self._parser.XmlDeclHandler = self._declaration
         self._parser.StartDoctypeDeclHandler = self._doctype
 
     def read(self, texts: bool) -> None:
-        """Read all; where text stands is only looked at if ``texts``, otherwise only whether there is any."""
+        """Read all; with ``texts`` note where text stands, otherwise only whether there is any."""
         seen: set[str] = set()
         self._parser.buffer_text = not texts
         self._parser.CharacterDataHandler = self._text if texts else seen.add
@@ -167,9 +177,9 @@ class _Reader:
     def _problem(self, kind: Kind, element: str, message: str, clause: str = "", line: int = 0) -> None:
         if len(self.problems) == MOST_PROBLEMS:
             raise _Stop("refused", f"has more than {MOST_PROBLEMS} problems; mend those first")
-        told = line or self._parser.CurrentLineNumber
         message = "".join(character if character.isprintable() else "\ufffd" for character in message)
-        self.problems.append(Problem(kind=kind, line=told, element=element, message=message, clause=clause))
+        line = line or self._parser.CurrentLineNumber
+        self.problems.append(Problem(kind=kind, line=line, element=element, message=message, clause=clause))
 
     # what the parser calls
 
@@ -248,10 +258,10 @@ class _Reader:
         self._texts += len(text.strip(_SPACE))
         if self._texts > LONGEST:
             raise _Stop("refused", f"has more than {LONGEST} characters of text, where none belongs; take it out")
-        if self._skipped or not text.strip(_SPACE) or self._told is self._stack[-1]:
+        if self._skipped or not text.strip(_SPACE) or self._reported is self._stack[-1]:
             return
-        self._told = self._stack[-1]
-        tag = self._told[0].tag
+        self._reported = self._stack[-1]
+        tag = self._reported[0].tag
         shown = " ".join(text.split())[:40]
         message = f"'{shown}' stands in {tag}, where no text belongs; take it out, or make it an XML comment"
         self._problem("text", tag, message)
@@ -279,7 +289,7 @@ class _Reader:
         return None
 
     def _mended(self, entry: Entry, values: dict[str, Any], children: Mapping[str, list[Element]] | None) -> Element:
-        """The element that ``values`` make once other spellings are replaced and what does not fit is left out and told."""
+        """The element that ``values`` make once other spellings are replaced and what does not fit is left out and reported."""
         fitting = {key: value for key, value in values.items() if key in entry.fields}
         fitting |= {field: tuple(held) for field, held in (children or {}).items()}
         fitting["line"] = line = values.pop("line")
@@ -296,7 +306,7 @@ class _Reader:
         return entry.build(**fitting)
 
     def _other(self, entry: Entry, attribute: str, value: str, fitting: dict[str, Any]) -> None:
-        """Take an attribute in another spelling for the field that it means, or tell that it means nothing."""
+        """Take an attribute in another spelling for the field that it means, or report that it means nothing."""
         spelling = entry.spelling
         field = spelling.other_attributes.get(attribute)
         if (spelling.cls, attribute) in IGNORED or (attribute == "identifier" and "name" in fitting):

@@ -55,10 +55,18 @@ OTHER_WORDS: Mapping[tuple[type[Element], str], Mapping[str, str]] = {
 
 
 class Spelling(msgspec.Struct, frozen=True, kw_only=True):
-    """How one class is written.
+    """The XML spelling of one class.
 
-    ``attributes`` and ``other_attributes`` map names in XML to fields, ``required`` has the fields that must be given,
-    ``contained`` the classes that each field may hold.
+    ``cls``: the class.
+    ``clause``: the clause that defines it.
+    ``tag``: its tag.
+    ``other_tags``: other tags that the text prints for it.
+    ``attributes``: fields by the names of attributes.
+    ``other_attributes``: fields by other names that the text prints for attributes.
+    ``required``: the fields that must be given.
+    ``numbers``: the fields that hold numbers.
+    ``truths``: the fields that hold truth values.
+    ``contained``: the classes of children, by the fields that hold them.
     """
 
     cls: type[Element]

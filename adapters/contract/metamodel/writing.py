@@ -17,10 +17,11 @@ from ucm_cts.adapters.contract.metamodel.spelling import SHORT_STRINGS, SPELLING
 class Dialect(msgspec.Struct, frozen=True, kw_only=True):
     """Another way to write the same models.
 
-    ``tags`` maps canonical tags to others, ``attributes`` canonical ``Tag.attribute`` or, for all tags, ``attribute``,
-    and ``literals`` words of enumerations. With ``short_strings`` a string type without annotations about its
-    characters is a String8 or String32. With ``delegation_attributes`` a delegation names its inner port in attributes of its
-    own, not in a ConnectionEnd (9.5.5.8).
+    ``tags``: other tags, by the canonical ones.
+    ``attributes``: other attributes, by ``Tag.attribute`` or, for all tags, ``attribute``.
+    ``literals``: other words of enumerations, by the canonical ones.
+    ``short_strings``: whether a string type becomes a String8 or String32.
+    ``delegation_attributes``: whether a delegation names its inner port in attributes, not in a ConnectionEnd (9.5.5.8).
     """
 
     tags: Mapping[str, str] = {}

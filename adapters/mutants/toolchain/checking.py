@@ -1,4 +1,4 @@
-"""What mutants of checks are made of: refusing more than the reference tool chain does, or reporting less than its reader or a rule finds."""
+"""Building blocks of mutants that check models: they refuse more than the reference tool chain, or report fewer problems."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Scope
 from ucm_cts.adapters.contract.metamodel.reading import Problem, Reading
 from ucm_cts.adapters.mutants.toolchain.registry import Derive, breaks, complaining_where, replacing_rule
-from ucm_cts.adapters.reference.toolchain.checking import Complaint, Look, Rule
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, FindComplaints, Rule
 from ucm_cts.adapters.reference.toolchain.program import Program
 
 
@@ -24,8 +24,8 @@ def deaf(program: Program, when: Callable[[Problem, Model], object]) -> Program:
 
     def read(text: bytes, file: str) -> Reading:
         reading = program.read(text, file)
-        told = tuple(problem for problem in reading.problems if not when(problem, reading.model))
-        return msgspec.structs.replace(reading, problems=told)
+        reported = tuple(problem for problem in reading.problems if not when(problem, reading.model))
+        return msgspec.structs.replace(reading, problems=reported)
 
     return replace(program, read=read)
 
@@ -53,30 +53,30 @@ def without(program: Program, *rules: str) -> Program:
 
 def forgiving(program: Program, name: str, when: Callable[[Any], object]) -> Program:
     """``program``, but what the rule ``name`` says of elements for which ``when`` holds does not count."""
-    known = program.rules[name].look
+    known = program.rules[name].complaints
 
-    def look(element: Element, scope: Scope) -> Iterator[Complaint]:
+    def complaints(element: Element, scope: Scope) -> Iterator[Complaint]:
         return (complaint for complaint in known(element, scope) if not when(complaint[0]))
 
-    return replacing_rule(program, name, look)
+    return replacing_rule(program, name, complaints)
 
 
 def lacks(problem: Problem, attribute: str, *tags: str) -> bool:
     """Whether ``problem`` is that an element of ``tags``, or any element if there are none, has no ``attribute``."""
-    told = problem.message.endswith(f" has no {attribute}; give it one")
-    return problem.kind == "missing attribute" and told and (not tags or problem.element in tags)
+    said = problem.message.endswith(f" has no {attribute}; give it one")
+    return problem.kind == "missing attribute" and said and (not tags or problem.element in tags)
 
 
 def replaces_rule(
     name: str, *requirements: str, also: tuple[str, ...] = (), declares: tuple[str, ...] = ()
-) -> Callable[[Look], Derive]:
+) -> Callable[[FindComplaints], Derive]:
     """Register a rule function as the mutant that has it in place of the rule ``name``."""
 
-    def register(look: Look) -> Derive:
+    def register(complaints: FindComplaints) -> Derive:
         def derive(program: Program) -> Program:
-            return replacing_rule(program, name, look)
+            return replacing_rule(program, name, complaints)
 
-        return breaks(*requirements, also=also, declares=declares)(functools.wraps(look)(derive))
+        return breaks(*requirements, also=also, declares=declares)(functools.wraps(complaints)(derive))
 
     return register
 
@@ -86,7 +86,7 @@ def complains_only_where(
 ) -> Callable[[Callable[[Any, Any, Scope], bool]], Derive]:
     """Register a condition as the mutant in which complaints of ``rule`` count only where it holds.
 
-    The condition is given what is wrong, the element that the rule looked at, and the scope where that stands.
+    Its arguments are the wrong element, the checked element and that element's scope.
     """
 
     def register(holds: Callable[[Any, Any, Scope], bool]) -> Derive:
@@ -105,14 +105,14 @@ When = Callable[[Any, Scope], object]
 def refusing(when: When) -> Derive:
     """The reference tool chain with one rule more: elements for which ``when`` holds are wrong."""
 
-    def look(element: Element, scope: Scope) -> Iterator[Complaint]:
+    def complaints(element: Element, scope: Scope) -> Iterator[Complaint]:
         if when(element, scope):
             yield element, "this is not how it is done"
 
     @functools.wraps(when)
     def derive(program: Program) -> Program:
         kind = next(iter(get_type_hints(when).values()))
-        rule = Rule("overzealous", "", get_args(kind) or (kind,), look)
+        rule = Rule("overzealous", "", get_args(kind) or (kind,), complaints)
         return replace(program, rules={**program.rules, rule.name: rule})
 
     return derive

@@ -72,11 +72,11 @@ class Refused(Value, frozen=True):
     def rule(self) -> Rule:
         """The rule that refuses them."""
 
-        def look(element: Element, scope: Scope) -> Iterator[Complaint]:
+        def complaints(element: Element, scope: Scope) -> Iterator[Complaint]:
             if self.holds(element, scope):
                 yield element, "this is not how it is done"
 
-        return Rule("overzealous", "", (TAGS[self.of],), look)
+        return Rule("overzealous", "", (TAGS[self.of],), complaints)
 
 
 def _size(value: Any) -> int:

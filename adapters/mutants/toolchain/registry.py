@@ -20,14 +20,19 @@ from ucm_cts.adapters.reference.toolchain.program import Program, reference
 Derive = Callable[[Program], Program]
 
 Holds = Callable[[Any, Any, Scope, str], bool]
-"""Whether a complaint counts: what is wrong, the element that was looked at, where it stands, and the message."""
+"""Whether a complaint counts; its arguments are the wrong element, the checked element, its scope and the message."""
 
 
 @dataclass(frozen=True)
 class Mutant:
-    """A tool chain that is wrong in one thing, and so breaks each requirement of ``breaks``; ``also`` are those that it may fail
-    besides, because the same defect breaks them, too. ``task`` is what shows it. ``declares`` are the readings
-    (``option=value``) that it claims.
+    """A tool chain with one defect.
+
+    ``name``: its name; the names of mutants differ.
+    ``breaks``: the requirements that the defect breaks.
+    ``task``: the task that shows it.
+    ``derive``: makes it from the reference tool chain.
+    ``also``: requirements that the same defect may break besides.
+    ``declares``: the readings (``option=value``) that it claims.
     """
 
     name: str
@@ -40,7 +45,7 @@ class Mutant:
 
 @dataclass(frozen=True)
 class Variant:
-    """A tool chain that uses a freedom of the text; ``declares`` are the readings (``option=value``) that it claims."""
+    """A conformant tool chain that uses a freedom of the text; its fields are those of ``Mutant``."""
 
     name: str
     task: str
@@ -78,28 +83,28 @@ def variant(*, task: str = "check", declares: tuple[str, ...] = ()) -> Callable[
     return register
 
 
-def named(derive: Derive, name: str, lie: str | None = None) -> Derive:
-    """``derive``, called ``name``, which does what ``lie`` says."""
-    derive.__name__, derive.__doc__ = name, lie
+def named(derive: Derive, name: str, says: str | None = None) -> Derive:
+    """``derive`` with the name ``name`` and the docstring ``says``."""
+    derive.__name__, derive.__doc__ = name, says
     return derive
 
 
-def replacing_rule(program: Program, name: str, look: Callable[..., object] | None) -> Program:
-    """``program`` with another function for the rule ``name``, or without it if ``look`` is None."""
+def replacing_rule(program: Program, name: str, complaints: Callable[..., object] | None) -> Program:
+    """``program`` with another function for the rule ``name``, or without it if ``complaints`` is None."""
     assert name in program.rules, f"there is no rule {name}"
     rules = {n: r for n, r in program.rules.items() if n != name}
-    if look is not None:
-        rules[name] = replace(program.rules[name], look=look)  # type: ignore[arg-type] # mutants need not be exact
+    if complaints is not None:
+        rules[name] = replace(program.rules[name], complaints=complaints)  # type: ignore[arg-type] # mutants need not be exact
     return replace(program, rules=rules)
 
 
 def complaining_where(program: Program, name: str, holds: Holds) -> Program:
     """``program``, in which the complaints of rule ``name`` count only where ``holds``."""
     assert name in program.rules, f"there is no rule {name}"
-    look = program.rules[name].look
+    complaints = program.rules[name].complaints
 
     def half(element: Any, scope: Scope) -> Iterator[Complaint]:
-        for wrong, message in look(element, scope):
+        for wrong, message in complaints(element, scope):
             if holds(wrong, element, scope, message):
                 yield wrong, message
 

@@ -1,4 +1,4 @@
-"""What mutants of mappings are made of: other text in place of what the reference tool chain generates, IDL or C++."""
+"""Building blocks of mutants that generate IDL or C++: they replace parts of the text of the reference tool chain."""
 
 from __future__ import annotations
 

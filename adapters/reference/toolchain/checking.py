@@ -14,21 +14,25 @@ from ucm_cts.adapters.reference.toolchain.diagnostics import Diagnostic
 Complaint = tuple[Element, str]
 """The element that is wrong, and what is wrong with it and how to mend it."""
 
-Look = Callable[[Any, Scope], Iterable[Complaint]]
+FindComplaints = Callable[[Any, Scope], Iterable[Complaint]]
 
 
 @dataclass(frozen=True)
 class Rule:
-    """``look`` is asked about each element of ``kinds``, with the scope in which its references are looked up.
+    """A well-formedness rule.
 
-    ``under`` is the reading (``option=value``) that asks for the rule where the text leaves it open, and empty elsewhere; ``also``
-    are requirements that say the same in part, so that a tool chain without the rule may break them, too.
+    ``name``: its name, unique among the rules.
+    ``requirement``: the requirement that it stands for.
+    ``kinds``: the elements that it applies to; ``Model`` for the whole.
+    ``complaints``: finds what is wrong with one element, given the scope of its references.
+    ``under``: the reading (``option=value``) that asks for it where the text is open; empty elsewhere.
+    ``also``: requirements that say the same in part; a tool chain without the rule may break them, too.
     """
 
     name: str
     requirement: str
     kinds: tuple[type[Element], ...]
-    look: Look
+    complaints: FindComplaints
     under: str = ""
     also: tuple[str, ...] = ()
 
@@ -39,18 +43,18 @@ RULES: dict[str, Rule] = {}
 
 def rule(
     requirement: str, *kinds: type[Element], under: str = "", also: tuple[str, ...] = ()
-) -> Callable[[Look], Look]:
-    """Register a function as the rule for ``requirement`` that looks at elements of ``kinds`` (``Model`` for the whole), which
+) -> Callable[[FindComplaints], FindComplaints]:
+    """Register a function as the rule for ``requirement`` for elements of ``kinds`` (``Model`` for the whole), which
     only the reading ``under`` asks for; requirements of ``also`` say the same in part.
 
     Several functions may stand for one requirement; their names differ.
     """
 
-    def register(look: Look) -> Look:
-        name = look.__name__
+    def register(complaints: FindComplaints) -> FindComplaints:
+        name = complaints.__name__
         assert name not in RULES, f"two rules are called {name}"
-        RULES[name] = Rule(name, requirement, kinds, look, under, also)
-        return look
+        RULES[name] = Rule(name, requirement, kinds, complaints, under, also)
+        return complaints
 
     return register
 
@@ -62,7 +66,7 @@ Plans = dict[type[Element], "_Plan"]
 def check(model: Model, file: str, rules: Mapping[str, Rule], plans: Plans) -> list[Diagnostic]:
     """What ``rules`` have against ``model``, in the order of its lines. ``plans`` are those of the same rules, empty at first."""
     names = Names(model)
-    found = [d for r in rules.values() if Model in r.kinds for d in _told(r, model, names.root, file)]
+    found = [d for r in rules.values() if Model in r.kinds for d in _found_by(r, model, names.root, file)]
 
     def visit(elements: Iterable[Element], scope: Scope) -> None:
         for element in elements:
@@ -70,8 +74,8 @@ def check(model: Model, file: str, rules: Mapping[str, Rule], plans: Plans) -> l
             plan = plans.get(kind)
             if plan is None:
                 plan = plans[kind] = _plan(kind, rules)
-            for one, look in plan.looks:
-                for wrong, message in look(element, scope):
+            for one, complaints in plan.rules:
+                for wrong, message in complaints(element, scope):
                     found.append(_diagnostic(one, wrong, message, file))
             inner = names.inside(element) if plan.is_module else scope
             for field in plan.fields:
@@ -86,18 +90,18 @@ def check(model: Model, file: str, rules: Mapping[str, Rule], plans: Plans) -> l
 class _Plan(NamedTuple):
     """What is done with elements of one kind: their rules, and the fields that hold the next elements."""
 
-    looks: tuple[tuple[Rule, Look], ...]
+    rules: tuple[tuple[Rule, FindComplaints], ...]
     fields: tuple[str, ...]
     is_module: bool
 
 
 def _plan(kind: type[Element], rules: Mapping[str, Rule]) -> _Plan:
-    looks = tuple((one, one.look) for one in rules.values() if issubclass(kind, one.kinds))
-    return _Plan(looks, child_fields(kind), issubclass(kind, MODULES))
+    applied = tuple((one, one.complaints) for one in rules.values() if issubclass(kind, one.kinds))
+    return _Plan(applied, child_fields(kind), issubclass(kind, MODULES))
 
 
-def _told(one: Rule, model: Model, root: Scope, file: str) -> Iterator[Diagnostic]:
-    for wrong, message in one.look(model, root):
+def _found_by(one: Rule, model: Model, root: Scope, file: str) -> Iterator[Diagnostic]:
+    for wrong, message in one.complaints(model, root):
         yield _diagnostic(one, wrong, message, file)
 
 

@@ -1,4 +1,4 @@
-"""Tool chains that know the rules of clause 9 and look only half as far as they reach: the first of several, short circles, some types."""
+"""Tool chains that apply rules of clause 9 only partly: to the first of several elements, to some types, to outermost modules."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def _is_declared(scope: Scope, reference: str) -> bool:
 
 @complains_only_where("inherits_from_interfaces", "R-9.2.7.1-02")
 def inherits_from_nowhere(one: Any, _: Any, scope: Scope) -> bool:
-    """Does not mind what is declared nowhere."""
+    """Accepts what is declared nowhere."""
     return _is_declared(scope, one.interface)
 
 
@@ -52,21 +52,21 @@ def values_of_known_definitions(wrong: Any, _: c.Annotation, scope: Scope) -> bo
 
 @complains_only_where("roles_are_not_redefined", "R-9.3.3.2-05")
 def sees_only_the_parents_roles(wrong: mi.InteractionRole, pattern: mi.InteractionPattern, scope: Scope) -> bool:
-    """Does not look at the roles of the parent's parent."""
+    """Ignores the roles of the parent's parent."""
     parent = parent_of(Declared(pattern, scope))
     return parent is not None and wrong.name in {role.name for role in getattr(parent.element, "roles", ())}
 
 
 @complains_only_where("bound_types_have_the_nature_of_the_item", "R-9.3.3.3-05")
 def interfaces_may_be_data(wrong: mi.ItemBinding, _: mi.ItemBinding, scope: Scope) -> bool:
-    """Does not mind an interface that stands for data."""
+    """Accepts an interface that stands for data."""
     found = scope.member(wrong.interaction_item, mi.InteractionPattern, "items")
     return getattr(found and found.element, "nature", "") == "INTERFACE"
 
 
 @complains_only_where("bound_types_have_the_nature_of_the_item", "R-9.3.3.3-05")
 def data_may_be_interfaces(wrong: mi.ItemBinding, _: mi.ItemBinding, scope: Scope) -> bool:
-    """Does not mind a data type that stands for an interface."""
+    """Accepts a data type that stands for an interface."""
     found = scope.member(wrong.interaction_item, mi.InteractionPattern, "items")
     return getattr(found and found.element, "nature", "") == "DATA"
 
@@ -110,13 +110,13 @@ def binds_items_of_any_pattern(wrong: Any, _: mi.ConnectorDefinition, scope: Sco
 
 @complains_only_where("ports_of_an_item_handle_its_type", "R-9.3.3.4-07")
 def only_the_first_port_handles_items(wrong: Any, connector: mi.ConnectorDefinition, _: Scope) -> bool:
-    """Does not mind a later port that does not handle the type of an item."""
+    """Accepts a later port that does not handle the type of an item."""
     return wrong is connector.ports[0]
 
 
-def _seldom(name: str, lie: str, requirement: str, rule: str, holds: Holds, *also: str) -> None:
+def _partial(name: str, says: str, requirement: str, rule: str, holds: Holds, *also: str) -> None:
     """Register a mutant in which the complaints of ``rule`` count only where ``holds``."""
-    derive = named(lambda program: complaining_where(program, rule, holds), name, lie)
+    derive = named(lambda program: complaining_where(program, rule, holds), name, says)
     breaks(requirement, also=also)(derive)
 
 
@@ -129,9 +129,9 @@ def _is_not_of(kind: str) -> Holds:
 
 
 for _kind in c.INTEGER_RANGES:
-    _seldom(
+    _partial(
         f"any_default_of_{_kind.lower()}",
-        f"Minds defaults of all types but {_kind}.",
+        f"Checks defaults of all types but {_kind}.",
         "R-9.2.2.7-01",
         "defaults_are_values_of_their_types",
         _is_not_of(_kind),
@@ -148,31 +148,31 @@ def _is_no(kind: type[Element]) -> Holds:
 
 
 _DEFAULTS = "defaults_are_values_of_their_types"
-_seldom("any_default_of_floats", "Does not look at floats.", "R-9.2.2.7-01", _DEFAULTS, _is_no(c.PrimitiveFloat))
-_seldom(
+_partial("any_default_of_floats", "Ignores floats.", "R-9.2.2.7-01", _DEFAULTS, _is_no(c.PrimitiveFloat))
+_partial(
     "any_default_by_alias",
     "Does not follow aliases.",
     "R-9.2.2.7-01",
     _DEFAULTS,
     lambda wrong, _element, scope, _message: scope.find(wrong.type, c.Alias) is None,
 )
-_seldom(
+_partial(
     "any_default_of_components",
-    "Does not look at the attributes of component types.",
+    "Ignores the attributes of component types.",
     "R-9.2.2.7-01",
     _DEFAULTS,
     lambda _wrong, _element, scope, _message: not scope.path.startswith("::comp"),
 )
-_seldom(
+_partial(
     "neighbouring_defaults",
     "Sees a second default case right after the first case only.",
     "R-9.2.4.6-08",
     "one_case_is_the_default",
     lambda wrong, union, _scope, _message: wrong is union.cases[1],
 )
-_seldom(
+_partial(
     "attributes_of_components_of_one_name",
-    "Does not look at the attributes of component types.",
+    "Ignores the attributes of component types.",
     "R-9.1.4.1-02",
     "attributes_differ",
     lambda _wrong, owner, _scope, _message: not isinstance(owner, ComponentType),
@@ -183,25 +183,25 @@ def _is_not_nested(_wrong: Any, _element: Any, scope: Scope, _message: str) -> b
     return scope.path.count("::") < 2
 
 
-_seldom(
+_partial(
     "outermost_connectors_only",
-    "Does not look at connectors in modules of modules.",
+    "Ignores connectors in modules of modules.",
     "R-9.3.4-01",
     "refines_a_pattern",
     _is_not_nested,
 )
-_seldom(
+_partial(
     "outermost_definitions_only",
-    "Does not look at policy definitions in modules of modules.",
+    "Ignores policy definitions in modules of modules.",
     "R-9.4.3.2-03",
     "specifies_an_aspect",
     _is_not_nested,
 )
 
 
-_seldom(
+_partial(
     "binds_only_in_policies_on_components",
-    "Looks at the bindings of policies on components, not on ports.",
+    "Checks the bindings of policies on components, not on ports.",
     "R-9.5.4.2-11",
     "policies_bind_abstract_types",
     lambda _wrong, policy, _scope, _message: not isinstance(policy, ComponentPortTechnicalPolicy),

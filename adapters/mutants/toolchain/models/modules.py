@@ -66,7 +66,7 @@ def anything_outermost(program: Program) -> Program:
 
 @replaces_rule("data_types_exist", "R-9.1.4.4-05")
 def last_names_count(typed: Typed, scope: Scope) -> Iterator[Complaint]:
-    """Looks for the last name of a path wherever it may be declared."""
+    """Finds the last name of a path in any module."""
     last = typed.type.rpartition(SEPARATOR)[2]
     waiting = [scope.root]
     while waiting and typed.type:
@@ -80,13 +80,13 @@ def last_names_count(typed: Typed, scope: Scope) -> Iterator[Complaint]:
 
 @breaks("R-9.1.4.7-02")
 def applications_hold_anything(program: Program) -> Program:
-    """Takes whatever stands in an application module."""
+    """Accepts any element in an application module."""
     return _holding(program, ApplicationModule)
 
 
 @breaks("R-9.1.4.8-02")
 def platforms_hold_anything(program: Program) -> Program:
-    """Takes whatever stands in a platform module."""
+    """Accepts any element in a platform module."""
     return _holding(program, PlatformModule)
 
 

@@ -13,11 +13,11 @@ from ucm_cts.adapters.reference.toolchain.program import Program
     declares=("inherited-member-names=heir",),
 )
 def heirs_do_not_name_what_they_inherit(program: Program) -> Program:
-    """Says that an inherited member is named by who inherits it, and knows it by the name of who declares it."""
+    """Declares that an inherited member has the name of its heir, and knows it by the name of its declaring element."""
     return naming_by_owner(program)
 
 
 @breaks("R-9.3.3.2-04", declares=("inherited-member-names=owner",))
 def owners_do_not_name_what_others_inherit(program: Program) -> Program:
-    """Says that an inherited member is named by who declares it, and knows it in connectors by the name of who inherits it."""
+    """Declares that an inherited member has the name of its declaring element, and knows it in connectors by the name of its heir."""
     return naming_by_heir(program)

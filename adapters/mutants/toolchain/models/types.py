@@ -46,7 +46,7 @@ def index_types_may_be_missing(program: Program) -> Program:
 
     def index_types_exist(indexed: Indexed, scope: Scope) -> Iterator[Complaint]:
         if indexed.index_type:
-            yield from program.rules["index_types_exist"].look(indexed, scope)
+            yield from program.rules["index_types_exist"].complaints(indexed, scope)
 
     program = deaf(program, lambda problem, _: lacks(problem, "indexType"))
     return replacing_rule(program, "index_types_exist", index_types_exist)
@@ -66,32 +66,34 @@ def structures_in_structures(structure: c.Structure, scope: Scope) -> bool:
     return len([one for one in found if one is not None]) > 1
 
 
-def _lax(program: Program, rule: str, kind: type[object]) -> Program:
-    """``program`` whose ``rule`` does not look at elements of ``kind``."""
+def _ignoring(program: Program, rule: str, kind: type[object]) -> Program:
+    """``program`` whose ``rule`` ignores elements of ``kind``."""
 
-    def look(element: Typed, scope: Scope) -> Iterator[Complaint]:
+    def complaints(element: Typed, scope: Scope) -> Iterator[Complaint]:
         if not isinstance(element, kind):
-            yield from program.rules[rule].look(element, scope)
+            yield from program.rules[rule].complaints(element, scope)
 
-    return replacing_rule(program, rule, look)
+    return replacing_rule(program, rule, complaints)
 
 
 @breaks("R-9.2.4.4-01", "R-9.2.2.4-04")
 def fields_of_interfaces(program: Program) -> Program:
     """Takes interfaces as types of fields."""
-    return _lax(program, "interfaces_are_no_data_types", c.StructureField)
+    return _ignoring(program, "interfaces_are_no_data_types", c.StructureField)
 
 
 @breaks("R-9.2.5.4-01", "R-9.2.2.4-04")
 def sequences_of_interfaces(program: Program) -> Program:
     """Takes interfaces as elements of sequences."""
-    return _lax(program, "interfaces_are_no_data_types", c.Sequence)
+    return _ignoring(program, "interfaces_are_no_data_types", c.Sequence)
 
 
 @breaks("R-9.2.4.7-03", "R-9.2.4.1-02", "R-9.2.4.1-03")
 def enumerations_of_any_index(program: Program) -> Program:
-    """Takes enumerations that are indexed by whatever has a name, or none."""
-    return _lax(_lax(program, "index_types_exist", c.Enumeration), "named_index_types_are_integers", c.Enumeration)
+    """Accepts enumerations with any index type, or none."""
+    return _ignoring(
+        _ignoring(program, "index_types_exist", c.Enumeration), "named_index_types_are_integers", c.Enumeration
+    )
 
 
 @refuses("R-9.2.4.5-01", also=("R-9.2.4.6-01", "R-9.2.4.6-02", "R-9.2.4.6-08"))

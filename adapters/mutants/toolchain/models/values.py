@@ -22,7 +22,7 @@ Fits = Callable[[Constant, Scope], None]
 def _fitting(program: Program, fits: Fits) -> Program:
     """``program`` in which ``fits`` decides whether a constant has a value of its type."""
 
-    def look(constant: Constant, scope: Scope) -> Iterator[Complaint]:
+    def complaints(constant: Constant, scope: Scope) -> Iterator[Complaint]:
         try:
             fits(constant, scope)
         except NoValueOfType as error:
@@ -30,7 +30,7 @@ def _fitting(program: Program, fits: Fits) -> Program:
         except NotAConstant:
             pass
 
-    return replacing_rule(program, "constants_are_values_of_their_types", look)
+    return replacing_rule(program, "constants_are_values_of_their_types", complaints)
 
 
 def _with_ranges(program: Program, ranges: Ranges) -> Program:
@@ -82,11 +82,11 @@ def octal_is_decimal(program: Program) -> Program:
 def fixed_point_values(program: Program) -> Program:
     """Knows numbers with a fixed point."""
 
-    def look(constant: Constant, scope: Scope) -> Iterator[Complaint]:
+    def complaints(constant: Constant, scope: Scope) -> Iterator[Complaint]:
         if not re.fullmatch(r"[\d.]+[dD]", constant.value):
-            yield from program.rules["constants_follow_the_grammar"].look(constant, scope)
+            yield from program.rules["constants_follow_the_grammar"].complaints(constant, scope)
 
-    return replacing_rule(program, "constants_follow_the_grammar", look)
+    return replacing_rule(program, "constants_follow_the_grammar", complaints)
 
 
 @breaks("R-9.2.4.2-02")

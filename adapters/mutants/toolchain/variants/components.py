@@ -1,4 +1,4 @@
-"""Tool chains that read the open places of 9.4 and 9.5 otherwise than the reference one, and say so."""
+"""Tool chains that read the open places of 9.4 and 9.5 otherwise than the reference one, and declare it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ucm_cts.adapters.reference.toolchain.rules.components.policy_use import asp
 
 
 def _counting_apart(program: Program) -> Program:
-    def look(_model: Model, root: Scope) -> Iterator[Complaint]:
+    def complaints(_model: Model, root: Scope) -> Iterator[Complaint]:
         for use in uses(root):
             for policies in use.of_aspects().values():
                 aspect = aspect_of(policies[0])
@@ -25,16 +25,16 @@ def _counting_apart(program: Program) -> Program:
                 if aspect.element.multiplicity == "exactlyOne" and len(on_component) > 1:
                     yield use.implementation, f"{use.implementation.name} has two policies of {aspect.element.name}"
 
-    return replacing_rule(program, "has_the_one_policy_only", look)
+    return replacing_rule(program, "has_the_one_policy_only", complaints)
 
 
 @variant()
 def policies_of_ports_are_other_policies(program: Program) -> Program:
-    """Counts the policies on a component and those on its ports apart, and says nothing of it."""
+    """Counts the policies on a component and those on its ports apart without declaring it."""
     return _counting_apart(program)
 
 
 @variant(declares=("policies-on-ports-counted=apart",))
 def policies_of_ports_are_said_to_be_other_policies(program: Program) -> Program:
-    """The same, and says so."""
+    """Counts the policies on a component and those on its ports apart, and declares it."""
     return _counting_apart(program)

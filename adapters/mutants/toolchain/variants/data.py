@@ -1,4 +1,4 @@
-"""Tool chains that read the open places of 9.1 and of 9.2 up to the constants in one way or the other, and say so."""
+"""Tool chains that read the open places of 9.1 and of 9.2 up to the constants in one way or the other, and declare it."""
 
 from __future__ import annotations
 
@@ -64,9 +64,9 @@ def _is_longer(element: Element, field: str) -> bool:
 def bare_text(program: Program) -> Program:
     """Reads characters and strings without quotes."""
     name = "constants_are_values_of_their_types"
-    known = program.rules[name].look
+    known = program.rules[name].complaints
 
-    def look(constant: c.Constant, scope: Scope) -> Iterator[Complaint]:
+    def complaints(constant: c.Constant, scope: Scope) -> Iterator[Complaint]:
         found = actual_type(constant.type, scope)
         if found is not None and isinstance(found.element, c.PrimitiveChar) and len(constant.value) != 1:
             yield constant, f"{constant.value} is not one character"
@@ -80,6 +80,6 @@ def bare_text(program: Program) -> Program:
     def follows(constant: c.Constant, scope: Scope) -> Iterator[Complaint]:
         found = actual_type(constant.type, scope)
         if found is None or not isinstance(found.element, c.PrimitiveChar | c.StringType):
-            yield from program.rules["constants_follow_the_grammar"].look(constant, scope)
+            yield from program.rules["constants_follow_the_grammar"].complaints(constant, scope)
 
-    return replacing_rule(replacing_rule(program, name, look), "constants_follow_the_grammar", follows)
+    return replacing_rule(replacing_rule(program, name, complaints), "constants_follow_the_grammar", follows)

@@ -50,33 +50,33 @@ _SAY_MEMBERS = (
 def naming_by_owner(program: Program) -> Program:
     """``program``, but members are known by the name of the element that declares them only."""
 
-    def look(element: Element, scope: Scope) -> Iterator[Complaint]:
+    def complaints(element: Element, scope: Scope) -> Iterator[Complaint]:
         for reference, kind, field in _references(element):
             name, _, member = reference.rpartition(MEMBER)
             owner = scope.find(name, kind) if name else None
             if owner is not None and all(one.name != member for one in getattr(owner.element, field)):
-                yield element, f"{name} does not declare {member} itself; name who does"
+                yield element, f"{name} does not declare {member} itself; name the declaring element"
 
-    known = Rule("members_are_named_by_their_owner", "", _SAY_MEMBERS, look)
+    known = Rule("members_are_named_by_their_owner", "", _SAY_MEMBERS, complaints)
     return replace(program, rules={**program.rules, known.name: known})
 
 
 @variant()
 def members_have_their_owner_s_name(program: Program) -> Program:
-    """Knows members by the name of the element that declares them, as all printed ones are, and says nothing of it."""
+    """Knows members by the name of the element that declares them, as all printed ones are, without declaring it."""
     return naming_by_owner(program)
 
 
 @variant(declares=("inherited-member-names=owner",))
 def inherited_members_have_their_owner_s_name(program: Program) -> Program:
-    """The same, and says so."""
+    """Knows members by the name of the element that declares them, and declares it."""
     return naming_by_owner(program)
 
 
 def naming_by_heir(program: Program) -> Program:
     """``program``, but roles and items of a connector are known by the name of its own pattern only."""
 
-    def look(connector: mi.ConnectorDefinition, scope: Scope) -> Iterator[Complaint]:
+    def complaints(connector: mi.ConnectorDefinition, scope: Scope) -> Iterator[Complaint]:
         pattern = scope.find(connector.pattern, mi.InteractionPattern)
         for part in (*connector.ports, *connector.item_bindings):
             for reference, kind, _ in _references(part):
@@ -84,13 +84,13 @@ def naming_by_heir(program: Program) -> Program:
                 if pattern is not None and named is not None and named.element is not pattern.element:
                     yield part, f"{reference} is no member of {connector.pattern}; name it by that"
 
-    known = Rule("members_are_named_by_the_pattern", "", (mi.ConnectorDefinition,), look)
+    known = Rule("members_are_named_by_the_pattern", "", (mi.ConnectorDefinition,), complaints)
     return replace(program, rules={**program.rules, known.name: known})
 
 
 @variant(declares=("inherited-member-names=heir",))
 def inherited_members_have_their_heir_s_name(program: Program) -> Program:
-    """Knows roles and items of a connector by the name of its own pattern only, and says so."""
+    """Knows roles and items of a connector by the name of its own pattern only, and declares it."""
     return naming_by_heir(program)
 
 

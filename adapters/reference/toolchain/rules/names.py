@@ -11,7 +11,7 @@ from ucm_cts.adapters.contract.metamodel.common import Element, Named
 from ucm_cts.adapters.contract.metamodel.interactions import ConnectorDefinition, InteractionPattern, PortType
 from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
 from ucm_cts.adapters.contract.metamodel.names import Scope
-from ucm_cts.adapters.reference.toolchain.checking import Complaint, Look, rule
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, FindComplaints, rule
 
 _NEED_NO_NAME = (mc.ConnectionEnd, mc.PortDelegation)
 _HAVE_RULES_OF_THEIR_OWN = (*MODULES, c.StructureField, c.UnionCase)
@@ -113,15 +113,15 @@ _MEMBERS: tuple[tuple[str, str, Owners, dict[str, str]], ...] = (
 """The rules that names of members differ: name, requirement, owners, and what messages call the members of each field."""
 
 
-def _differ(name: str, fields: dict[str, str]) -> Look:
+def _differ(name: str, fields: dict[str, str]) -> FindComplaints:
     """The rule that no two members in one of ``fields`` have the same name."""
 
-    def look(owner: Named, _scope: Scope) -> Iterator[Complaint]:
+    def complaints(owner: Named, _scope: Scope) -> Iterator[Complaint]:
         for field, what in fields.items():
             yield from repeated(getattr(owner, field), f"{what} {owner.name}")
 
-    look.__name__ = name
-    return look
+    complaints.__name__ = name
+    return complaints
 
 
 for _name, _requirement, _owners, _fields in _MEMBERS:

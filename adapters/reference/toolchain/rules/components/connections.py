@@ -113,7 +113,7 @@ def _find_definition(reference: str, scope: Scope) -> Definition:
 
 @rule("R-9.5.5.4-04", mc.CompositeComponentImplementation)
 def connectors_have_the_apis_of_their_ends(composite: Composite, scope: Scope) -> Iterator[Complaint]:
-    """A connector has a port for the port type of each end; ends with a role are not looked at."""
+    """A connector has a port for the port type of each end; ends with a role are not checked."""
     for connection, definition, joined in _joints(composite, scope):
         if definition.connector is None:
             continue
@@ -127,7 +127,7 @@ def connectors_have_the_apis_of_their_ends(composite: Composite, scope: Scope) -
 
 @rule("R-9.5.5.4-05", mc.CompositeComponentImplementation)
 def patterns_have_the_roles_of_their_ends(composite: Composite, scope: Scope) -> Iterator[Complaint]:
-    """A pattern has the role of each end; ends with a port type are not looked at."""
+    """A pattern has the role of each end; ends with a port type are not checked."""
     for connection, definition, joined in _joints(composite, scope):
         if definition.pattern is None:
             continue

@@ -34,7 +34,7 @@ def manages_atomic_implementations(policy: mc.ComponentTechnicalPolicy, scope: S
 
 @rule("R-9.5.4.2-03", Model, under="one-sided-policy-links=refused")
 def implementations_and_policies_name_each_other(_model: Model, root: Scope) -> Iterator[Complaint]:
-    """Who names a policy is named by it, and the other way round."""
+    """An implementation and a policy name each other."""
     for use in uses(root):
         name = use.implementation.name
         for identity in use.named.keys() - use.naming.keys():

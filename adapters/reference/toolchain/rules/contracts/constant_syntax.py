@@ -60,7 +60,7 @@ _DEEPEST = 100
 """Signs and parentheses that may stand inside one another."""
 
 LONGEST = 1000
-"""Characters of a value that is looked at."""
+"""The greatest number of characters of a checked value."""
 
 
 def parsed(text: str) -> Expression:

@@ -1,4 +1,4 @@
-"""Is what IDL writes for a constant a value of a type (9.2.6.1)? Names are looked up and expressions calculated."""
+"""Checks that the text of a constant gives a value of its type (9.2.6.1): resolves names and computes expressions."""
 
 from __future__ import annotations
 
@@ -50,12 +50,12 @@ Ranges = Mapping[str, tuple[int, int]]
 def fit(text: str, type_: str, scope: Scope, ranges: Ranges = c.INTEGER_RANGES) -> None:
     """Raise ``NotAConstant`` or ``NoValueOfType`` unless ``text`` is a value of what ``type_`` means in ``scope``.
 
-    Values of types that IDL has no constants of are not looked at, nor are those of types that are not there.
+    Values of types that IDL has no constants of are not checked, nor are those of undeclared types.
     ``ranges`` are those of the kinds of integers.
     """
     found = actual_type(type_, scope)
     if found is not None and isinstance(found.element, c.Enumeration) and _names(found.element, text):
-        return  # whatever IDL may think of the name
+        return  # the name is not resolved
     if found is not None and isinstance(found.element, c.PrimitiveInteger):
         _fit_integer(syntax.parsed(text), found.element, scope, ranges)
     for cls, fitting in _FITTING.items():

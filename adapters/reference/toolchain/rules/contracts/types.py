@@ -8,7 +8,7 @@ from ucm_cts.adapters.contract.metamodel import contracts as c
 from ucm_cts.adapters.contract.metamodel.common import Named
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.names import Declared, Scope
-from ucm_cts.adapters.reference.toolchain.checking import Complaint, Look, rule
+from ucm_cts.adapters.reference.toolchain.checking import Complaint, FindComplaints, rule
 from ucm_cts.adapters.reference.toolchain.rules.circles import circle, circle_complaint
 from ucm_cts.adapters.reference.toolchain.rules.contracts.actual_types import DATA_TYPES, actual_type
 from ucm_cts.adapters.reference.toolchain.rules.contracts.references import index_kind
@@ -22,15 +22,15 @@ _HAVE_ONE: tuple[tuple[str, str, type[Named], str, str], ...] = (
 """The rules that a type has at least one member: name, requirement, kind, field, and what messages call a member."""
 
 
-def _has_one(name: str, field: str, what: str) -> Look:
+def _has_one(name: str, field: str, what: str) -> FindComplaints:
     """The rule that a type has at least one ``what`` in ``field``."""
 
-    def look(owner: Named, _scope: Scope) -> Iterator[Complaint]:
+    def complaints(owner: Named, _scope: Scope) -> Iterator[Complaint]:
         if not getattr(owner, field):
             yield owner, f"{type(owner).__name__.lower()} {owner.name} has no {what}; give it one"
 
-    look.__name__ = name
-    return look
+    complaints.__name__ = name
+    return complaints
 
 
 for _name, _requirement, _kind, _field, _what in _HAVE_ONE:
@@ -70,7 +70,7 @@ def sequences_and_unions_are_finite(_model: Model, root: Scope) -> Iterator[Comp
 
 
 def _all_are_finite(root: Scope) -> bool:
-    """Whether no type at all contains itself in any way: then no rule has to look for its own circles."""
+    """Whether no type contains itself; if so, no rule needs to search for circles."""
     kinds = (c.Structure, c.Array, c.Sequence, c.Union)
     return root.remembered(
         "all are finite",
