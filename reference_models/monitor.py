@@ -106,7 +106,8 @@ class _TraceReader:
 
     def check(self, moment: Moment, *details: object) -> None:
         """Add what the properties of ``moment`` conclude from ``details``."""
-        self.evaluate(self.table.at[moment], *details)
+        if properties := self.table.at[moment]:
+            self.evaluate(properties, *details)
 
     def evaluate(self, properties: tuple[Bound, ...], *details: object) -> None:
         """Add what the properties conclude from ``details``."""
