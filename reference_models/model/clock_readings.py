@@ -56,10 +56,6 @@ class ClockReading:
         """Where the body is; None if that is not known."""
         return self.call.caller.container if self.call.caller is not None else None
 
-    def is_before(self, other: ClockReading) -> bool:
-        """Was it over before the other one began?"""
-        return self.end < other.begin
-
 
 def clock_call(runtime: ObservedRuntime, call: MethodCall) -> str:
     """The method of its clock that a body calls; empty if it calls something else."""

@@ -141,6 +141,10 @@ class OperationInProgress:
     end: Result = field(init=False)
     outcome: OperationEnd = _NOT_ENDED
 
+    def unclear_if(self, condition: bool) -> None:
+        """The model cannot predict it if ``condition`` holds."""
+        self.judged = self.judged and not condition
+
     def hear(self, callback: Enter) -> None:
         """A body was entered while the operation was in progress."""
         self.callbacks.append(callback)

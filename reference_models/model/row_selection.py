@@ -53,13 +53,11 @@ class RowSelection:
             ongoing.judged = False
             return ongoing
         self._looks[operation](runtime, ongoing, step)
-        if ongoing.subject is not None and ongoing.subject.container is not container:
-            ongoing.judged = False
+        ongoing.unclear_if(ongoing.subject is not None and ongoing.subject.container is not container)
         if len(runtime.containers) > 1:
             self._other_phases(runtime, ongoing)
         for member, _ in ongoing.roles:
-            if member is not None and member.suspended:
-                ongoing.judged = False
+            ongoing.unclear_if(member is not None and member.suspended)
         return ongoing
 
     def _other_phases(self, runtime: ObservedRuntime, ongoing: OperationInProgress) -> None:
@@ -100,10 +98,10 @@ class RowSelection:
         unforeseen: tuple[s.Hook, ...] = (
             ("set_container_interface", "on_startup") if late else ("set_container_interface",)
         )
-        if container.started is None or (declaration is not None and raises(declaration, *unforeseen)):
-            ongoing.judged = False
-        if declaration is not None and (is_contradictory(declaration) or has_several_clocks(declaration)):
-            ongoing.judged = False
+        ongoing.unclear_if(container.started is None or (declaration is not None and raises(declaration, *unforeseen)))
+        ongoing.unclear_if(
+            declaration is not None and (is_contradictory(declaration) or has_several_clocks(declaration))
+        )
         if declaration is not None and declaration.policies:
             ongoing.forgiving = True  # whether the policy is supported is policy_supported's matter
         self._role(ongoing, None, "absent", condition)
@@ -127,12 +125,10 @@ class RowSelection:
         else:
             self._member_role(ongoing, member, "connected" if member.live_connections() else "not connected")
         doubtful = [c for c in runtime.all_connections() if c.live is None or c.ambiguous]
-        if any(member is c.provider or member is c.client for c in doubtful):
-            ongoing.judged = False
+        ongoing.unclear_if(any(member is c.provider or member is c.client for c in doubtful))
         for client, _ in clients:
             self._member_role(ongoing, client, "", "remove_provider")
-            if _raises_when_disconnected(client):
-                ongoing.judged = False
+            ongoing.unclear_if(_raises_when_disconnected(client))
 
     def _get_port_element(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.GetPortElement) -> None:
         member, why = runtime.find_member(ongoing.container, step.id)
@@ -171,12 +167,13 @@ class RowSelection:
             self._member_role(ongoing, member, "container started")
         else:
             self._member_role(ongoing, member, self._kind_of_connection(member, step, provider))
-        if member.raises("on_connect", "on_disconnect") or (late and member.raises("on_startup", "on_shutdown")):
-            ongoing.judged = False
-        if provider is not None and provider.gone and ongoing.roles[-1][1].condition != "provider already removed":
-            ongoing.judged = False
-        if provider is not None and provider.doubtful:
-            ongoing.judged = False
+        ongoing.unclear_if(
+            member.raises("on_connect", "on_disconnect") or (late and member.raises("on_startup", "on_shutdown"))
+        )
+        ongoing.unclear_if(
+            provider is not None and provider.gone and ongoing.roles[-1][1].condition != "provider already removed"
+        )
+        ongoing.unclear_if(provider is not None and provider.doubtful)
 
     def _kind_of_connection(self, member: Member, step: s.Connect, provider: Member | None) -> str:
         if member.live_connections(step.port):
@@ -204,8 +201,7 @@ class RowSelection:
             return
         ongoing.connection = connection
         member = ongoing.subject = connection.client
-        if _raises_when_disconnected(member) or connection.live is None or connection.ambiguous:
-            ongoing.judged = False
+        ongoing.unclear_if(_raises_when_disconnected(member) or connection.live is None or connection.ambiguous)
         if member.state == "ready":
             condition = ""
         elif ongoing.container.started is not False:
@@ -224,14 +220,12 @@ class RowSelection:
         started = container.started
         if runtime.interactions.improper(None if cascades else container):
             ongoing.forgiving = True
-        if started is None or any(m.suspended for m in members):
-            ongoing.judged = False
+        ongoing.unclear_if(started is None or any(m.suspended for m in members))
         if not members:
             self._role(ongoing, None, "absent", "no members, already started" if started else "no members")
         unready = [m for m in members if m.state == "initialized"]
         failing = [m for m in members if m.raises("on_startup")]
-        if (unready and failing and not started) or (started and any(not m.operational for m in failing)):
-            ongoing.judged = False
+        ongoing.unclear_if(any(not m.operational for m in failing) if started else bool(unready and failing))
         for member in members:
             if started is not False:
                 condition = "already started" if member.operational else "added later"
@@ -254,8 +248,7 @@ class RowSelection:
     def _stop(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.Stop) -> None:
         container = ongoing.container
         members = container.live_members()
-        if container.started is None or any(m.suspended for m in members):
-            ongoing.judged = False
+        ongoing.unclear_if(container.started is None or any(m.suspended for m in members))
         if not members:
             self._role(ongoing, None, "absent", "no members")
         failing = [m for m in members if m.raises("on_shutdown") and m.operational]
@@ -303,10 +296,7 @@ class RowSelection:
             self._role(ongoing, None, "absent", "null reference")
             return
         container = runtime.containers.get(step.container)
-        if container is None or container.name == s.MANAGER:
-            ongoing.judged = False
-            return
-        if container.doubtful:
+        if container is None or container.name == s.MANAGER or container.doubtful:
             ongoing.judged = False
             return
         if container.removed:
@@ -315,21 +305,18 @@ class RowSelection:
         ongoing.container = container
         members = container.live_members()
         self._removal_of_all(ongoing, members)
-        if any(c.live is None and c.provider in members for c in runtime.all_connections()):
-            ongoing.judged = False
+        ongoing.unclear_if(any(c.live is None and c.provider in members for c in runtime.all_connections()))
         for client, _ in runtime.clients_of(members):
             if client.container is not container:
                 self._member_role(ongoing, client, "", "remove_provider")
-                if _raises_when_disconnected(client):
-                    ongoing.judged = False
+                ongoing.unclear_if(_raises_when_disconnected(client))
 
     def _removal_of_all(self, ongoing: OperationInProgress, members: Sequence[Member]) -> None:
         if not members:
             self._role(ongoing, None, "absent", "no members")
         for member in members:
             self._member_role(ongoing, member, "")
-            if member.raises(*_FAILING_END) or any(c.live is None for c in member.connections):
-                ongoing.judged = False
+            ongoing.unclear_if(member.raises(*_FAILING_END) or any(c.live is None for c in member.connections))
 
 
 def _late(ongoing: OperationInProgress) -> str:

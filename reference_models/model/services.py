@@ -8,7 +8,7 @@ from typing import Literal
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import AnyType, Interface
 from ucm_cts.adapters.contract.trace import Exit, Raise, Reply
-from ucm_cts.reference_models.model.links import LinkState
+from ucm_cts.reference_models.model.messages import counts
 from ucm_cts.reference_models.model.method_calls import NEVER, Delivery, MethodCall, Operation
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import NO_ID, Member
@@ -57,12 +57,7 @@ def _service_call(runtime: ObservedRuntime, call: MethodCall) -> ServiceCall | N
     found = ServiceCall(call, link, client, server, runtime.scenario.interfaces[link.interface])
     others = [c for c in client.member.connections if c.port == client.port and c.id != NO_ID]
     unclear = others or _serves_several(runtime, server.member, server.port) or _comes_back(call, server.member)
-    return found if found.method is not None and not unclear and not _is_silent(server.member) else None
-
-
-def _is_silent(server: Member) -> bool:
-    """Does it count what it gets, and tells of no single call?"""
-    return any(isinstance(action, s.CountMessages) for action in server.declaration.plan.get("method", ()))
+    return found if found.method is not None and not unclear and not counts(server.member) else None
 
 
 def _serves_several(runtime: ObservedRuntime, member: Member | None, port: str | None) -> bool:
@@ -195,15 +190,11 @@ def what_sets_apart(
     """
     if one.is_inherited:
         return "inherited"
-    attempts = (o for o in runtime.interactions.operations if isinstance(o.step, s.Attach))
-    if any(_is_for_server(o.step, one.link) and isinstance(o.end, Raise) for o in attempts):
+    refused = [o.step for o in runtime.interactions.operations if isinstance(o.end, Raise)]
+    if any(isinstance(a, s.Attach) and (a.role, a.link) == ("server", one.link.name) for a in refused):
         return "second server"
     others = any(other.link is one.link and other.client is not one.client for other in served)
     return "client" if others else ""
-
-
-def _is_for_server(step: s.Step, link: LinkState) -> bool:
-    return isinstance(step, s.Attach) and step.role == "server" and step.link == link.name
 
 
 def new_types(runtime: ObservedRuntime, step: s.Link) -> list[AnyType]:

@@ -16,7 +16,7 @@ from ucm_cts.reference_models.properties.declaration import Property, property_a
 _CODES, _OK_IF_WELL, _OK_IS_TRUE = "R-10.1.2-02", "R-10.1.2-09", "R-10.1.2-10"
 _INTERNAL, _TRANSMISSION = "R-10.1.2-11", "R-10.1.2-12"
 
-_DUE = {"transport": (_TRANSMISSION, msg.COMM_ERROR), "inside": (_INTERNAL, msg.INTERNAL_ERROR)}
+_DUE = {"transport": _TRANSMISSION, "inside": _INTERNAL}
 
 
 @property_at("completed", _CODES)
@@ -230,7 +230,7 @@ def ok_after_mending(check: Property, runtime: ObservedRuntime, call: MethodCall
         return ()
     if not all(msg.is_well(end.member) for end, _ in call.targets):
         return ()
-    requirement, _ = _DUE[link.was_broken]
+    requirement = _DUE[link.was_broken]
     if call.code == msg.OK:
         return check.kept(requirement)
     return _violate(check, call, "is answered ok: its connection was mended", "mended", requirement=requirement)

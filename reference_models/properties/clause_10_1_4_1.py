@@ -198,7 +198,7 @@ def _pairs(
     readings = clocks.readings_of(runtime, method)
     pauses = runtime.interactions.pauses
     for later in readings:
-        for earlier in (r for r in readings if r.is_before(later)):
+        for earlier in (r for r in readings if r.end < later.begin):
             calendar = (0, 0) if is_never_set else clocks.calendar_at(pauses, earlier.asked, later.told)
             if calendar is not None:
                 yield earlier, later, calendar[1]

@@ -210,7 +210,7 @@ def message_connector(
         member = runtime.members.get(step.id)
         ports = {"emitter": member.declaration.requires, "receiver": member.declaration.provides} if member else {}
         known = step.port in ports.get(step.role, ())
-        if member is None or member.gone or member.suspended or not known or _is_taken(member, step.port):
+        if member is None or member.gone or member.suspended or not known or member.live_connections(step.port):
             return ()
         if step.role == "emitter" and not link.live("receiver") and end.error in ("UCM_ERROR", "BAD_PARAMETER"):
             return ()  # refused_attachment's matter
@@ -243,10 +243,6 @@ def joined_and_started(check: Property, runtime: ObservedRuntime, ongoing: Opera
             ended=ongoing,
         )
     return ()
-
-
-def _is_taken(member: Member, port: str) -> bool:
-    return bool(member.live_connections(port))
 
 
 def _overwrites(receiver: Member) -> bool:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_values import read_spelled, spell
 from ucm_cts.adapters.contract.trace import Reference, Return, Siblings
@@ -38,12 +36,12 @@ def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: 
     if not wrong:
         yield check.kept()
     else:
-        yield _holds_others(check, _BEFORE_INIT, declaration, wrong, held, callback)
+        yield _holds_others(check, _BEFORE_INIT, declaration, wrong, callback)
     typed = {a for a, value in declaration.attributes.items() if read_spelled(value) is not None}
     if typed and not typed.intersection(wrong):
         yield check.kept(_ATTRIBUTES)
     elif typed:
-        yield _holds_others(check, _ATTRIBUTES, declaration, [a for a in wrong if a in typed], held, callback)
+        yield _holds_others(check, _ATTRIBUTES, declaration, [a for a in wrong if a in typed], callback)
 
 
 def _is_configured(held: str | None, configured: str) -> bool:
@@ -53,14 +51,9 @@ def _is_configured(held: str | None, configured: str) -> bool:
 
 
 def _holds_others(
-    check: Property,
-    requirement: str,
-    declaration: s.Declaration,
-    wrong: list[str],
-    held: Mapping[str, str],
-    callback: Callback,
+    check: Property, requirement: str, declaration: s.Declaration, wrong: list[str], callback: Callback
 ) -> Finding:
-    some = wrong[:_SHOWN]
+    held, some = callback.event.attributes or {}, wrong[:_SHOWN]
     return check.fail(
         "missing" if all(a not in held for a in wrong) else "another value",
         expected="on_init finds " + ", ".join(f"{a}={declaration.attributes[a]}" for a in some),
@@ -161,7 +154,7 @@ def container_interface(check: Property, runtime: ObservedRuntime, callback: Cal
             at=(event.n,) if again else tuple(sorted({history.first_at or event.n, event.n})),
             step=ongoing.step_number if ongoing else None,
             instead=(
-                Arrow(ongoing.container.name if ongoing else "manager", event.component, "set_container_interface"),
+                Arrow(ongoing.container.name if ongoing else s.MANAGER, event.component, "set_container_interface"),
             ),
         )
     return ()

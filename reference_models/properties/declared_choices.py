@@ -70,12 +70,8 @@ def _is_common(end: Result, telling: Sequence[Fitted]) -> bool:
 def undeclared_choice(ics: Ics, ongoing: OperationInProgress, end: Result, fitted: Sequence[Fitted]) -> Fitted | None:
     """The first instance that went a way which the vendor has ruled out; None if there is none."""
     telling = _choices(ongoing, end, fitted)
-    undeclared = [one for one in telling if not _is_declared(ics, one[2])]
+    undeclared = [one for one in telling if not any(ics.permits(*reading.split("=", 1)) for reading in one[2].readings)]
     return undeclared[0] if undeclared and (len(undeclared) == len(telling) or not _is_common(end, telling)) else None
-
-
-def _is_declared(ics: Ics, fit: Fit) -> bool:
-    return any(ics.permits(*reading.split("=", 1)) for reading in fit.readings)
 
 
 def _is_choice(ongoing: OperationInProgress, end: Result, member: Member | None, row: Row, fit: Fit) -> bool:
