@@ -150,13 +150,6 @@ def family(base: type, attribute: str, rows: Mapping[str, Row], clauses: tuple[s
         breaks(row.requirement, also=row.also, clauses=clauses, readings=row.readings)(mixin)
 
 
-def breaks_policy(
-    *requirements: str, also: tuple[str, ...] = (), readings: Mapping[str, str] = {}
-) -> Callable[[type], type]:
-    """Register the decorated mixin as a mutant that applies execution policies wrongly."""
-    return breaks(*requirements, also=also, clauses=POLICIES, readings=readings)
-
-
 def variant_of(*clauses: str, readings: Mapping[str, str] = {}) -> Callable[[type], type]:
     """Register the decorated mixin as a conformant framework that is of interest for the purposes of ``clauses``."""
 

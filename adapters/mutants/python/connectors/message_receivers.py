@@ -13,6 +13,7 @@ from ucm_cts.adapters.contract.programming_model import UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR
 from ucm_cts.adapters.mutants.python.methods import does_only_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
+from ucm_cts.adapters.mutants.python.variants.messages import Holding, ReleasesHeld
 from ucm_cts.adapters.reference.python.connectors import INTERNAL_ERROR, OK, Entrance, Link, Taker
 from ucm_cts.adapters.reference.python.members import Failures, Member
 
@@ -180,18 +181,7 @@ class drops_what_it_said_it_delivers(Base):
 
 
 @breaks("R-10.1.6.1-09", clauses=_MESSAGES, readings={"pending-at-stop": "drop", "receiver-not-ready": "drop"})
-class keeps_what_it_said_it_drops(Base):
+class keeps_what_it_said_it_drops(ReleasesHeld):
     """The vendor declares that messages to receivers that are not operational are lost; they arrive after the start."""
 
-    class link_class(Link):
-        def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
-            for taker in self.takers if not self.broken else ():
-                if not taker.entrance.is_open:
-                    taker.__dict__.setdefault("kept", []).append((method, self._copied(arguments)))
-            return super()._emit(method, arguments)
-
-    def _open_entrances(self, member: Member) -> None:
-        super()._open_entrances(member)
-        for link, taker in self._takers_of(member):
-            for method, arguments in taker.__dict__.pop("kept", ()):
-                link._post(taker, method, arguments)
+    link_class = Holding

@@ -17,7 +17,6 @@ from ucm_cts.adapters.mutants.python.registry import (
     PeerProxy,
     Row,
     breaks,
-    breaks_policy,
     container_of,
     family,
 )
@@ -41,21 +40,21 @@ class _Unprotects(Base):
         return super()._execute(member, port, work) if self._is_protected(member) else work()
 
 
-@breaks_policy("R-10.1.3.2-13", "R-10.1.3.2-16")
+@breaks("R-10.1.3.2-13", "R-10.1.3.2-16", clauses=POLICIES)
 class leaves_passive_components_open(_Unprotects):
     """Protected passive components are not protected."""
 
     definition = PROTECTED_PASSIVE
 
 
-@breaks_policy("R-10.1.3.2-09", "R-10.1.3.2-10")
+@breaks("R-10.1.3.2-09", "R-10.1.3.2-10", clauses=POLICIES)
 class leaves_active_components_open(_Unprotects):
     """Active components are executed by their callers, all at a time."""
 
     definition = ACTIVE
 
 
-@breaks_policy("R-10.1.3.2-06")
+@breaks("R-10.1.3.2-06", clauses=POLICIES)
 class leaves_self_executing_components_open(_Unprotects):
     """Self-executing components are not protected."""
 
@@ -88,7 +87,7 @@ def _without_protection(target: PortElementObject | None) -> PortElementObject |
     return target.element if isinstance(target, ProtectedElement) else target
 
 
-@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16")
+@breaks("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16", clauses=POLICIES)
 class protects_from_connections_only(Link):
     """Service connectors enter components without protection."""
 
@@ -127,7 +126,7 @@ def protects_until_exceptions(self: Base, member: Member, port: str | None, work
         raise
 
 
-@breaks_policy("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16", also=("R-10.1.3.2-05",))
+@breaks("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-16", clauses=POLICIES, also=("R-10.1.3.2-05",))
 class protects_until_the_first_stop(Base):
     """Components are no longer protected after they have been stopped."""
 
@@ -146,7 +145,7 @@ def serialises_what_it_says_it_does_not(_self: Base, given: bool, member: Member
     return given or member.execution.definition == UNPROTECTED_PASSIVE
 
 
-@breaks_policy("R-10.1.3-03", readings={"second-active-policy": "refuse"})
+@breaks("R-10.1.3-03", clauses=POLICIES, readings={"second-active-policy": "refuse"})
 class allows_what_it_says_it_refuses(Base):
     """The vendor declares that two active ports of a component are refused; they are accepted."""
 
@@ -157,7 +156,7 @@ def refuses_what_it_says_it_allows(_self: Base, implementation: Implementation) 
     return len([policy for policy in implementation.policies if policy.definition == ACTIVE]) > 1
 
 
-@breaks_policy("R-10.1.3.2-01", readings={"run-trigger": "once"})
+@breaks("R-10.1.3.2-01", clauses=POLICIES, readings={"run-trigger": "once"})
 class runs_more_often_than_it_says(Base):
     """The vendor declares that run is called once a start; it is called repeatedly."""
 
@@ -169,7 +168,7 @@ def runs_less_often_than_it_says(self: Base, member: Member, trigger: Trigger) -
         self._run(member, trigger)
 
 
-@breaks_policy("R-10.1.3.2-09", readings={"active-unmanaged": "unprotected"})
+@breaks("R-10.1.3.2-09", clauses=POLICIES, readings={"active-unmanaged": "unprotected"})
 class leaves_active_components_open_as_if_declared(leaves_active_components_open):
     """Active components are not protected; the vendor declares this for unmanaged ports only."""
 
@@ -196,7 +195,7 @@ def unlocks_for_nested_calls(self: PeerProxy, value: int) -> int:
         execution.thread_inside = inside
 
 
-@breaks_policy("R-10.1.3.2-05", also=("R-10.1.3.2-06",))
+@breaks("R-10.1.3.2-05", clauses=POLICIES, also=("R-10.1.3.2-06",))
 class runs_before_run_has_ended(Base):
     """run is called again on another thread before the last call has ended."""
 

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from ucm_cts.adapters.contract.scenario import PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE
 from ucm_cts.adapters.mutants.python.methods import replaces
-from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, breaks_policy
+from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, breaks
 from ucm_cts.adapters.reference.python.execution import Trigger
 from ucm_cts.adapters.reference.python.members import Failures, Member
 
@@ -29,7 +29,7 @@ def runs_after_the_first_start_only(self: Base, member: Member) -> None:
     member.__dict__["has_run"] = True
 
 
-@breaks_policy("R-10.1.3.2-01", "R-10.1.3.2-03")
+@breaks("R-10.1.3.2-01", "R-10.1.3.2-03", clauses=POLICIES)
 class runs_when_called(Base):
     """A self-executing component is executed only after a call of one of its ports."""
 
@@ -52,7 +52,7 @@ def runs_before_startup(self: Base, member: Member, failures: Failures) -> bool:
     return Base._start_up(self, member, failures)
 
 
-@breaks_policy("R-10.1.3.2-02")
+@breaks("R-10.1.3.2-02", clauses=POLICIES)
 class runs_after_stop(Base):
     """run is called after stop, until the component is removed."""
 
@@ -77,7 +77,7 @@ def runs_once_more_after_stop(self: Base, member: Member) -> None:
         threading.Timer(1.5 * self.period, self._execution_api(member).run).start()
 
 
-@breaks_policy("R-10.1.3.2-14")
+@breaks("R-10.1.3.2-14", clauses=POLICIES)
 class executes_passive_components(Base):
     """The container calls protected passive components by itself."""
 
@@ -92,7 +92,7 @@ class executes_passive_components(Base):
             time.sleep(self.period)
 
 
-@breaks_policy("R-10.1.3.2-19")
+@breaks("R-10.1.3.2-19", clauses=POLICIES)
 class executes_unprotected_components(executes_passive_components):
     """The container calls unprotected passive components by itself."""
 

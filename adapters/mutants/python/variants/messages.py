@@ -111,7 +111,7 @@ def attaches_emitters_where_somebody_receives(self: Link, *_: object) -> bool:
     return self.connector == MESSAGE_CONNECTOR and not self.takers
 
 
-class _Holding(_Codes):
+class Holding(_Codes):
     """Messages to a receiver that is not operational arrive when it is started."""
 
     def _emit(self, method: str, arguments: Sequence[Datum]) -> str:
@@ -126,17 +126,17 @@ class _Holding(_Codes):
             self._post(taker, method, arguments)
 
 
-class _ReleasesHeld(Base):
+class ReleasesHeld(Base):
     """A component that becomes operational gets the messages held for it."""
 
     def _open_entrances(self, member: Member) -> None:
         super()._open_entrances(member)
         for link, taker in self._takers_of(member):
-            if isinstance(link, _Holding):
+            if isinstance(link, Holding):
                 link.release(taker)
 
 
-class _SharedThread(_Holding):
+class _SharedThread(Holding):
     """One thread delivers all messages of the runtime."""
 
     def _post(self, taker: Taker, method: str, arguments: list[Datum]) -> None:
@@ -155,7 +155,7 @@ class _SharedThread(_Holding):
 
 
 @variant_of(*_CLAUSES, readings={"receiver-not-ready": "hold", "message-order": "fifo", "pending-at-stop": "drop"})
-class delivers_all_on_one_thread(_ReleasesHeld):
+class delivers_all_on_one_thread(ReleasesHeld):
     """Receivers wait for each other, and messages for receivers that are not operational for their start."""
 
     link_class = _SharedThread
@@ -233,7 +233,7 @@ class _KeepingTaker(Taker):
                 self.__dict__.setdefault("kept", []).append(("push", [self.messages.get_nowait()]))
 
 
-class _Bounded(_Holding):
+class _Bounded(Holding):
     """Push waits until there is room, and messages that wait at stop are kept."""
 
     def _attach_taker(self, member: Member, port: str) -> None:
@@ -252,7 +252,7 @@ class _Bounded(_Holding):
 
 
 @variant_of(*_CLAUSES, readings={"message-overflow": "block", "pending-at-stop": "keep", "receiver-not-ready": "hold"})
-class waits_for_room_and_keeps_at_stop(_ReleasesHeld):
+class waits_for_room_and_keeps_at_stop(ReleasesHeld):
     """Push waits while there is no room. Messages that wait at stop arrive after the next start."""
 
     link_class = _Bounded

@@ -138,28 +138,21 @@ class executes_peer_calls_elsewhere(proxies_between_components):
         return None if target is None else _Elsewhere(target, member)
 
 
-@variant
-class operates_elsewhere(Base):
-    """Operations are carried out by another thread and waited for."""
-
-    add_component = _elsewhere(Container.add_component)
-    remove_component = _elsewhere(Container.remove_component)
-    connect = _elsewhere(Container.connect)
-    disconnect = _elsewhere(Container.disconnect)
-    start = _elsewhere(Container.start)
-    stop = _elsewhere(Container.stop)
+def _all_elsewhere(name: str, lie: str, *methods: str) -> None:
+    """Register the variant whose ``methods`` are carried out by threads of their own."""
+    variant(type(name, (Base,), {"__doc__": lie} | {m: _elsewhere(getattr(Container, m)) for m in methods}))
 
 
-@variant
-class calls_back_elsewhere(Base):
-    """Each callback comes on a thread of its own and is waited for."""
-
-    _initialise = _elsewhere(Container._initialise)
-    _connect = _elsewhere(Container._connect)
-    _disconnect = _elsewhere(Container._disconnect)
-    _start_up = _elsewhere(Container._start_up)
-    _shut_down = _elsewhere(Container._shut_down)
-    _remove = _elsewhere(Container._remove)
+_all_elsewhere(
+    "operates_elsewhere",
+    "Operations are carried out by another thread and waited for.",
+    *("add_component", "remove_component", "connect", "disconnect", "start", "stop"),
+)
+_all_elsewhere(
+    "calls_back_elsewhere",
+    "Each callback comes on a thread of its own and is waited for.",
+    *("_initialise", "_connect", "_disconnect", "_start_up", "_shut_down", "_remove"),
+)
 
 
 # bodies
