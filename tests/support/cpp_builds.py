@@ -34,7 +34,7 @@ PACKAGE = Path(ucm_cts.__file__).parent
 STRICT = ["-std=c++11", "-pedantic-errors", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
 ADAPTER = ROOT / "adapters" / "reference" / "cpp" / "adapter.cpp"
 TYPED_BODIES = ROOT / "adapters" / "reference" / "cpp" / "typed" / "bodies.cpp"
-FRAMEWORK_SOURCES = sorted((FRAMEWORK / "src").glob("*.cpp"))
+FRAMEWORK_SOURCES = sorted((FRAMEWORK / "src").rglob("*.cpp"))
 
 RUDE = """
 #include <ucm_cts/main.hpp>
@@ -141,7 +141,7 @@ class Builds:
             "power": lambda: (NATIVE / "stress_power.cpp", [*STRICT, "-O2"]),
             "beans": lambda: (BEANS / "beans_adapter.cpp", [*STRICT, "-I", str(BEANS)]),
         }[name]()
-        includes = ["-I", SDK / "include", "-I", FRAMEWORK / "include"]
+        includes = ["-I", SDK / "include", "-I", FRAMEWORK / "include", "-I", FRAMEWORK / "src"]
         run(
             [os.environ.get("CXX", "c++"), *flags, *includes, source, "-o", self.folder / name, "-pthread", "-rdynamic"]
         )
@@ -164,7 +164,7 @@ class Builds:
         sources = "\n".join(f'"{source}"' for source in FRAMEWORK_SOURCES)
         (folder / "acmeConfig.cmake").write_text(
             f"""add_library(acme_ucm STATIC {sources})
-            target_include_directories(acme_ucm PUBLIC "{folder}" "{FRAMEWORK / "include"}")
+            target_include_directories(acme_ucm PUBLIC "{folder}" "{FRAMEWORK / "include"}" PRIVATE "{FRAMEWORK / "src"}")
             set_target_properties(acme_ucm PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD ON)
             add_library(acme::ucm ALIAS acme_ucm)"""
         )

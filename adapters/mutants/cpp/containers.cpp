@@ -15,7 +15,7 @@ std::atomic<bool> overwriting{false};
 
 }  // namespace
 
-void operator delete(void* freed) noexcept {
+__attribute__((noinline)) void operator delete(void* freed) noexcept {
     if (overwriting && freed != nullptr) {
         volatile unsigned char* const bytes = static_cast<unsigned char*>(freed);
         for (std::size_t n = malloc_usable_size(freed); n > 0; --n) {

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "chain.hpp"
+#include "execution/chain.hpp"
 #include "registry.hpp"
 
 namespace derived {

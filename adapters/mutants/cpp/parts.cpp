@@ -1,5 +1,5 @@
 // Makes the parts of the mutant that the environment variable UCM_CTS_MUTANT names; "list" has all told and nothing run.
-#include "parts.hpp"
+#include "platform/parts.hpp"
 
 #include <cstdlib>
 #include <iostream>

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "manager_impl.hpp"
-#include "parts.hpp"
+#include "containers/container_impl.hpp"
+#include "platform/parts.hpp"
 
 namespace derived {
 

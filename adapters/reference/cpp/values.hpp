@@ -2,9 +2,9 @@
 #ifndef UCM_CTS_REFERENCE_CPP_VALUES_HPP
 #define UCM_CTS_REFERENCE_CPP_VALUES_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <string>
@@ -131,13 +131,11 @@ inline lwucm::Method lwucm_method(const std::string& name, const ucm_cts::Method
 }
 
 inline lwucm::InterfacePtr lwucm_interface(const ucm_cts::Interface& interface) {
+    const std::vector<std::string>& names = interface.inherited;
     std::vector<lwucm::Method> own;
     std::vector<lwucm::Method> inherited;
     for (const auto& method : interface.methods) {
-        bool is_inherited = false;
-        for (const std::string& name : interface.inherited) {
-            is_inherited = is_inherited || name == method.first;
-        }
+        const bool is_inherited = std::find(names.begin(), names.end(), method.first) != names.end();
         (is_inherited ? inherited : own).push_back(lwucm_method(method.first, method.second));
     }
     const auto base = std::make_shared<const lwucm::Interface>(inherited);
@@ -146,23 +144,13 @@ inline lwucm::InterfacePtr lwucm_interface(const ucm_cts::Interface& interface) 
 
 // values
 
-template <class Bits, class Float>
-std::string hexadecimal(Float value) {
-    Bits bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
+template <class Bits>
+std::string hexadecimal(Bits bits) {
     std::string digits;
     for (int shift = static_cast<int>(sizeof bits) * 8 - 4; shift >= 0; shift -= 4) {
         digits.push_back("0123456789abcdef"[(bits >> shift) & 0xF]);
     }
     return digits;
-}
-
-template <class Bits, class Float>
-Float from_hexadecimal(const std::string& digits) {
-    const Bits bits = static_cast<Bits>(std::stoull(digits, nullptr, 16));
-    Float value = 0;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
 }
 
 inline ucm_cts::Datum to_datum(const lwucm::Value& value) {
@@ -175,9 +163,9 @@ inline ucm_cts::Datum to_datum(const lwucm::Value& value) {
         case Kind::natural:
             return value.as_natural();
         case Kind::single:
-            return hexadecimal<std::uint32_t>(value.as_single());
+            return hexadecimal(lwucm::same_bits<std::uint32_t>(value.as_single()));
         case Kind::real:
-            return hexadecimal<std::uint64_t>(value.as_real());
+            return hexadecimal(lwucm::same_bits<std::uint64_t>(value.as_real()));
         case Kind::character:
             return static_cast<std::uint32_t>(value.as_character());
         case Kind::string:
@@ -239,9 +227,11 @@ inline lwucm::Value to_value(const lwucm::Type& type, const ucm_cts::Datum& datu
             return datum.is_number_unsigned() ? lwucm::Value::natural(datum.get<std::uint64_t>())
                                               : lwucm::Value::integer(datum.get<std::int64_t>());
         case Kind::single:
-            return lwucm::Value::single(from_hexadecimal<std::uint32_t, float>(datum.get<std::string>()));
+            return lwucm::Value::single(
+                lwucm::same_bits<float>(static_cast<std::uint32_t>(std::stoull(datum.get<std::string>(), nullptr, 16))));
         case Kind::real:
-            return lwucm::Value::real(from_hexadecimal<std::uint64_t, double>(datum.get<std::string>()));
+            return lwucm::Value::real(
+                lwucm::same_bits<double>(static_cast<std::uint64_t>(std::stoull(datum.get<std::string>(), nullptr, 16))));
         case Kind::character8:
         case Kind::character32:
             return lwucm::Value::character(static_cast<char32_t>(datum.get<std::uint32_t>()));

@@ -19,11 +19,11 @@ _EXECUTION = ("10.1.3",)
 _VALUES = ("10.1.1",)
 _CONNECTORS = ("10.1.2", "10.1.5", "10.1.6", "10.1.1")
 CONCERNED = {
-    **dict.fromkeys(("chain.cpp", "execution.cpp", "executor.cpp", "monitor.cpp", "self_execution.cpp"), _EXECUTION),
+    **dict.fromkeys(("execution.cpp", "executor.cpp", "monitor.cpp", "self_execution.cpp"), _EXECUTION),
     **dict.fromkeys(("policies.cpp", "interception.cpp"), ("10.1.3", "10.1.4")),
     **dict.fromkeys(("marshalling.cpp", "types.cpp", "value.cpp", "interfaces.cpp"), _VALUES),
     **dict.fromkeys(("inbox.cpp", "link_impl.cpp", "message_connector.cpp", "service_connector.cpp"), _CONNECTORS),
-    **dict.fromkeys(("clock.cpp", "container_services.cpp"), ("10.1.4",)),
+    "container_services.cpp": ("10.1.4",),
 }
 """The clauses that a source is about, where these are not those of the life cycle."""
 
@@ -62,7 +62,7 @@ class CppFramework:
 
     def files(self) -> list[Path]:
         """The translation units that are mutated."""
-        return sorted(self.sources.glob("*.cpp"))
+        return sorted(self.sources.rglob("*.cpp"), key=lambda path: path.name)
 
     def candidates(self) -> Iterator[GeneratedMutant]:
         """Everything that the tool makes of them."""
@@ -71,7 +71,8 @@ class CppFramework:
 
     def compile(self, mutant: GeneratedMutant, folder: Path) -> Path:
         """The mutant's object file, made in ``folder``. Raises ``DoesNotCompile``."""
-        original = (self.sources / mutant.file).read_text(encoding="utf-8").splitlines(keepends=True)
+        path = next(self.sources.rglob(mutant.file))
+        original = path.read_text(encoding="utf-8").splitlines(keepends=True)
         (folder / mutant.file).write_text(mutant.source(original), encoding="utf-8")
         made = folder / f"{mutant.file}.o"
         self._compile(folder, mutant.file, made)

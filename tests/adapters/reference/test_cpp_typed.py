@@ -73,7 +73,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-_INCLUDED: list[str | Path] = ["-I", FRAMEWORK / "include"]
+_INCLUDED: list[str | Path] = ["-I", FRAMEWORK / "include", "-I", FRAMEWORK / "src"]
 
 
 def generate(model: Path, folder: Path) -> None:

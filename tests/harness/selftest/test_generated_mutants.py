@@ -202,7 +202,7 @@ def test_what_is_said_to_be_equivalent_is_still_there(listed: Path, sources: Pat
     for key in reasons:
         file, _, rest = key.partition(": ")
         line = rest.partition(" ==> ")[0]
-        written = [text.strip() for text in (sources / file).read_text().splitlines()]
+        written = [text.strip() for text in next(sources.rglob(file)).read_text().splitlines()]
         nth = int(line.rpartition(" (")[2].rstrip(")")) if line not in written else 1
         line = line if nth == 1 else line.rpartition(" (")[0]
         assert written.count(line) >= nth, f"{listed.name} speaks of a line that is no longer there: {key}"

@@ -17,22 +17,6 @@ typedef ::probe_api::Abstract_exchange_intf Exchange;
 typedef std::shared_ptr<Exchange> ExchangePointer;
 typedef ::ucm::PortConnection<Exchange> ExchangeConnection;
 
-/// A typed reference as the SDK's probe calls it.
-class TypedReference final : public ucm_cts::PortElement {
-  public:
-    explicit TypedReference(ExchangePointer callee) : callee_(std::move(callee)) {}
-
-    std::int32_t exchange(std::int32_t value) override { return callee_->exchange(value); }
-
-    const ucm_cts::Identity* identity() const override {
-        const ucm_cts::ProbesOwn* const own = dynamic_cast<const ucm_cts::ProbesOwn*>(callee_.get());
-        return own != nullptr ? own->element->identity() : nullptr;
-    }
-
-  private:
-    const ExchangePointer callee_;
-};
-
 /// The SDK's probe in a typed body. Its port elements and attributes have the names that the scenario gives them.
 class Core {
   public:
@@ -45,7 +29,7 @@ class Core {
     void start(const std::vector<ExchangeConnection>& connections) {
         std::vector<ucm_cts::PortConnection> dependencies;
         for (const ExchangeConnection& one : connections) {
-            dependencies.push_back({one.port_name, {one.ref ? std::make_shared<TypedReference>(one.ref) : nullptr}});
+            dependencies.push_back({one.port_name, {ucm_cts::ShapedReference<Lwucm>::wrap(one.ref)}});
         }
         body->on_startup(dependencies);
     }
@@ -180,20 +164,6 @@ class ConnectableProbe final : public Probe, public lwucm::Connectable {
     void on_disconnect(const std::string& port_name) override { this->core.body->on_disconnect(port_name); }
 };
 
-/// What a fragment's probe sees of its container.
-class Membership final : public ucm_cts::ContainerInterface {
-  public:
-    explicit Membership(std::shared_ptr<lwucm::Container> container) : container_(std::move(container)) {}
-
-    std::vector<ucm_cts::Id> get_components() override {
-        const lwucm::componentIds ids = container_->get_components();
-        return std::vector<ucm_cts::Id>(ids.begin(), ids.end());
-    }
-
-  private:
-    const std::shared_ptr<lwucm::Container> container_;
-};
-
 /// A probe that is a fragment (11.2.1.4).
 template <class Probe>
 class FragmentProbe : public Probe, public lwucm::FragmentObject {
@@ -201,7 +171,8 @@ class FragmentProbe : public Probe, public lwucm::FragmentObject {
     using Probe::Probe;
 
     void set_container_interface(std::shared_ptr<lwucm::Container> container) override {
-        this->core.body->set_container_interface(container ? std::make_shared<Membership>(std::move(container)) : nullptr);
+        this->core.body->set_container_interface(
+            ucm_cts::ShapedContainer<std::shared_ptr<lwucm::Container>>::wrap(container));
     }
 };
 

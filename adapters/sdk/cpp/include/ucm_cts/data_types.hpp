@@ -39,6 +39,38 @@ inline std::vector<Parameter> Method::results() const {
 /// The interfaces of those port elements that have one, by the port element's name.
 typedef std::map<std::string, SharedInterface> Interfaces;
 
+/// Can it stand for a value of a UCM type?
+inline bool is_datum(const Datum& value) {
+    if (value.is_array()) {
+        return std::all_of(value.begin(), value.end(), is_datum);
+    }
+    return value.is_boolean() || value.is_number_integer() || value.is_string();
+}
+
+inline bool are_data(const Data& values) { return std::all_of(values.begin(), values.end(), is_datum); }
+
+/// Changes every part of the value, as the owner of a buffer may.
+inline void overwrite(Datum& value) {
+    if (value.is_array()) {
+        for (Datum& one : value) {
+            overwrite(one);
+        }
+        value.push_back(0);
+    } else if (value.is_boolean()) {
+        value = !value.get<bool>();
+    } else if (value.is_number_integer()) {
+        value = value == 0 ? 1 : 0;
+    } else {
+        value = "?";
+    }
+}
+
+inline void overwrite(Data& values) {
+    for (Datum& value : values) {
+        overwrite(value);
+    }
+}
+
 }  // namespace ucm_cts
 
 #endif

@@ -31,7 +31,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
         : adapter_(std::move(adapter)),
           scenario_(std::move(scenario)),
           stage_(std::make_shared<Stage>(std::move(sink), scenario_->patience)),
-          cast_(std::make_shared<Cast>()),
+          configuration_(std::make_shared<Configuration>()),
           manager_(adapter_->create_runtime(implementations())),
           operations_(adapter_, scenario_, stage_, manager_),
           workers_(patience_of(scenario_->patience)) {}
@@ -61,8 +61,8 @@ class Engine : public std::enable_shared_from_this<Engine> {
     std::string complaint() const { return stage_->complaint(); }
 
   private:
-    // the probes that the framework has had made
-    struct Cast {
+    // the probes that the framework has made so far
+    struct Configuration {
         std::mutex mutex;
         std::map<std::string, int> instances;
         std::vector<std::weak_ptr<Probe>> probes;
@@ -80,25 +80,27 @@ class Engine : public std::enable_shared_from_this<Engine> {
             const Component* const what = &component;
             const std::shared_ptr<Stage> stage = stage_;
             const std::shared_ptr<const Scenario> scenario = scenario_;
-            const std::shared_ptr<Cast> cast = cast_;
+            const std::shared_ptr<Configuration> configuration = configuration_;
             Interfaces interfaces;
             for (const auto& port : declaration.ports) {
                 interfaces[port.first] = scenario_->interfaces.at(port.second);
             }
             all.push_back(Implementation{component.first, declaration.provided, declaration.required,
                                          std::move(attributes), declaration.connectable, declaration.fragment,
-                                         [what, stage, scenario, cast] { return make(*what, stage, scenario, *cast); },
+                                         [what, stage, scenario, configuration] {
+                                             return make(*what, stage, scenario, *configuration);
+                                         },
                                          declaration.policies, std::move(interfaces)});
         }
         return all;
     }
 
     static std::shared_ptr<Body> make(const Component& component, const std::shared_ptr<Stage>& stage,
-                                      const std::shared_ptr<const Scenario>& scenario, Cast& cast) {
-        std::lock_guard<std::mutex> lock(cast.mutex);
-        const int instance = ++cast.instances[component.first];
+                                      const std::shared_ptr<const Scenario>& scenario, Configuration& configuration) {
+        std::lock_guard<std::mutex> lock(configuration.mutex);
+        const int instance = ++configuration.instances[component.first];
         const std::shared_ptr<Probe> probe = std::make_shared<Probe>(stage, scenario, component, instance);
-        cast.probes.push_back(probe);
+        configuration.probes.push_back(probe);
         return std::make_shared<ProbeBody>(probe);
     }
 
@@ -152,17 +154,17 @@ class Engine : public std::enable_shared_from_this<Engine> {
         if (!operations_.references(number, step.refs, references)) {
             return;
         }
-        const std::shared_ptr<Stress> storm = std::make_shared<Stress>(stage_, references);
+        const std::shared_ptr<Stress> stress = std::make_shared<Stress>(stage_, references);
         std::vector<std::string> workers;
-        for (const std::function<void()>& task : storm->tasks()) {
+        for (const std::function<void()>& task : stress->tasks()) {
             workers.push_back("stress " + std::to_string(workers.size()));
             workers_.queue(workers.back(), task);
         }
-        storm->conduct(std::chrono::milliseconds(std::max(step.milliseconds, 0)), stage_->patience);
+        stress->conduct(std::chrono::milliseconds(std::max(step.milliseconds, 0)), stage_->patience);
         for (const std::string& worker : workers) {
             workers_.join(worker);
         }
-        const Stress::Numbers found = storm->end();
+        const Stress::Numbers found = stress->end();
         stage_->recorder.record(events::Stressed(number, found.calls, found.overlaps, found.control_calls,
                                                  found.control_overlaps)
                                     .failed(found.failed));
@@ -184,11 +186,11 @@ class Engine : public std::enable_shared_from_this<Engine> {
         if (!operations_.destroyed()) {
             try {
                 adapter_->destroy(manager_);
-            } catch (...) {  // the scenario did not ask for it, so nobody asks what came of it
+            } catch (...) {  // no step of the scenario, so its outcome is not recorded
             }
         }
-        std::lock_guard<std::mutex> lock(cast_->mutex);
-        for (const std::weak_ptr<Probe>& each : cast_->probes) {
+        std::lock_guard<std::mutex> lock(configuration_->mutex);
+        for (const std::weak_ptr<Probe>& each : configuration_->probes) {
             if (const std::shared_ptr<Probe> probe = each.lock()) {
                 probe->forget();
             }
@@ -198,7 +200,7 @@ class Engine : public std::enable_shared_from_this<Engine> {
     const std::shared_ptr<Adapter> adapter_;
     const std::shared_ptr<const Scenario> scenario_;
     const std::shared_ptr<Stage> stage_;
-    const std::shared_ptr<Cast> cast_;
+    const std::shared_ptr<Configuration> configuration_;
     const ContainerHandle manager_;
     Operations operations_;
     Workers workers_;

@@ -2,6 +2,7 @@
 #ifndef UCM_CTS_JSON_HPP
 #define UCM_CTS_JSON_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -26,15 +27,15 @@ class ProtocolError : public std::runtime_error {
 
 namespace json {
 
-enum class Kind : std::uint8_t { null, boolean, integer, too_large, floating, string, array, object };
-
-inline const char* name_of(Kind kind) {
-    static const char* const names[] = {"null", "bool", "int", "int", "float", "str", "array", "object"};
-    return names[static_cast<std::size_t>(kind)];
-}
-
 /// One line of JSON; the members of objects are in the order of the text, and of those of one name the last one counts.
 typedef nlohmann::ordered_json Document;
+typedef Document::value_t Kind;
+
+/// What errors call a kind of value; an unsigned integer is one that does not fit 64 bits signed.
+inline const char* name_of(Kind kind) {
+    static const char* const names[] = {"null", "object", "array", "str", "bool", "int", "int", "float"};
+    return names[static_cast<std::size_t>(kind)];
+}
 
 /// Throws ProtocolError if `text` is not one JSON value in UTF-8. Integers are unsigned only if they do not fit 64 bits signed.
 inline Document parsed(const char* text, std::size_t size) {
@@ -59,53 +60,31 @@ class Value {
   public:
     explicit Value(const Document& document) : Value(document, nullptr, nullptr, 0) {}
 
-    Kind kind() const {
-        switch (json_.type()) {
-            case Document::value_t::boolean:
-                return Kind::boolean;
-            case Document::value_t::number_integer:
-                return Kind::integer;
-            case Document::value_t::number_unsigned:
-                return Kind::too_large;
-            case Document::value_t::number_float:
-                return Kind::floating;
-            case Document::value_t::string:
-                return Kind::string;
-            case Document::value_t::array:
-                return Kind::array;
-            case Document::value_t::object:
-                return Kind::object;
-            default:
-                return Kind::null;
-        }
-    }
+    Kind kind() const { return json_.type(); }
 
     std::string text() const {
-        expect(Kind::string, "str");
+        expect(Kind::string);
         return json_.get<std::string>();
     }
 
     /// Which of `known` the string is.
     std::size_t word(const Words& known, const char* problem = "Invalid enum value") const {
-        const std::string given = text();
-        for (std::size_t n = 0; n < known.size; ++n) {
-            if (given == known.begin[n]) {
-                return n;
-            }
-        }
-        fail(problem + (" '" + given) + "'");
+        return index(text(), known, problem);
     }
 
+    /// Which of `known` the value's key is.
+    std::size_t key_word(const Words& known) const { return index(key(), known, "Invalid enum value"); }
+
     bool boolean() const {
-        expect(Kind::boolean, "bool");
+        expect(Kind::boolean);
         return json_.get<bool>();
     }
 
     std::int64_t integer() const {
-        if (kind() == Kind::too_large) {
+        if (kind() == Kind::number_unsigned) {
             fail("Expected a 64-bit `int`");
         }
-        expect(Kind::integer, "int");
+        expect(Kind::number_integer);
         return json_.get<std::int64_t>();
     }
 
@@ -123,7 +102,7 @@ class Value {
     /// Calls `visit(value)` for each element of the array.
     template <class Visit>
     void for_each_element(Visit visit) const {
-        expect(Kind::array, "array");
+        expect(Kind::array);
         for (std::size_t n = 0; n < json_.size(); ++n) {
             visit(Value(json_[n], this, nullptr, n));
         }
@@ -132,7 +111,7 @@ class Value {
     /// Calls `visit(value)` for each member of the object; its name is `value.key()`.
     template <class Visit>
     void for_each_member(Visit visit) const {
-        expect(Kind::object, "object");
+        expect(Kind::object);
         for (const auto& member : json_.items()) {
             visit(Value(member.value(), this, &member.key(), 0));
         }
@@ -145,9 +124,9 @@ class Value {
         throw ProtocolError(where == "$" ? what : what + " - at `" + where + "`");
     }
 
-    void expect(Kind wanted, const char* name) const {
+    void expect(Kind wanted) const {
         if (kind() != wanted) {
-            fail(std::string("Expected `") + name + "`, got `" + name_of(kind()) + "`");
+            fail(std::string("Expected `") + name_of(wanted) + "`, got `" + name_of(kind()) + "`");
         }
     }
 
@@ -156,6 +135,15 @@ class Value {
 
     Value(const Document& json, const Value* parent, const std::string* key, std::size_t position)
         : json_(json), parent_(parent), key_(key), position_(position) {}
+
+    std::size_t index(const std::string& given, const Words& known, const char* problem) const {
+        const auto end = known.begin + known.size;
+        const auto found = std::find(known.begin, end, given);
+        if (found == end) {
+            fail(problem + (" '" + given) + "'");
+        }
+        return static_cast<std::size_t>(found - known.begin);
+    }
 
     std::string path() const {
         if (parent_ == nullptr) {
@@ -180,7 +168,7 @@ inline void read(const Value& value, std::string& into, const Words& known) { in
 
 inline void read(const Value& value, nlohmann::json& into) {
     const Kind kind = value.kind();
-    if (kind == Kind::null || kind == Kind::floating || kind == Kind::object) {
+    if (kind == Kind::null || kind == Kind::number_float || kind == Kind::object) {
         value.fail(std::string("Expected `bool | int | str | array`, got `") + name_of(kind) + "`");
     }
     into = value.tree();
@@ -236,7 +224,7 @@ void read(const Value& value, std::vector<std::pair<std::string, T>>& into) {
 inline void read_integers(const Value& value, std::vector<std::pair<std::string, nlohmann::json>>& into) {
     into.clear();
     value.for_each_member([&into](const Value& member) {
-        into.emplace_back(member.key(), member.kind() == Kind::too_large ? member.tree() : nlohmann::json(member.integer()));
+        into.emplace_back(member.key(), member.kind() == Kind::number_unsigned ? member.tree() : nlohmann::json(member.integer()));
     });
 }
 
@@ -244,14 +232,7 @@ inline void read_key(const Value& member, std::string& into) { into = member.key
 
 template <class Enumeration>
 void read_key(const Value& member, Enumeration& into) {
-    const Words known = words_of(into);
-    for (std::size_t n = 0; n < known.size; ++n) {
-        if (member.key() == known.begin[n]) {
-            into = static_cast<Enumeration>(n);
-            return;
-        }
-    }
-    member.fail("Invalid enum value '" + member.key() + "'");
+    into = static_cast<Enumeration>(member.key_word(words_of(into)));
 }
 
 template <class Key, class T>
@@ -266,10 +247,10 @@ void read(const Value& value, std::map<Key, T>& into) {
     });
 }
 
-/// The members of one object, each to be asked for by name; `end` complains of those that nobody asked for.
+/// The members of one object, each to be asked for by name; `end` refuses an object with any other member.
 class Fields {
   public:
-    explicit Fields(const Value& object) : object_(object) { object.expect(Kind::object, "object"); }
+    explicit Fields(const Value& object) : object_(object) { object.expect(Kind::object); }
 
     /// Reads the member if it is there, `how` as the functions `read` take it. Was it?
     template <class T, class... How>
@@ -306,12 +287,9 @@ class Fields {
             return;
         }
         object_.for_each_member([this](const Value& member) {
-            for (std::size_t n = 0; n < asked_; ++n) {
-                if (member.key() == known_[n]) {
-                    return;
-                }
+            if (std::find(known_, known_ + asked_, member.key()) == known_ + asked_) {
+                object_.fail("Object contains unknown field `" + member.key() + "`");
             }
-            object_.fail("Object contains unknown field `" + member.key() + "`");
         });
     }
 

@@ -64,34 +64,33 @@ inline void append_name(std::string& out, const char* name) {
     out += "\":";
 }
 
-template <class T>
-void append(std::string& out, const std::vector<T>& elements) {
-    out += '[';
+/// Appends `[one,other]`, or with other brackets; `append_one(part)` appends one part.
+template <class Parts, class AppendOne>
+void append_all(std::string& out, const char* brackets, const Parts& parts, AppendOne append_one) {
+    out += brackets[0];
     bool first = true;
-    for (const T& element : elements) {
+    for (const auto& part : parts) {
         if (!first) {
             out += ',';
         }
         first = false;
-        append(out, element);
+        append_one(part);
     }
-    out += ']';
+    out += brackets[1];
+}
+
+template <class T>
+void append(std::string& out, const std::vector<T>& elements) {
+    append_all(out, "[]", elements, [&out](const T& element) { append(out, element); });
 }
 
 template <class T>
 void append(std::string& out, const std::map<std::string, T>& members) {
-    out += '{';
-    bool first = true;
-    for (const auto& member : members) {
-        if (!first) {
-            out += ',';
-        }
-        first = false;
+    append_all(out, "{}", members, [&out](const std::pair<const std::string, T>& member) {
         append(out, member.first);
         out += ':';
         append(out, member.second);
-    }
-    out += '}';
+    });
 }
 
 /// The first `most` characters of `text`, counted as Unicode characters.

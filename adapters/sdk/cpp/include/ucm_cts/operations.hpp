@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <typeinfo>
@@ -25,6 +26,12 @@
 #include "ucm_cts/variables.hpp"
 
 namespace ucm_cts {
+
+/// A step of the protocol that this version of the SDK does not carry out: a mistake of the SDK, not of the framework.
+class UnknownStep : public std::logic_error {
+  public:
+    explicit UnknownStep(const std::string& step) : std::logic_error("the SDK cannot carry out step '" + step + "'") {}
+};
 
 /// Looks up what a step needs, has the adapter do it, and records call and outcome. Steps of several threads come at once.
 class Operations {
@@ -113,6 +120,8 @@ class Operations {
         stage_->recorder.record(events::Call(number));
         try {
             operate(number, step, arguments);
+        } catch (const UnknownStep&) {
+            throw;
         } catch (const NotOffered&) {
             skip(number, word_of(step.kind));
         } catch (const NotFound& error) {
@@ -141,6 +150,7 @@ class Operations {
         return name;
     }
 
+    // Carries the step out and records its result.
     void operate(std::int64_t number, const Step& step, const Arguments& with) {
         switch (step.kind) {
             case Operation::add_component: {
@@ -148,95 +158,75 @@ class Operations {
                 const Id id = adapter_->add_component(
                     with.container, step.component, declaration != nullptr ? declaration->attributes : Attributes());
                 variables_.bind_id(step.bind.empty() ? step.component : step.bind, id);
-                returned(number, id);
-                break;
+                return returned(number, id);
             }
             case Operation::remove_component:
                 adapter_->remove_component(with.container, with.id);
-                returned(number);
                 break;
             case Operation::get_port_element: {
                 const Reference reference = adapter_->get_port_element(with.container, with.id, step.port);
                 variables_.bind_reference(step.bind, reference);
-                returned(number, reference);
-                break;
+                return returned(number, reference);
             }
             case Operation::connect: {
                 const Id id = adapter_->connect(with.container, with.id, step.port, with.reference);
                 variables_.bind_id(step.bind, id);
-                returned(number, id);
-                break;
+                return returned(number, id);
             }
             case Operation::disconnect:
                 adapter_->disconnect(with.container, with.id);
-                returned(number);
                 break;
             case Operation::start:
                 adapter_->start(with.container);
-                returned(number);
                 break;
             case Operation::stop:
                 adapter_->stop(with.container);
-                returned(number);
                 break;
             case Operation::get_components: {
                 const std::vector<Id> ids = adapter_->get_components(with.container);
                 variables_.saw(ids);
-                returned(number, ids);
-                break;
+                return returned(number, ids);
             }
             case Operation::create_container:
                 variables_.bind_container(step.bind, adapter_->create_container(manager_));
-                returned(number);
                 break;
             case Operation::remove_container:
                 adapter_->remove_container(manager_, with.sub_container);
-                returned(number);
                 break;
             case Operation::destroy:
                 adapter_->destroy(manager_);
                 destroyed_ = true;
-                returned(number);
                 break;
-            case Operation::invoke: {
-                const std::int32_t result = with.reference->exchange(step.value);
-                returned(number, result);
-                break;
-            }
+            case Operation::invoke:
+                return returned(number, with.reference->exchange(step.value));
             case Operation::link:
                 variables_.bind_link(step.bind, adapter_->link(manager_, step.connector,
                                                                scenario_->interfaces.at(step.interface)));
-                returned(number);
                 break;
             case Operation::attach:
                 adapter_->attach(with.link, step.role, with.container, with.id, step.port);
-                returned(number);
                 break;
             case Operation::detach:
                 adapter_->detach(with.link, with.container, with.id, step.port);
-                returned(number);
                 break;
             case Operation::break_link:
                 adapter_->break_link(with.link, step.where);
-                returned(number);
                 break;
             case Operation::mend_link:
                 adapter_->mend_link(with.link);
-                returned(number);
                 break;
             case Operation::read_log:
-                stage_->recorder.record(events::Return(number).records(read_log(step.records)));
-                break;
+                return stage_->recorder.record(events::Return(number).records(read_log(step.records)));
             case Operation::advance:
                 adapter_->advance(manager_, step.milliseconds);
-                returned(number);
                 break;
-            default:  // the engine carries out the others itself
-                break;
+            default:
+                throw UnknownStep(word_of(step.kind));
         }
+        stage_->recorder.record(events::Return(number));
     }
 
-    // Nobody tells when a record has been written, so this looks again and again.
+    // No event says that a record has been written, so this reads until there are enough.
     std::vector<LogRecord> read_log(std::int64_t enough) {
         const auto deadline = std::chrono::steady_clock::now() + stage_->patience;
         while (true) {
@@ -257,8 +247,6 @@ class Operations {
         }
         return nullptr;
     }
-
-    void returned(std::int64_t number) { stage_->recorder.record(events::Return(number)); }
 
     template <class Value>
     void returned(std::int64_t number, const Value& value) {

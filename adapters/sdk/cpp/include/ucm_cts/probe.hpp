@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "ucm_cts/adapter.hpp"
-#include "ucm_cts/data.hpp"
+#include "ucm_cts/data_types.hpp"
 #include "ucm_cts/scenario.hpp"
 #include "ucm_cts/stage.hpp"
 

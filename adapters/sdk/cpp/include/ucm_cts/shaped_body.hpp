@@ -292,29 +292,36 @@ class FragmentBase : public Traits::FragmentObject {};
 template <class Traits>
 class FragmentBase<Traits, false> : public Traits::ComponentObject, public Traits::FragmentObject {};
 
+/// What a fragment does with its container, on whatever kind of pointer the framework gives.
+template <class Pointer>
+class ShapedContainer final : public ContainerInterface {
+  public:
+    explicit ShapedContainer(Pointer container) : container_(std::move(container)) {}
+
+    static std::shared_ptr<ContainerInterface> wrap(const Pointer& container) {
+        return container ? std::make_shared<ShapedContainer>(container) : nullptr;
+    }
+
+    std::vector<Id> get_components() override {
+        const auto ids = container_->get_components();
+        return std::vector<Id>(ids.begin(), ids.end());
+    }
+
+  private:
+    const Pointer container_;
+};
+
 template <class Traits>
 class ShapedFragment : public ShapedBody<Traits, FragmentBase<Traits>> {
     typedef detail::Argument<decltype(&Traits::FragmentObject::set_container_interface), 0> ContainerArgument;
-
-    // what a fragment does with its container, on whatever kind of pointer the framework gives
-    class Access final : public ContainerInterface {
-      public:
-        explicit Access(ContainerArgument container) : container_(container) {}
-        std::vector<Id> get_components() override {
-            const auto ids = container_->get_components();
-            return std::vector<Id>(ids.begin(), ids.end());
-        }
-
-      private:
-        const typename std::decay<ContainerArgument>::type container_;
-    };
 
   public:
     ShapedFragment(std::shared_ptr<Body> body, Interfaces interfaces)
         : ShapedBody<Traits, FragmentBase<Traits>>(std::move(body), std::move(interfaces)) {}
 
     void set_container_interface(ContainerArgument container) override {
-        this->body_->set_container_interface(container ? std::make_shared<Access>(container) : nullptr);
+        this->body_->set_container_interface(
+            ShapedContainer<typename std::decay<ContainerArgument>::type>::wrap(container));
     }
 };
 

@@ -67,6 +67,10 @@ class Interface {
     std::map<std::string, Method> methods_;
 };
 
+/// Do both declare the same, part by part, names included?
+bool operator==(const Parameter& one, const Parameter& other);
+bool operator==(const Method& one, const Method& other);
+
 /// Do both have the same methods?
 bool same_interface(const Interface& one, const Interface& other);
 

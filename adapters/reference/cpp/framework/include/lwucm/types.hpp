@@ -94,6 +94,9 @@ const Case* selected_case(const Type& union_of_cases, const std::string& enumera
 
 /// Do both say the same, part by part, names included?
 bool same_type(const TypePtr& one, const TypePtr& other);
+bool operator==(const Enumerator& one, const Enumerator& other);
+bool operator==(const Field& one, const Field& other);
+bool operator==(const Case& one, const Case& other);
 
 }  // namespace lwucm
 

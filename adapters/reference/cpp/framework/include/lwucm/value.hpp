@@ -3,10 +3,21 @@
 #define LWUCM_VALUE_HPP
 
 #include <cstdint>
+#include <cstring>
+#include <cstring>
 #include <string>
 #include <vector>
 
 namespace lwucm {
+
+/// The `To` that has the bits of `from`, which has the same size.
+template <class To, class From>
+To same_bits(const From& from) {
+    static_assert(sizeof(To) == sizeof(From), "the sizes differ");
+    To to;
+    std::memcpy(&to, &from, sizeof to);
+    return to;
+}
 
 class Value;
 typedef std::vector<Value> Values;
@@ -43,6 +54,9 @@ class Value {
     const std::string& as_enumerator() const;
     const Values& as_list() const;
 
+    /// Floats are the same if their bits are.
+    friend bool operator==(const Value& one, const Value& other);
+
   private:
     Value(Kind kind, std::uint64_t bits) : kind_(kind), bits_(bits) {}
 
@@ -55,8 +69,6 @@ class Value {
     Values items_;
 };
 
-/// Floats are the same if their bits are.
-bool operator==(const Value& one, const Value& other);
 inline bool operator!=(const Value& one, const Value& other) { return !(one == other); }
 
 }  // namespace lwucm

@@ -1,0 +1,82 @@
+#include "containers/container_impl.hpp"
+
+#include <algorithm>
+
+#include "links/connectors.hpp"
+#include "platform/parts.hpp"
+
+namespace lwucm {
+
+const char* const SIMPLE_SERVICE_CONNECTOR = "simple_service_connector";
+const char* const SIMPLE_MESSAGE_CONNECTOR = "simple_message_connector";
+
+std::shared_ptr<Runtime> create_runtime(const Repository& repository, const Options& options) {
+    return Parts::runtime(std::make_shared<Shared>(repository, options));
+}
+
+ManagerImpl::ManagerImpl(std::shared_ptr<Shared> shared) : ContainerImpl(std::move(shared)) {}
+
+std::shared_ptr<Container> ManagerImpl::create_container(const Properties& configValues) {
+    Operation operation(*shared_);
+    if (!configValues.empty()) {
+        throw UCM_ERROR("containers have no property '" + configValues.front().name + "'");
+    }
+    sub_containers_.push_back(std::make_shared<ContainerImpl>(shared_));
+    return sub_containers_.back();
+}
+
+void ManagerImpl::remove_container(std::shared_ptr<Container> subContainer) {
+    Operation operation(*shared_);
+    const auto found = std::find(sub_containers_.begin(), sub_containers_.end(), subContainer);
+    if (found == sub_containers_.end()) {
+        throw NOT_FOUND("no such container");
+    }
+    const std::shared_ptr<ContainerImpl> container = *found;
+    Attempts attempts;
+    container->shut_down_members(attempts);
+    container->disconnect_members(attempts);
+    container->remove_members(attempts);
+    sub_containers_.erase(found);
+    attempts.check();
+}
+
+void ManagerImpl::destroy() {
+    Operation operation(*shared_);
+    std::vector<ContainerImpl*> all;
+    for (const std::shared_ptr<ContainerImpl>& container : sub_containers_) {
+        all.push_back(container.get());
+    }
+    all.push_back(this);
+    Attempts attempts;
+    for (ContainerImpl* container : all) {
+        container->shut_down_members(attempts);
+    }
+    for (ContainerImpl* container : all) {
+        container->disconnect_members(attempts);
+    }
+    for (ContainerImpl* container : all) {
+        container->remove_members(attempts);
+    }
+    sub_containers_.clear();
+    {
+        std::lock_guard<std::mutex> data(shared_->data);
+        shared_->destroyed = true;
+    }
+    if (shared_->platform.executor) {
+        shared_->platform.executor->end();
+    }
+    attempts.check();
+}
+
+std::shared_ptr<Link> ManagerImpl::create_link(const std::string& connector, const InterfacePtr& interface) {
+    Operation operation(*shared_);
+    if (interface && connector == SIMPLE_SERVICE_CONNECTOR) {
+        return make_service_connector(shared_, interface);
+    }
+    if (interface && connector == SIMPLE_MESSAGE_CONNECTOR) {
+        return make_message_connector(shared_, interface);
+    }
+    throw BAD_PARAMETER("there is no connector '" + connector + "' for such an interface");
+}
+
+}  // namespace lwucm

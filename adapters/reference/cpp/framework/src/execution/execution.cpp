@@ -1,0 +1,117 @@
+#include "execution/execution.hpp"
+
+#include <utility>
+
+#include "lwucm/errors.hpp"
+#include "platform/parts.hpp"
+
+namespace lwucm {
+
+namespace {
+
+const std::string SELF_EXECUTION_API = "self-execution_api";
+
+}  // namespace
+
+Execution::Execution(componentId id, std::shared_ptr<const Implementation> implementation, Demands demands,
+                     ComponentObject& body, const Platform& platform)
+    : id_(id),
+      implementation_(std::move(implementation)),
+      platform_(platform),
+      demands_(std::move(demands)) {
+    if (demands_.protection != Protection::none) {
+        make_guards(body);
+    }
+}
+
+Execution::~Execution() { close(); }
+
+void Execution::make_guards(ComponentObject& body) {
+    const std::shared_ptr<Monitor> monitor = Parts::monitor();
+    const Options::Executor chosen = platform_.options.executor;
+    if (chosen == Options::Executor::component ||
+        (chosen == Options::Executor::caller && demands_.protection == Protection::active)) {
+        own_executor_ = std::make_shared<Executor>();
+    }
+    const std::shared_ptr<Executor> executor = own_executor_ ? own_executor_ : platform_.executor;
+    if (executor) {
+        active_guard_ = std::make_shared<OnExecutor>(monitor, executor);
+    }
+    guard_ = chosen == Options::Executor::caller ? monitor : active_guard_;
+    if (demands_.protection == Protection::self_executing) {
+        std::shared_ptr<component_execution_intf> component;
+        if (implementation_->policies.get_policy_element) {
+            component = implementation_->policies.get_policy_element(body, SELF_EXECUTING, SELF_EXECUTION_API);
+        }
+        if (!component) {
+            throw UCM_ERROR("the component gives no " + SELF_EXECUTION_API);
+        }
+        self_execution_ = Parts::self_execution(std::move(component), guard_);
+    }
+}
+
+std::shared_ptr<PortElementObject> Execution::provided(const std::string& port,
+                                                       const std::shared_ptr<PortElementObject>& element) {
+    if (!element || (!guard_ && demands_.traces.count(port) == 0)) {
+        return element;
+    }
+    std::lock_guard<std::mutex> lock(mutex_);
+    Way& way = ways_in_[port];
+    if (way.element != element) {
+        const std::shared_ptr<Guard>& guard = demands_.active_ports.count(port) != 0 ? active_guard_ : guard_;
+        const auto interceptor = std::make_shared<Interception>(traces_of(port), guard);
+        way.seen = intercepted(port, element, interceptor, implementation_->policies);
+        way.element = element;
+    }
+    return way.seen;
+}
+
+std::shared_ptr<PortElementObject> Execution::required(const std::string& port,
+                                                       const std::shared_ptr<PortElementObject>& element) const {
+    const std::shared_ptr<const PortTraces> traces = traces_of(port);
+    if (!element || !traces) {
+        return element;
+    }
+    return intercepted(port, element, std::make_shared<Interception>(traces, nullptr), implementation_->policies);
+}
+
+PortConnections Execution::services() const {
+    PortConnections connections;
+    for (const RequiredService& service : demands_.services) {
+        std::shared_ptr<PortElementObject> element = platform_.clock;
+        if (service.kind == RequiredService::Kind::trace) {
+            element = std::make_shared<TraceService>(platform_.trace);
+        }
+        connections.push_back(PortConnection{service.name, {std::move(element)}});
+    }
+    return connections;
+}
+
+std::shared_ptr<const PortTraces> Execution::traces_of(const std::string& port) const {
+    const auto traces = demands_.traces.find(port);
+    if (traces == demands_.traces.end()) {
+        return nullptr;
+    }
+    return std::make_shared<const PortTraces>(traces->second, id_, platform_);
+}
+
+void Execution::begin() {
+    if (self_execution_) {
+        self_execution_->begin();
+    }
+}
+
+void Execution::end() {
+    if (self_execution_) {
+        self_execution_->end();
+    }
+}
+
+void Execution::close() {
+    end();
+    if (own_executor_) {
+        own_executor_->end();
+    }
+}
+
+}  // namespace lwucm

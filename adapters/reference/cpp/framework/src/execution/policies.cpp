@@ -1,0 +1,145 @@
+#include "execution/policies.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "containers/names.hpp"
+#include "lwucm/errors.hpp"
+
+namespace lwucm {
+
+const char* const SELF_EXECUTING = "protected_self-executing_component";
+
+namespace {
+
+const std::string CLOCK = "clock";
+const std::string COMPONENT_TRACE = "component_trace";
+const std::string PORT_TRACE = "port_trace";
+const std::string METHODS_TO_TRACE = "methods_to_trace";
+const std::string LOG_SEVERITY = "log_severity";
+
+const std::map<std::string, Protection>& protections() {
+    static const std::map<std::string, Protection> all = {{SELF_EXECUTING, Protection::self_executing},
+                                                          {"protected_active_component", Protection::active},
+                                                          {"protected_passive_component", Protection::passive},
+                                                          {"unprotected_passive_component", Protection::none}};
+    return all;
+}
+
+/// Reads the policies of one implementation, one by one.
+class Reading {
+  public:
+    explicit Reading(const Implementation& implementation) : implementation_(implementation) {}
+
+    Demands read() {
+        for (const Policy& policy : implementation_.policies.applied) {
+            const auto protection = protections().find(policy.definition);
+            if (protection != protections().end()) {
+                read_protection(policy, protection->second);
+            } else if (policy.definition == CLOCK || policy.definition == COMPONENT_TRACE) {
+                read_service(policy);
+            } else if (policy.definition == PORT_TRACE) {
+                read_port_trace(policy);
+            } else {
+                throw UCM_ERROR("unknown technical policy '" + policy.definition + "'");
+            }
+        }
+        check_generated();
+        return demands_;
+    }
+
+  private:
+    void read_protection(const Policy& policy, Protection protection) {
+        need_no_parameters(policy);
+        if (protection != Protection::active) {
+            need_no_port(policy);
+        } else if (!contains(implementation_.provided, policy.port)) {
+            throw UCM_ERROR("policy '" + policy.definition + "' needs a provided port element");
+        }
+        if ((!execution_.empty() && (execution_ != policy.definition || protection != Protection::active)) ||
+            (protection == Protection::active && !demands_.active_ports.insert(policy.port).second)) {
+            throw UCM_ERROR("a component has one execution policy");
+        }
+        execution_ = policy.definition;
+        demands_.protection = protection;
+    }
+
+    void read_service(const Policy& policy) {
+        need_no_parameters(policy);
+        need_no_port(policy);
+        const bool is_clock = policy.definition == CLOCK;
+        const auto same = [](const RequiredService& one) { return one.kind == RequiredService::Kind::clock; };
+        if (is_clock && std::any_of(demands_.services.begin(), demands_.services.end(), same)) {
+            throw UCM_ERROR("a component has one clock at most");
+        }
+        const std::string own = is_clock ? "clock_clock_api" : "component_trace_trace_api";
+        demands_.services.push_back({is_clock ? RequiredService::Kind::clock : RequiredService::Kind::trace,
+                                     policy.element.empty() ? own : policy.element});
+    }
+
+    void read_port_trace(const Policy& policy) {
+        if (!contains(implementation_.provided, policy.port) && !contains(implementation_.required, policy.port)) {
+            throw UCM_ERROR("policy '" + PORT_TRACE + "' needs a port element");
+        }
+        const std::map<std::string, std::string>& parameters = policy.parameters;
+        const auto methods = parameters.find(METHODS_TO_TRACE);
+        const auto severity = parameters.find(LOG_SEVERITY);
+        if (parameters.size() != 2 || methods == parameters.end() || severity == parameters.end()) {
+            throw UCM_ERROR("policy '" + PORT_TRACE + "' has parameters " + METHODS_TO_TRACE + " and " + LOG_SEVERITY);
+        }
+        PortTrace trace = {{}, log_severity_t::trace};
+        if (!find_severity(severity->second, trace.severity)) {
+            throw UCM_ERROR("there is no severity '" + severity->second + "'");
+        }
+        std::istringstream names(methods->second);
+        std::string name;
+        while (std::getline(names, name, ',')) {
+            const std::size_t begin = name.find_first_not_of(' ');
+            if (begin != std::string::npos) {
+                trace.methods.insert(name.substr(begin, name.find_last_not_of(' ') + 1 - begin));
+            }
+        }
+        demands_.traces[policy.port].push_back(std::move(trace));
+    }
+
+    static void need_no_parameters(const Policy& policy) {
+        if (!policy.parameters.empty()) {
+            throw UCM_ERROR("policy '" + policy.definition + "' has no parameters");
+        }
+    }
+
+    static void need_no_port(const Policy& policy) {
+        if (!policy.port.empty()) {
+            throw UCM_ERROR("policy '" + policy.definition + "' is not one of port elements");
+        }
+    }
+
+    /// What stands between must be generated where it cannot call by name.
+    void check_generated() const {
+        if (implementation_.policies.intercept) {
+            return;
+        }
+        std::vector<std::string> intercepted;
+        if (demands_.protection != Protection::none) {
+            intercepted = implementation_.provided;
+        }
+        for (const auto& trace : demands_.traces) {
+            intercepted.push_back(trace.first);
+        }
+        for (const std::string& port : intercepted) {
+            if (implementation_.interfaces.count(port) == 0) {
+                throw UCM_ERROR("nothing was generated to stand before port element '" + port + "'");
+            }
+        }
+    }
+
+    const Implementation& implementation_;
+    std::string execution_;
+    Demands demands_;
+};
+
+}  // namespace
+
+Demands demands_of(const Implementation& implementation) { return Reading(implementation).read(); }
+
+}  // namespace lwucm

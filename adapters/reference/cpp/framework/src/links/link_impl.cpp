@@ -1,0 +1,135 @@
+#include "links/link_impl.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "containers/container_impl.hpp"
+#include "containers/names.hpp"
+
+namespace lwucm {
+
+namespace {
+
+bool is_sender(Role role) { return role == Role::client || role == Role::emitter; }
+
+}  // namespace
+
+LinkImpl::LinkImpl(std::shared_ptr<Shared> shared, InterfacePtr interface)
+    : shared_(std::move(shared)), interface_(std::move(interface)) {}
+
+void LinkImpl::attach(Role role, const std::shared_ptr<Container>& container, componentId component,
+                      const std::string& port) {
+    Operation operation(*shared_);
+    const ContainerImpl& its_container = own(container);
+    const std::shared_ptr<Instance> instance = find_in(its_container, component);
+    if (!has_role(role)) {
+        throw BAD_PARAMETER("the connector has no such role");
+    }
+    check_port(*instance, role, port);
+    its_container.check_configuring();
+    if (is_sender(role)) {
+        attach_sender(*instance, port);
+    } else {
+        attach_taker(*instance, port);
+    }
+}
+
+void LinkImpl::detach(const std::shared_ptr<Container>& container, componentId component, const std::string& port) {
+    Operation operation(*shared_);
+    const ContainerImpl& its_container = own(container);
+    const std::shared_ptr<Instance> instance = find_in(its_container, component);
+    const auto found = std::find_if(ends_.begin(), ends_.end(), [&](const std::shared_ptr<End>& end) {
+        return &end->instance() == instance.get() && end->port() == port;
+    });
+    if (found == ends_.end()) {
+        throw NOT_FOUND(quoted(port) + " is no end of the link");
+    }
+    its_container.check_configuring();
+    Attempts attempts;
+    remove(*found, attempts);
+    attempts.check();
+}
+
+void LinkImpl::withdraw(const Instance& instance, Attempts& attempts) {
+    const bool all = needs(instance);
+    const std::vector<std::shared_ptr<End>> before = ends_;
+    for (auto end = before.rbegin(); end != before.rend(); ++end) {
+        if (&(*end)->instance() == &instance || (all && (*end)->is_sender())) {
+            remove(*end, attempts);
+        }
+    }
+}
+
+ContainerImpl& LinkImpl::own(const std::shared_ptr<Container>& container) const {
+    ContainerImpl* const known = dynamic_cast<ContainerImpl*>(container.get());
+    if (known == nullptr || !known->is_of(*shared_)) {
+        throw BAD_PARAMETER("the container is none of this runtime");
+    }
+    return *known;
+}
+
+std::shared_ptr<Instance> LinkImpl::find_in(const ContainerImpl& container, componentId component) const {
+    const std::shared_ptr<Instance> instance = container.find(component);
+    if (!instance) {
+        throw NOT_FOUND("no such component");
+    }
+    return instance;
+}
+
+void LinkImpl::check_port(const Instance& instance, Role role, const std::string& port) const {
+    if (!(is_sender(role) ? instance.requires_port(port) : instance.provides(port))) {
+        throw BAD_PARAMETER("the component has no such port element " + quoted(port));
+    }
+    const InterfacePtr interface = instance.interface_of(port);
+    if (!interface || !same_interface(*interface, *interface_)) {
+        throw BAD_PARAMETER(quoted(port) + " has another interface than the link");
+    }
+}
+
+void LinkImpl::attach_sender(Instance& instance, const std::string& port) {
+    if (instance.is_connected(port)) {
+        throw UCM_ERROR(quoted(port) + " is already connected");
+    }
+    std::shared_ptr<PortElementObject> element;
+    const std::shared_ptr<End> end = make_sender(instance, port, element);
+    Attempts attempts;
+    attempts.make("on_connect", [&] { instance.connect(port, element); });
+    attempts.check();
+    add(end);
+}
+
+void LinkImpl::attach_taker(Instance& instance, const std::string& port) {
+    for (const std::shared_ptr<End>& end : ends_) {
+        if (&end->instance() == &instance && end->port() == port) {
+            throw UCM_ERROR(quoted(port) + " is an end of the link already");
+        }
+    }
+    std::shared_ptr<PortElementObject> element;
+    Attempts attempts;
+    attempts.make("get_portElement", [&] { element = instance.ask_port_element(port); });
+    attempts.check();
+    const auto dynamic = std::dynamic_pointer_cast<DynamicPortElement>(element);
+    if (!dynamic) {
+        throw BAD_PARAMETER("the component gives nothing for " + quoted(port) + " that a connector can call");
+    }
+    add(make_taker(instance, port, dynamic));
+}
+
+void LinkImpl::add(const std::shared_ptr<End>& end) {
+    ends_.push_back(end);
+    end->instance().join(shared_from_this(), end);
+}
+
+void LinkImpl::remove(const std::shared_ptr<End>& end, Attempts& attempts) {
+    const std::shared_ptr<End> removed = end;  // `end` may be an element of what changes
+    ends_.erase(std::find(ends_.begin(), ends_.end(), removed));
+    forget(*removed);
+    Instance& instance = removed->instance();
+    instance.part(*removed);
+    removed->left();
+    if (removed->is_sender()) {
+        attempts.make("on_disconnect", [&] { instance.disconnect(removed->port()); });
+    }
+}
+
+}  // namespace lwucm

@@ -1,0 +1,26 @@
+#include "platform/parts.hpp"
+
+#include <utility>
+
+#include "containers/container_impl.hpp"
+
+namespace lwucm {
+
+const char* product() { return "lwucm reference framework (C++)"; }
+
+std::shared_ptr<Runtime> Parts::runtime(std::shared_ptr<Shared> shared) {
+    return std::make_shared<ManagerImpl>(std::move(shared));
+}
+
+std::shared_ptr<Monitor> Parts::monitor() { return std::make_shared<Monitor>(); }
+
+std::unique_ptr<SelfExecution> Parts::self_execution(std::shared_ptr<component_execution_intf> component,
+                                                     std::shared_ptr<Guard> guard) {
+    return std::unique_ptr<SelfExecution>(new SelfExecution(std::move(component), std::move(guard)));
+}
+
+std::unique_ptr<Inbox> Parts::inbox(std::function<void(const Bytes&)> deliver, const Options& options) {
+    return std::unique_ptr<Inbox>(new Inbox(std::move(deliver), options));
+}
+
+}  // namespace lwucm
