@@ -4,8 +4,9 @@ import java.util.ArrayList;
 import java.util.List;
 import java.util.Map;
 import java.util.TreeMap;
+import org.ucmcts.Messages.Action;
 
-/** What a probe does on its own account when its plan says so. */
+/** The actions of a probe's plan that call others, wait or ask. */
 final class Actions {
     private final Probe probe;
 
@@ -19,14 +20,14 @@ final class Actions {
         this.probe = probe;
     }
 
-    /** Carries {@code action} out; what is not done here means nothing at this hook. */
-    void act(Node action) {
-        switch (action.text("do")) {
+    /** Carries {@code action} out; kinds that are not listed have no effect at this hook. */
+    void act(Action action) {
+        switch (action.tag()) {
             case "call" -> referencesOf(action).forEach(reference -> exchange(action, reference));
             case "call_method" -> referencesOf(action).forEach(reference -> call(action, reference));
             case "burst" -> referencesOf(action).forEach(reference -> push(action, reference));
             case "hold" -> {
-                String gate = action.text("gate");
+                String gate = action.gate();
                 probe.stage.gates.hold(gate, () -> probe.record("held", "gate", gate));
             }
             case "siblings" -> querySiblings();
@@ -34,13 +35,13 @@ final class Actions {
         }
     }
 
-    private List<PortElement> referencesOf(Node action) {
-        return references.getOrDefault(action.text("port"), List.of());
+    private List<PortElement> referencesOf(Action action) {
+        return references.getOrDefault(action.port(), List.of());
     }
 
-    private void exchange(Node action, PortElement reference) {
-        String port = action.text("port");
-        long value = action.number("value");
+    private void exchange(Action action, PortElement reference) {
+        String port = action.port();
+        long value = action.value();
         probe.record("request", "port", port, "value", value);
         int result;
         try {
@@ -52,11 +53,11 @@ final class Actions {
         probe.record("reply", "port", port, "value", result);
     }
 
-    private void call(Node action, PortElement reference) {
-        String port = action.text("port");
-        String method = action.text("method");
-        List<Object> arguments = Data.copy(action.list("arguments"));
-        probe.record("request", "port", port, "method", method, "arguments", action.list("arguments"));
+    private void call(Action action, PortElement reference) {
+        String port = action.port();
+        String method = action.method();
+        List<Object> arguments = Data.copy(action.arguments());
+        probe.record("request", "port", port, "method", method, "arguments", action.arguments());
         try {
             reply(action, reference.call(method, arguments), null);
         } catch (DeclaredException error) {
@@ -67,19 +68,19 @@ final class Actions {
         Data.overwrite(arguments); // they are the caller's own
     }
 
-    private void reply(Node action, List<Object> results, String exception) {
+    private void reply(Action action, List<Object> results, String exception) {
         if (!Data.isData(results)) {
             probe.stage.recorder.complain(
-                    action.text("method") + " gave " + results + " to a probe, which are no values");
+                    action.method() + " gave " + results + " to a probe, which are no values");
             return;
         }
-        probe.record("reply", "port", action.text("port"), "results", Data.copy(results), "exception", exception);
+        probe.record("reply", "port", action.port(), "results", Data.copy(results), "exception", exception);
     }
 
-    private void push(Node action, PortElement reference) {
+    private void push(Action action, PortElement reference) {
         Map<String, Long> answers = new TreeMap<>();
-        long first = action.number("first");
-        for (long value = first; value < first + action.number("count"); value++) {
+        long first = action.first();
+        for (long value = first; value < first + action.count(); value++) {
             String code;
             try {
                 List<Object> results = reference.call("push", new ArrayList<>(List.of(value)));
@@ -89,7 +90,7 @@ final class Actions {
             }
             answers.merge(code, 1L, Long::sum);
         }
-        probe.record("pushed", "port", action.text("port"), "first", first, "count", action.number("count"),
+        probe.record("pushed", "port", action.port(), "first", first, "count", action.count(),
                 "answers", answers);
     }
 

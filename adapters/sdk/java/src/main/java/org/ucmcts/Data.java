@@ -4,7 +4,7 @@ import java.math.BigInteger;
 import java.util.ArrayList;
 import java.util.List;
 
-/** Values of UCM types on their way through a probe: what was given is copied before anybody can change it. */
+/** Values of UCM types that pass through a probe, which copies them at once, since their owner may change them. */
 final class Data {
     private Data() {}
 
@@ -29,7 +29,7 @@ final class Data {
         return copied;
     }
 
-    /** Puts something else in every place of {@code values}, as the owner of a buffer may; unchangeable ones stay. */
+    /** Changes every part of {@code values}, as the owner of a buffer may; unchangeable lists stay. */
     static void overwrite(List<Object> values) {
         try {
             for (int index = 0; index < values.size(); index++) {

@@ -1,6 +1,6 @@
 package org.ucmcts;
 
-/** What is told of exceptions, for people. */
+/** Texts of exceptions, for people. */
 final class Details {
     private static final int LONGEST = 200;
 
@@ -12,22 +12,22 @@ final class Details {
         return text.isEmpty() ? error.getClass().getName() : error.getClass().getName() + ": " + text;
     }
 
-    /** Its text alone, as far as it can be told. */
+    /** The text of {@code error} alone; empty if it has none, or asking for it fails. */
     static String text(Throwable error) {
         String text;
         try {
             text = error.getMessage();
-        } catch (RuntimeException unspeakable) { // the exception is the framework's
+        } catch (RuntimeException failure) { // the exception is the framework's
             return "";
         }
         if (text == null) {
             return "";
         }
-        StringBuilder told = new StringBuilder();
+        StringBuilder shortened = new StringBuilder();
         text.codePoints().limit(LONGEST).forEach(point -> {
             boolean alone = point >= Character.MIN_SURROGATE && point <= Character.MAX_SURROGATE;
-            told.appendCodePoint(alone ? 0xFFFD : point);
+            shortened.appendCodePoint(alone ? 0xFFFD : point);
         });
-        return told.toString();
+        return shortened.toString();
     }
 }

@@ -1,13 +1,19 @@
 package org.ucmcts;
 
 import java.io.IOException;
+import java.util.ArrayList;
+import java.util.List;
 import java.util.Map;
 import java.util.function.Consumer;
 import java.util.function.Supplier;
+import org.ucmcts.Messages.Declaration;
+import org.ucmcts.Messages.Message;
 import org.ucmcts.Shape.Misfit;
 
 /** Answers wire messages by running scenarios, as docs/protocol.md says: one message in, one answer out, in order. */
 final class Engine {
+    private static final long PROTOCOL = 1;
+
     private final Product product;
     private final Supplier<? extends Adapter<?>> adapters;
 
@@ -26,43 +32,56 @@ final class Engine {
      */
     Answer answer(byte[] line, Consumer<byte[]> emit) {
         Object read = null;
-        Node message;
+        Message message;
         try {
             read = Json.read(line);
-            message = Protocol.message(read);
+            message = (Message) Messages.readMessage(read, "$");
+            check(message);
         } catch (IOException | Misfit error) {
             Object id = read instanceof Map<?, ?> fields && "run".equals(fields.get("type")) ? fields.get("id") : null;
             Long number = id instanceof Integer || id instanceof Long ? ((Number) id).longValue() : null;
-            return refusal("not a message of protocol " + Protocol.VERSION + ": " + error.getMessage(), number);
+            return refusal("not a message of protocol " + PROTOCOL + ": " + error.getMessage(), number);
         }
-        if (message.text("type").equals("hello")) {
-            return welcome(message.number("protocol"));
+        if (message.tag().equals("hello")) {
+            return welcome(message.protocol());
         }
         try {
             return perform(adapters.get(), message, emit);
         } catch (Throwable error) { // a framework may throw anything
-            return refusal(Details.described(error), message.number("id"));
+            return refusal(Details.described(error), message.id());
+        }
+    }
+
+    // what the types cannot say
+    private static void check(Message message) throws Misfit {
+        if (message.tag().equals("run")) {
+            for (Map.Entry<String, Declaration> one : message.scenario().components().entrySet()) {
+                List<String> ports = new ArrayList<>(one.getValue().provides());
+                ports.addAll(one.getValue().requires());
+                if (ports.stream().distinct().count() < ports.size()) {
+                    throw new Misfit("a port element is declared twice", "$.scenario.components." + one.getKey());
+                }
+            }
         }
     }
 
     private Answer welcome(long spoken) {
-        if (spoken != Protocol.VERSION) {
-            return refusal(
-                    "the harness speaks protocol " + spoken + ", this host speaks " + Protocol.VERSION, null);
+        if (spoken != PROTOCOL) {
+            return refusal("the harness speaks protocol " + spoken + ", this host speaks " + PROTOCOL, null);
         }
-        Map<String, Object> welcome = Json.object("type", "welcome", "protocol", Protocol.VERSION, "product",
+        Map<String, Object> welcome = Json.object("type", "welcome", "protocol", PROTOCOL, "product",
                 product.name(), "version", product.version(), "port_element_name", product.portElementName());
         return new Answer(Json.line(welcome), false);
     }
 
-    private static <C> Answer perform(Adapter<C> adapter, Node run, Consumer<byte[]> emit) throws Exception {
-        long id = run.number("id");
+    private static <C> Answer perform(Adapter<C> adapter, Message run, Consumer<byte[]> emit) throws Exception {
+        long id = run.id();
         Consumer<Map<String, Object>> sink =
                 event -> emit.accept(Json.line(Json.object("type", "event", "id", id, "event", event)));
-        Recorder recorder = new Recorder(run.flag("stream") ? sink : null);
+        Recorder recorder = new Recorder(run.stream() ? sink : null);
         Performance.Outcome outcome = null;
         try {
-            outcome = new Performance<>(adapter, run.node("scenario"), recorder).run();
+            outcome = new Performance<>(adapter, run.scenario(), recorder).run();
         } finally {
             if (outcome == null || outcome.stuck().isEmpty()) {
                 adapter.close();

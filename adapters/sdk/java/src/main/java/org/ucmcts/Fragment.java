@@ -7,7 +7,7 @@ public interface Fragment {
     /** Gives the fragment access to the container that holds it. */
     void setContainerInterface(ContainerInterface container);
 
-    /** The least a fragment gets to see of its container. */
+    /** The part of the Container API that every fragment has. */
     @FunctionalInterface
     interface ContainerInterface {
         /** Ids of the container's members. */

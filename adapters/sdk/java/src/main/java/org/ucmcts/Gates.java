@@ -19,7 +19,7 @@ final class Gates {
     }
 
     /**
-     * A probe arrives and waits until the gate is open. {@code record} is run before anybody can learn of the
+     * A probe arrives and waits until the gate is open. {@code record} is run before any thread can learn of the
      * arrival.
      */
     synchronized void hold(String gate, Runnable record) {
@@ -46,7 +46,7 @@ final class Gates {
         return Waiting.until(this, patience, () -> arrived(gate) >= enough);
     }
 
-    /** Opens the gate for good. {@code record} is run before anybody goes through. */
+    /** Opens the gate for good. {@code record} is run before any probe goes on. */
     synchronized void open(String gate, Runnable record) {
         record.run();
         opened.add(gate);

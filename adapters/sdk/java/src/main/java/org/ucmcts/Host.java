@@ -75,7 +75,7 @@ public final class Host {
     private static void write(OutputStream target, byte[] line) {
         try {
             target.write(line);
-        } catch (IOException error) { // nobody wants the answers any more
+        } catch (IOException error) { // the harness has gone
             Runtime.getRuntime().halt(0);
         }
     }

@@ -2,7 +2,7 @@ package org.ucmcts;
 
 import java.util.concurrent.atomic.AtomicLong;
 
-/** Who is inside one body while it is stressed. */
+/** Counts threads that meet inside one body while it is stressed. */
 final class Occupancy {
     // In every other slot visitors stay for a moment, which finds locks that are missing now and then; in the others
     // they leave at once, which finds locks that are checked first and taken afterwards. In nanoseconds.
@@ -11,7 +11,7 @@ final class Occupancy {
     private final AtomicLong overlaps = new AtomicLong();
     private volatile Object inside;
 
-    /** Goes in, stays, looks whether somebody else came, and leaves. */
+    /** Goes in, stays, checks whether another thread came, and leaves. */
     void visit() {
         Object own = new Object();
         boolean met = inside != null;
@@ -27,7 +27,7 @@ final class Occupancy {
         inside = null;
     }
 
-    /** How often somebody was met. */
+    /** How often two threads met. */
     long overlaps() {
         return overlaps.get();
     }

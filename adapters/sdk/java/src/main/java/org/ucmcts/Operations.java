@@ -1,25 +1,27 @@
 package org.ucmcts;
 
 import java.util.ArrayList;
-import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
 import java.util.Objects;
+import org.ucmcts.Messages.Declaration;
+import org.ucmcts.Messages.Scenario;
+import org.ucmcts.Messages.Step;
 import org.ucmcts.Variables.Unbound;
 
 /** The steps that are calls of the framework. */
 final class Operations<C> {
-    private static final long BETWEEN_READINGS = 1_000_000; // nanoseconds; nobody tells when a record has been written
+    private static final long BETWEEN_READINGS = 1_000_000; // nanoseconds
 
     private final Adapter<C> adapter;
-    private final Node scenario;
+    private final Scenario scenario;
     private final Stage stage;
     private final Variables<C> variables;
     private final C manager;
     private final long patience;
     private volatile boolean destroyed;
 
-    Operations(Adapter<C> adapter, Node scenario, Stage stage, Variables<C> variables, C manager, long patience) {
+    Operations(Adapter<C> adapter, Scenario scenario, Stage stage, Variables<C> variables, C manager, long patience) {
         this.adapter = adapter;
         this.scenario = scenario;
         this.stage = stage;
@@ -45,13 +47,13 @@ final class Operations<C> {
         return found;
     }
 
-    /** A call of the framework; what it returns is what the trace tells. */
+    /** A call of the framework; the trace records what it returns. */
     @FunctionalInterface
     private interface Operation {
         Object call() throws Exception;
     }
 
-    /** A call of the framework whose result, if there is one, is not told. */
+    /** A call of the framework whose result, if there is one, is not recorded. */
     @FunctionalInterface
     private interface Silent {
         void call() throws Exception;
@@ -67,9 +69,9 @@ final class Operations<C> {
     }
 
     /** Makes the call of {@code step} and records what comes of it. */
-    void perform(int number, Node step) {
+    void perform(int number, Step step) {
         Recorder recorder = stage.recorder;
-        String name = step.text("op");
+        String name = step.tag();
         Operation operation;
         try {
             operation = prepare(step);
@@ -94,19 +96,19 @@ final class Operations<C> {
     }
 
     // looks up what the step needs, and gives the call that is then made and recorded
-    private Operation prepare(Node step) throws Unbound {
-        return switch (step.text("op")) {
+    private Operation prepare(Step step) throws Unbound {
+        return switch (step.tag()) {
             case "add_component" -> addComponent(step);
             case "remove_component" -> {
                 C container = container(step);
-                int member = variables.id(step.text("id"));
+                int member = variables.id(step.id());
                 yield silent(() -> adapter.removeComponent(container, member));
             }
             case "get_port_element" -> getPortElement(step);
             case "connect" -> connect(step);
             case "disconnect" -> {
                 C container = container(step);
-                int connection = variables.id(step.text("connection"));
+                int connection = variables.id(step.connection());
                 yield silent(() -> adapter.disconnect(container, connection));
             }
             case "start" -> {
@@ -119,7 +121,7 @@ final class Operations<C> {
             }
             case "get_components" -> getComponents(step);
             case "create_container" -> silent(
-                    () -> variables.bindContainer(step.text("bind"), adapter.createContainer(manager)));
+                    () -> variables.bindContainer(step.bind(), adapter.createContainer(manager)));
             case "remove_container" -> {
                 C container = container(step);
                 yield silent(() -> adapter.removeContainer(manager, container));
@@ -133,38 +135,38 @@ final class Operations<C> {
         };
     }
 
-    private Operation prepareOptional(Node step) throws Unbound {
-        switch (step.text("op")) {
+    private Operation prepareOptional(Step step) throws Unbound {
+        switch (step.tag()) {
             case "link" -> {
-                Node type = scenario.node("interfaces").node(step.text("interface"));
+                Node type = scenario.interfaces().get(step.interface_());
                 return silent(() -> variables.bindLink(
-                        step.text("bind"), adapter.link(manager, step.text("connector"), type)));
+                        step.bind(), adapter.link(manager, step.connector(), type)));
             }
             case "attach", "detach" -> {
-                Object link = variables.link(step.text("link"));
+                Object link = variables.link(step.link());
                 C container = container(step);
-                int member = variables.id(step.text("id"));
-                String port = step.text("port");
-                return step.text("op").equals("attach")
-                        ? silent(() -> adapter.attach(link, step.text("role"), container, member, port))
+                int member = variables.id(step.id());
+                String port = step.port();
+                return step.tag().equals("attach")
+                        ? silent(() -> adapter.attach(link, step.role(), container, member, port))
                         : silent(() -> adapter.detach(link, container, member, port));
             }
             case "break" -> {
-                Object link = variables.link(step.text("link"));
-                return silent(() -> adapter.breakLink(link, step.text("where")));
+                Object link = variables.link(step.link());
+                return silent(() -> adapter.breakLink(link, step.where()));
             }
             case "mend" -> {
-                Object link = variables.link(step.text("link"));
+                Object link = variables.link(step.link());
                 return silent(() -> adapter.mendLink(link));
             }
             case "read_log" -> {
-                return () -> readLog(step.number("records"));
+                return () -> readLog(step.records());
             }
             case "advance" -> {
-                int milliseconds = (int) step.number("milliseconds");
+                int milliseconds = (int) step.milliseconds();
                 return silent(() -> adapter.advance(manager, milliseconds));
             }
-            default -> throw new IllegalArgumentException(step.text("op"));
+            default -> throw new IllegalArgumentException(step.tag());
         }
     }
 
@@ -175,46 +177,44 @@ final class Operations<C> {
         };
     }
 
-    private C container(Node step) throws Unbound {
-        return variables.container(step.text("container"));
+    private C container(Step step) throws Unbound {
+        return variables.container(step.container());
     }
 
-    private Operation addComponent(Node step) throws Unbound {
+    private Operation addComponent(Step step) throws Unbound {
         C container = container(step);
-        String component = step.text("component");
-        Map<String, String> attributes = new LinkedHashMap<>();
-        if (scenario.node("components").get(component) instanceof Node declaration) {
-            declaration.node("attributes").fields().forEach((name, value) -> attributes.put(name, (String) value));
-        }
+        String component = step.component();
+        Declaration declaration = scenario.components().get(component);
+        Map<String, String> attributes = declaration == null ? Map.of() : declaration.attributes();
         return () -> {
             int given = adapter.addComponent(container, component, attributes);
-            variables.bindId(step.text("bind").isEmpty() ? component : step.text("bind"), given);
+            variables.bindId(step.bind().isEmpty() ? component : step.bind(), given);
             return given;
         };
     }
 
-    private Operation getPortElement(Node step) throws Unbound {
+    private Operation getPortElement(Step step) throws Unbound {
         C container = container(step);
-        int member = variables.id(step.text("id"));
+        int member = variables.id(step.id());
         return () -> {
-            PortElement reference = adapter.getPortElement(container, member, step.text("port"));
-            variables.bindReference(step.text("bind"), reference);
+            PortElement reference = adapter.getPortElement(container, member, step.port());
+            variables.bindReference(step.bind(), reference);
             return stage.recognise(reference);
         };
     }
 
-    private Operation connect(Node step) throws Unbound {
+    private Operation connect(Step step) throws Unbound {
         C container = container(step);
-        int member = variables.id(step.text("id"));
-        PortElement reference = variables.reference(step.text("to"));
+        int member = variables.id(step.id());
+        PortElement reference = variables.reference(step.to());
         return () -> {
-            int given = adapter.connect(container, member, step.text("port"), reference);
-            variables.bindId(step.text("bind"), given);
+            int given = adapter.connect(container, member, step.port(), reference);
+            variables.bindId(step.bind(), given);
             return given;
         };
     }
 
-    private Operation getComponents(Node step) throws Unbound {
+    private Operation getComponents(Step step) throws Unbound {
         C container = container(step);
         return () -> {
             List<Integer> members = adapter.getComponents(container);
@@ -227,12 +227,12 @@ final class Operations<C> {
         };
     }
 
-    private Operation invoke(Node step) throws Unbound {
-        PortElement reference = variables.reference(step.text("ref"));
+    private Operation invoke(Step step) throws Unbound {
+        PortElement reference = variables.reference(step.ref());
         if (reference == null) { // nothing can be called through a null reference
-            throw new Unbound(step.text("ref"));
+            throw new Unbound(step.ref());
         }
-        return () -> reference.exchange((int) step.number("value"));
+        return () -> reference.exchange((int) step.value());
     }
 
     private Object readLog(long records) throws Exception {

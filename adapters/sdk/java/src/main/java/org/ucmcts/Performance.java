@@ -5,11 +5,13 @@ import java.util.List;
 import java.util.Map;
 import java.util.concurrent.ConcurrentHashMap;
 import java.util.stream.Stream;
+import org.ucmcts.Messages.Scenario;
+import org.ucmcts.Messages.Step;
 
 /** One run of one scenario against one adapter. Making it creates the runtime. */
 final class Performance<C> {
     private final Adapter<C> adapter;
-    private final Node scenario;
+    private final Scenario scenario;
     private final Recorder recorder;
     private final Stage stage;
     private final Workers workers;
@@ -17,8 +19,8 @@ final class Performance<C> {
     private final Operations<C> operations;
     private final C manager;
 
-    Performance(Adapter<C> adapter, Node scenario, Recorder recorder) throws Exception {
-        long patience = Waiting.patience(scenario.number("patience"));
+    Performance(Adapter<C> adapter, Scenario scenario, Recorder recorder) throws Exception {
+        long patience = Waiting.patience(scenario.patience());
         this.adapter = adapter;
         this.scenario = scenario;
         this.recorder = recorder;
@@ -29,18 +31,18 @@ final class Performance<C> {
         operations = new Operations<>(adapter, scenario, stage, variables, manager, patience);
     }
 
-    /** The events, and the names of the threads that never came back. */
+    /** The events, and the names of the threads that are stuck. */
     record Outcome(List<Map<String, Object>> events, List<String> stuck) {}
 
     /** Takes all steps. */
     Outcome run() {
         int number = 0;
-        for (Node step : scenario.nodes("steps")) {
+        for (Step step : scenario.steps()) {
             int own = number++;
-            if (step.text("thread") == null) {
+            if (step.thread() == null) {
                 take(own, step);
             } else {
-                workers.queue(step.text("thread"), () -> take(own, step));
+                workers.queue(step.thread(), () -> take(own, step));
             }
         }
         stage.gates.openAll();
@@ -50,32 +52,32 @@ final class Performance<C> {
             try {
                 adapter.destroy(manager);
             } catch (Throwable error) {
-                // whatever comes of it
+                // no step of the scenario, so its outcome is not recorded
             }
         }
         return new Outcome(events, stuck);
     }
 
-    private void take(int number, Node step) {
-        switch (step.text("op")) {
+    private void take(int number, Step step) {
+        switch (step.tag()) {
             case "open" -> {
-                String gate = step.text("gate");
+                String gate = step.gate();
                 stage.gates.open(gate, () -> recorder.record("opened", "gate", gate));
             }
             case "reach" ->
-                    expect(number, stage.gates.reach(step.text("gate"), step.number("more"), step.number("total")));
-            case "join" -> expect(number, workers.join(step.text("worker")));
+                    expect(number, stage.gates.reach(step.gate(), step.more(), step.total()));
+            case "join" -> expect(number, workers.join(step.worker()));
             case "settle" -> {
-                String worker = step.text("worker");
+                String worker = step.worker();
                 recorder.record("settled", "worker", worker, "where", workers.settle(worker, stage.gates::isHeld));
             }
             case "pause" -> {
-                Waiting.pass(Math.max(step.number("milliseconds"), 0) * 1_000_000);
+                Waiting.pass(Math.max(step.milliseconds(), 0) * 1_000_000);
                 recorder.record("paused", "step", number, "calendar", calendar());
             }
             case "await_messages" -> {
                 Object[] counted =
-                        stage.messages.await(step.text("component"), step.number("instance"), step.number("count"));
+                        stage.messages.await(step.component(), step.instance(), step.count());
                 recorder.record("counted", Stream.concat(Stream.of("step", number), Stream.of(counted)).toArray());
             }
             case "stress" -> stress(number, step);
@@ -94,28 +96,28 @@ final class Performance<C> {
         return now.getEpochSecond() * 1_000_000_000 + now.getNano();
     }
 
-    private void stress(int number, Node step) {
+    private void stress(int number, Step step) {
         List<PortElement> references;
         try {
-            references = operations.references(step.texts("refs"));
+            references = operations.references(step.refs());
         } catch (Variables.Unbound missing) {
             recorder.record("skip", "step", number, "variable", missing.getMessage());
             return;
         }
         Occupancy free = new Occupancy();
         Map<Probe, Occupancy> occupancies = new ConcurrentHashMap<>();
-        Storm through = new Storm(
+        RepeatedCalls through = new RepeatedCalls(
                 references.stream().<Runnable>map(reference -> () -> reference.exchange(1)).toList(),
-                step.number("milliseconds"));
-        Storm control = new Storm(
-                references.stream().<Runnable>map(reference -> free::visit).toList(), step.number("milliseconds"));
+                step.milliseconds());
+        RepeatedCalls control = new RepeatedCalls(
+                references.stream().<Runnable>map(reference -> free::visit).toList(), step.milliseconds());
         stage.beginStress(occupancies);
         try {
-            through.rage(workers, "stress");
+            through.run(workers, "stress");
         } finally {
             stage.endStress();
         }
-        control.rage(workers, "control");
+        control.run(workers, "control");
         recorder.record("stressed",
                 "step", number,
                 "calls", through.calls(),

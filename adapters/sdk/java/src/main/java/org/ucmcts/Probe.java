@@ -6,6 +6,8 @@ import java.util.HashMap;
 import java.util.LinkedHashMap;
 import java.util.List;
 import java.util.Map;
+import org.ucmcts.Messages.Action;
+import org.ucmcts.Messages.Declaration;
 
 /**
  * A component body that records what a framework does to it and acts as its plan says. Silent, and without a plan,
@@ -18,34 +20,36 @@ class Probe implements Body {
     final Stage stage;
     private final String component;
     private final int instance;
-    private final Node plan;
+    private final Map<String, List<Action>> plan;
     private final Map<String, Port> ports = new HashMap<>();
     private final Runnable execution;
     private final Map<String, String> attributes = Collections.synchronizedMap(new LinkedHashMap<>());
     private final Actions actions;
 
-    private Probe(Stage stage, String component, Node declaration) {
+    private Probe(Stage stage, String component, Declaration declaration) {
         this.stage = stage;
         this.component = component;
         instance = stage.count(component);
-        plan = declaration.node("plan");
+        plan = declaration.plan();
         actions = new Actions(this);
-        for (String port : declaration.texts("provides")) {
+        for (String port : declaration.provides()) {
             ports.put(port, new Port(this, port));
         }
         boolean executesItself =
-                declaration.nodes("policies").stream().anyMatch(p -> p.text("definition").equals(SELF_EXECUTING));
+                declaration.policies().stream().anyMatch(p -> p.definition().equals(SELF_EXECUTING));
         execution = executesItself ? this::run : null;
     }
 
     /** The next body for {@code component}. */
-    static Probe make(Stage stage, String component, Node declaration, boolean connectable, boolean fragment) {
-        if (connectable) {
-            return fragment
+    static Probe make(Stage stage, String component, Declaration declaration) {
+        if (declaration.connectable()) {
+            return declaration.fragment()
                     ? new ConnectableFragment(stage, component, declaration)
                     : new ConnectableOnly(stage, component, declaration);
         }
-        return fragment ? new FragmentOnly(stage, component, declaration) : new Probe(stage, component, declaration);
+        return declaration.fragment()
+                ? new FragmentOnly(stage, component, declaration)
+                : new Probe(stage, component, declaration);
     }
 
     /** A provided port element of a probe. */
@@ -101,7 +105,7 @@ class Probe implements Body {
 
     @Override
     public void onStartup(List<PortConnection> dependencies) {
-        List<Object> told = new ArrayList<>();
+        List<Object> recorded = new ArrayList<>();
         Map<String, List<PortElement>> references = new HashMap<>();
         if (isGiven("on_startup", dependencies)) {
             for (PortConnection connection : dependencies) {
@@ -117,11 +121,11 @@ class Probe implements Body {
                         references.computeIfAbsent(connection.fromPort(), any -> new ArrayList<>()).add(reference);
                     }
                 }
-                told.add(Map.of("port", connection.fromPort(), "references", recognised));
+                recorded.add(Map.of("port", connection.fromPort(), "references", recognised));
             }
         }
         actions.references = references;
-        visit("on_startup", null, "dependencies", told);
+        visit("on_startup", null, "dependencies", recorded);
     }
 
     @Override
@@ -170,29 +174,29 @@ class Probe implements Body {
             stage.recorder.complain(method + " was called with " + arguments + ", which are no values");
             return List.of();
         }
-        if (actions("method").stream().anyMatch(action -> action.text("do").equals("count"))) {
+        if (actions("method").stream().anyMatch(action -> action.tag().equals("count"))) {
             stage.messages.add(component, instance, ((Number) arguments.get(0)).longValue());
             return List.of("ok");
         }
         List<Object> given = Data.copy(arguments);
         record("enter", "hook", "method", "port", port, "method", method, "arguments", given);
-        Node answer = null;
-        for (Node action : actions("method")) {
-            if (action.text("do").equals("raise")) {
+        Action answer = null;
+        for (Action action : actions("method")) {
+            if (action.tag().equals("raise")) {
                 record("exit", "hook", "method", "raised", true);
                 throw new PlannedFailure(component, method);
             }
-            if (!action.text("do").equals("answer")) {
+            if (!action.tag().equals("answer")) {
                 actions.act(action);
-            } else if (action.text("method").equals(method)) {
+            } else if (action.method().equals(method)) {
                 answer = action;
             }
         }
-        List<Object> results = answer == null ? List.of() : answer.list("results");
+        List<Object> results = answer == null ? List.of() : answer.results();
         results = Data.copy(results == null ? given : results);
-        String exception = answer == null ? null : answer.text("exception");
+        String exception = answer == null ? null : answer.exception();
         record("exit", "hook", "method", "results", Data.copy(results), "exception", exception);
-        if (answer != null && answer.flag("overwrite")) {
+        if (answer != null && answer.overwrite()) {
             Data.overwrite(arguments);
         }
         if (exception != null) {
@@ -210,15 +214,15 @@ class Probe implements Body {
         Collections.addAll(entered, arguments);
         record("enter", entered.toArray());
         Integer returned = result;
-        for (Node action : actions(hook)) {
-            switch (action.text("do")) {
+        for (Action action : actions(hook)) {
+            switch (action.tag()) {
                 case "raise" -> {
                     record("exit", "hook", hook, "raised", true);
                     throw new PlannedFailure(component, hook);
                 }
                 case "return" -> {
                     if (hook.equals("exchange")) {
-                        returned = (int) action.number("value");
+                        returned = (int) action.value();
                     }
                 }
                 default -> actions.act(action);
@@ -228,8 +232,8 @@ class Probe implements Body {
         return returned;
     }
 
-    private List<Node> actions(String hook) {
-        return plan.get(hook) == null ? List.of() : plan.nodes(hook);
+    private List<Action> actions(String hook) {
+        return plan.getOrDefault(hook, List.of());
     }
 
     /** Records an event inside this body. */
@@ -267,19 +271,19 @@ class Probe implements Body {
     }
 
     private static final class ConnectableOnly extends Probe implements Connectable {
-        private ConnectableOnly(Stage stage, String component, Node declaration) {
+        private ConnectableOnly(Stage stage, String component, Declaration declaration) {
             super(stage, component, declaration);
         }
     }
 
     private static final class FragmentOnly extends Probe implements Fragment {
-        private FragmentOnly(Stage stage, String component, Node declaration) {
+        private FragmentOnly(Stage stage, String component, Declaration declaration) {
             super(stage, component, declaration);
         }
     }
 
     private static final class ConnectableFragment extends Probe implements Connectable, Fragment {
-        private ConnectableFragment(Stage stage, String component, Node declaration) {
+        private ConnectableFragment(Stage stage, String component, Declaration declaration) {
             super(stage, component, declaration);
         }
     }

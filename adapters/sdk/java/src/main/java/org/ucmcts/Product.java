@@ -1,7 +1,7 @@
 package org.ucmcts;
 
 /**
- * Who is tested, as it stands in the report.
+ * The tested product, as the report names it.
  *
  * @param name the framework's name
  * @param version the framework's version

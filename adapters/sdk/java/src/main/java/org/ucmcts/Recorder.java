@@ -40,7 +40,7 @@ final class Recorder {
         }
     }
 
-    /** The adapter broke the contract, so the trace cannot be told; the first problem counts. */
+    /** The adapter broke the contract, so the trace does not count; the first problem is reported. */
     synchronized void complain(String problem) {
         if (recording && complaint == null) {
             complaint = problem;

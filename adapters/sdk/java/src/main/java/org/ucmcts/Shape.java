@@ -33,7 +33,7 @@ interface Shape {
     Shape INT64 = integer(Long.MIN_VALUE, Long.MAX_VALUE);
     Shape ANY_INTEGER = (value, place) -> isInteger(value) ? value : wrong(value, "int", place);
 
-    /** A value of a UCM type as it travels; what is in a list is not looked at. */
+    /** A value of a UCM type as it travels; what is in a list is not checked. */
     Shape DATUM = (value, place) -> {
         boolean plain = value instanceof String || value instanceof Boolean || isInteger(value);
         return plain || value instanceof List ? value : wrong(value, "bool | int | str | array", place);

@@ -8,30 +8,30 @@ import java.util.regex.Matcher;
 import java.util.regex.Pattern;
 
 /**
- * Watches one thread. It is blocked when several looks in a row find that both the virtual machine and the operating
+ * Watches one thread. It is blocked when several checks in a row find that both the virtual machine and the operating
  * system have it waiting and that it has not been awake in between: a thread that only waits for the machine to go on
- * is not. Elsewhere than on Linux nobody is ever seen to be blocked.
+ * is not. Elsewhere than on Linux no thread is ever found to be blocked.
  */
 final class SleepWatch {
-    /** Nanoseconds between two looks. */
+    /** Nanoseconds between two checks. */
     static final long PAUSE = 500_000;
 
-    private static final int LOOKS = 5;
+    private static final int CHECKS = 5;
     private static final Pattern SLEEPS =
             Pattern.compile("^State:\\s+S.*^voluntary_ctxt_switches:\\s+(\\d+)", Pattern.MULTILINE | Pattern.DOTALL);
 
     private final Thread thread;
     private final Supplier<Path> status;
     private String before;
-    private int looks;
+    private int checks;
 
-    /** Watches {@code thread}, of which {@code status} tells; null where nobody tells, or not yet. */
+    /** Watches {@code thread}; {@code status} gives its file in /proc, null if there is none, or not yet. */
     SleepWatch(Thread thread, Supplier<Path> status) {
         this.thread = thread;
         this.status = status;
     }
 
-    /** Where the operating system tells of the calling thread; null if it does not. */
+    /** The file of the operating system on the calling thread; null if there is none. */
     static Path statusOfThisThread() {
         try {
             Path own = Files.readSymbolicLink(Path.of("/proc/thread-self")); // PID/task/NUMBER
@@ -41,12 +41,12 @@ final class SleepWatch {
         }
     }
 
-    /** One more look. */
-    boolean isSeenAgain() {
+    /** Checks once more: is the thread blocked? */
+    boolean isBlocked() {
         String sleeps = sleeps();
-        looks = sleeps != null && sleeps.equals(before) ? looks + 1 : 1;
+        checks = sleeps != null && sleeps.equals(before) ? checks + 1 : 1;
         before = sleeps;
-        return sleeps != null && looks >= LOOKS;
+        return sleeps != null && checks >= CHECKS;
     }
 
     // how often it has gone to sleep, as text, if it sleeps now

@@ -3,6 +3,8 @@ package org.ucmcts;
 import java.util.HashMap;
 import java.util.List;
 import java.util.Map;
+import org.ucmcts.Messages.Declaration;
+import org.ucmcts.Messages.Scenario;
 
 /** What the probes of one scenario share. */
 final class Stage {
@@ -19,13 +21,10 @@ final class Stage {
         messages = new MessageCounts(patience);
     }
 
-    /**
-     * The scenario's declarations as a framework sees them: implementations whose bodies are probes on this stage.
-     */
-    List<Implementation> implementations(Node scenario) {
-        Node interfaces = scenario.node("interfaces");
-        return scenario.node("components").fields().entrySet().stream()
-                .map(entry -> implementation(entry.getKey(), (Node) entry.getValue(), interfaces))
+    /** The scenario's declarations as a framework sees them: implementations whose bodies are probes on this stage. */
+    List<Implementation> implementations(Scenario scenario) {
+        return scenario.components().entrySet().stream()
+                .map(entry -> implementation(entry.getKey(), entry.getValue(), scenario.interfaces()))
                 .toList();
     }
 
@@ -45,17 +44,17 @@ final class Stage {
         return own ? ((Probe.Port) reference).identity() : "opaque";
     }
 
-    /** From now on probes record and do nothing, and count who meets whom. */
+    /** From now on probes record and do nothing; they count overlaps. */
     void beginStress(Map<Probe, Occupancy> counts) {
         occupancies = counts;
     }
 
-    /** Probes are themselves again. */
+    /** Probes follow their plans again. */
     void endStress() {
         occupancies = null;
     }
 
-    /** Under stress: counts who is met in {@code probe}, and tells that there is nothing else to do. */
+    /** Under stress: counts overlaps in {@code probe}; true, as the probe does nothing else then. */
     boolean isStressed(Probe probe) {
         Map<Probe, Occupancy> counts = occupancies;
         if (counts == null) {
@@ -65,31 +64,26 @@ final class Stage {
         return true;
     }
 
-    private Implementation implementation(String name, Node declaration, Node interfaces) {
+    private Implementation implementation(
+            String name, Declaration declaration, Map<String, Messages.Interface> interfaces) {
         Map<String, Node> typed = new HashMap<>();
-        declaration.node("ports").fields().forEach((port, type) -> {
-            if (!interfaces.fields().containsKey(type)) {
+        declaration.ports().forEach((port, type) -> {
+            if (!interfaces.containsKey(type)) {
                 throw new IllegalArgumentException("there is no interface " + type);
             }
-            typed.put(port, interfaces.node((String) type));
+            typed.put(port, interfaces.get(type));
         });
-        boolean connectable = declaration.flag("connectable");
-        boolean fragment = declaration.flag("fragment");
         return new Implementation(
                 name,
-                declaration.texts("provides"),
-                declaration.texts("requires"),
-                List.copyOf(declaration.node("attributes").fields().keySet()),
-                connectable,
-                fragment,
-                () -> Probe.make(this, name, declaration, connectable, fragment),
-                declaration.nodes("policies").stream().map(Stage::policy).toList(),
+                declaration.provides(),
+                declaration.requires(),
+                List.copyOf(declaration.attributes().keySet()),
+                declaration.connectable(),
+                declaration.fragment(),
+                () -> Probe.make(this, name, declaration),
+                declaration.policies().stream()
+                        .map(own -> new Policy(own.definition(), own.port(), own.parameters(), own.element()))
+                        .toList(),
                 typed);
-    }
-
-    private static Policy policy(Node policy) {
-        Map<String, String> parameters = new HashMap<>();
-        policy.node("parameters").fields().forEach((name, value) -> parameters.put(name, (String) value));
-        return new Policy(policy.text("definition"), policy.text("port"), parameters, policy.text("element"));
     }
 }

@@ -16,7 +16,7 @@ final class Waiting {
 
     /**
      * Waits on {@code monitor}, which the caller holds, until {@code condition} holds or so many nanoseconds have
-     * passed; tells whether it holds. An interrupt is kept for later.
+     * passed; returns whether it holds. An interrupt is kept for later.
      */
     static boolean until(Object monitor, long nanoseconds, BooleanSupplier condition) {
         long deadline = System.nanoTime() + nanoseconds;
@@ -43,9 +43,9 @@ final class Waiting {
 
     /** Lets so many nanoseconds pass. */
     static void pass(long nanoseconds) {
-        Object nobody = new Object();
-        synchronized (nobody) {
-            until(nobody, nanoseconds, () -> false);
+        Object monitor = new Object();
+        synchronized (monitor) {
+            until(monitor, nanoseconds, () -> false);
         }
     }
 }

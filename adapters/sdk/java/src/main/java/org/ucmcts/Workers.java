@@ -46,7 +46,7 @@ final class Workers {
             if (isHeld.test(worker.thread)) {
                 return "held";
             }
-            if (watch.isSeenAgain()) {
+            if (watch.isBlocked()) {
                 return "blocked";
             }
             if (System.nanoTime() >= deadline) {

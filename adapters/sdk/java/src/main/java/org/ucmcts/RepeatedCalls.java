@@ -5,24 +5,22 @@ import java.util.concurrent.CountDownLatch;
 import java.util.concurrent.TimeUnit;
 import java.util.concurrent.atomic.AtomicLong;
 
-/** Calls as many as possible until it is over. */
-final class Storm {
+/** Calls from several threads, as many as possible within a time. */
+final class RepeatedCalls {
     private final List<Runnable> visits;
     private final long nanoseconds;
     private final CountDownLatch missing;
     private final AtomicLong calls = new AtomicLong();
     private final AtomicLong failed = new AtomicLong();
 
-    Storm(List<Runnable> visits, long milliseconds) {
+    RepeatedCalls(List<Runnable> visits, long milliseconds) {
         this.visits = visits;
         nanoseconds = TimeUnit.MILLISECONDS.toNanos(Math.max(milliseconds, 0));
         missing = new CountDownLatch(visits.size());
     }
 
-    /**
-     * Each visit again and again on a worker of its own, named after {@code name}; none begins before all have come.
-     */
-    void rage(Workers workers, String name) {
+    /** Repeats each visit on a worker of its own, named after {@code name}; all begin at the same time. */
+    void run(Workers workers, String name) {
         for (int index = 0; index < visits.size(); index++) {
             Runnable visit = visits.get(index);
             workers.queue(name + " " + index, () -> keepVisiting(visit));
