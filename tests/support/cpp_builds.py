@@ -135,7 +135,7 @@ class Builds:
             "rude": lambda: (text(RUDE), STRICT),
             "tsan": lambda: (text(reference), tsan),
             "asan": lambda: (text(reference), ["-std=c++11", *asan]),
-            "spellings": lambda: (SDK / "example" / "other_spellings.cpp", STRICT),
+            "spellings": lambda: (NATIVE / "other_spellings.cpp", STRICT),
             "patchbay": lambda: (NATIVE / "patchbay.cpp", [*STRICT, *asan]),
             "links": lambda: (text(f'{framework}#include "{NATIVE / "lwucm_links.cpp"}"\n'), tsan),
             "power": lambda: (NATIVE / "stress_power.cpp", [*STRICT, "-O2"]),

@@ -1,4 +1,4 @@
-// What the SDK is told of lwucm, and which bodies lwucm hosts: generic ones, or typed ones if they are linked (13.9).
+// What the SDK must know of lwucm, and which bodies lwucm hosts: generic ones, or typed ones if they are linked (13.9).
 #ifndef REFERENCE_CPP_HOSTING_HPP
 #define REFERENCE_CPP_HOSTING_HPP
 

@@ -151,7 +151,7 @@ typedef ProvidesThree<RequiresNothing<LabelledProbe< ::probes::Abstract_triplet_
 typedef ProvidesThree<RequiresOne<LabelledProbe< ::probes::Abstract_funnel_body>>> Funnel;
 typedef ProvidesThree<RequiresTwo<LabelledProbe< ::probes::Abstract_hub_body>>> Hub;
 
-/// A probe that hears of each connection (11.2.1.3).
+/// A probe that is called at each connection (11.2.1.3).
 template <class Probe>
 class ConnectableProbe final : public Probe, public lwucm::Connectable {
   public:

@@ -1,4 +1,4 @@
-// The C++ door: derive from Adapter to bind a framework.
+// The C++ interface of adapters: derive from Adapter to bind a framework.
 //
 // An adapter forwards each operation of the Container API (12.10) one to one and translates errors. It adds no state
 // checks of its own: they would hide what is being measured. A framework whose C++ API already has the shape of 12.10
@@ -19,8 +19,8 @@
 
 namespace ucm_cts {
 
-/// The three exceptions of 12.10. Any other exception is reported as an undeclared one, so let the framework's own
-/// surprises through.
+/// The three exceptions of 12.10. Any other exception is reported as an undeclared one, so let the framework's other
+/// exceptions pass.
 class NotFound : public std::runtime_error {
   public:
     explicit NotFound(const std::string& why) : std::runtime_error(why) {}
@@ -55,7 +55,7 @@ class NotOffered : public std::logic_error {
 /// Component and connection ids. 12.10 has 32 bits; that they fit is judged, so wider ones must come through.
 typedef std::int64_t Id;
 
-/// Whose port element a reference is, where the SDK can tell.
+/// The port element that a reference leads to, where the SDK recognises it.
 struct Identity {
     std::string component;
     int instance;
@@ -88,7 +88,7 @@ struct PortConnection {
     std::vector<Reference> to_port;
 };
 
-/// The least a fragment gets to see of its container (11.2.1.4).
+/// The part of the Container API that every fragment has (11.2.1.4).
 class ContainerInterface {
   public:
     virtual ~ContainerInterface() = default;
@@ -147,10 +147,10 @@ struct Implementation {
     Interfaces interfaces;
 };
 
-/// Whatever the adapter uses for a container.
+/// The object that the adapter uses for a container.
 typedef std::shared_ptr<void> ContainerHandle;
 
-/// Whatever the adapter uses for a connection with a connector.
+/// The object that the adapter uses for a connection with a connector.
 typedef std::shared_ptr<void> LinkHandle;
 
 /// A record of the trace (10.1.4.2): `severity` is an enumerator of log_severity_t.

@@ -93,13 +93,15 @@ class MessageCounts {
     std::map<std::pair<std::string, std::int64_t>, std::shared_ptr<MessageCount>> counts_;
 };
 
-/// How those behave who stress a body. The hurried come back at once and mostly leave at once, which finds locks that are
-/// checked first and taken afterwards: those change hands often. Those who stroll take their time inside and outside, which
-/// finds locks that are missing on some calls: when such a call comes somebody is inside, and nobody waits. Those who linger
-/// sleep inside, which finds the same where whoever waits sleeps, too, or where threads have to share a processor.
+/// How threads behave that stress a body:
+///   - hurried: they come back at once and mostly leave at once, which finds locks that are checked first and taken
+///     afterwards, as those change hands often;
+///   - strolling: they stay for a time inside and outside, which finds locks that are missing on some calls, as another
+///     thread is mostly inside when such a call comes;
+///   - lingering: they sleep inside, which finds the same where waiting threads sleep or share a processor.
 enum class Pace { none, hurried, strolling, lingering };
 
-/// A number below `most` that nobody can foresee, at the cost of nothing.
+/// A pseudo-random number below `most`; cheap.
 inline int any_below(int most) {
     static thread_local std::uint32_t random = 1;
     random = random * 1664525u + 1013904223u;
@@ -113,7 +115,8 @@ inline void pass_moments(int moments) {
     }
 }
 
-/// Who is inside one body. Whoever goes in while somebody is there is an overlap; nobody is ever counted wrongly.
+/// Counts the threads inside one body. A thread that goes in while another is inside is an overlap; every overlap counted
+/// has happened.
 class Occupancy {
   public:
     /// Goes in, stays for a moment, and leaves.

@@ -23,7 +23,7 @@ class Gates {
   public:
     explicit Gates(std::chrono::milliseconds patience) : patience_(patience) {}
 
-    /// A probe arrives. `record_held` is called before anybody can learn of the arrival.
+    /// A probe arrives. `record_held` is called before any thread can learn of the arrival.
     template <class Record>
     void hold(const std::string& name, Record record_held) {
         std::unique_lock<std::mutex> lock(mutex_);
@@ -52,7 +52,7 @@ class Gates {
         return changed_.wait_for(lock, patience_, [&gate, enough] { return gate.arrivals >= enough; });
     }
 
-    /// Opens the gate for good. `record_opened` is called before anybody goes through.
+    /// Opens the gate for good. `record_opened` is called before any probe goes on.
     template <class Record>
     void open(const std::string& name, Record record_opened) {
         std::lock_guard<std::mutex> lock(mutex_);

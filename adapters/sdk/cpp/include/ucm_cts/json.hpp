@@ -88,7 +88,7 @@ class Value {
         return json_.get<std::int64_t>();
     }
 
-    /// Whatever stands there.
+    /// The value, of any kind.
     nlohmann::json tree() const { return json_; }
 
     std::int32_t integer32() const {

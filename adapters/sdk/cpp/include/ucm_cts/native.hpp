@@ -12,7 +12,7 @@
 
 namespace ucm_cts {
 
-/// A port element that computes what a probe's does, and tells nobody.
+/// A port element that computes what a probe's does, and records nothing.
 class NativePort final : public PortElement {
   public:
     std::int32_t exchange(std::int32_t value) override { return ~value; }

@@ -124,7 +124,7 @@ class Probe {
         return found == declaration().plan.end() ? nothing : found->second;
     }
 
-    // Under stress: counts who is met here, and tells that there is nothing else to do.
+    // Under stress: counts overlaps; true, as the probe does nothing else then.
     bool is_stressed() {
         const Pace pace = stage_->stress.load(std::memory_order_relaxed);
         if (pace == Pace::none) {

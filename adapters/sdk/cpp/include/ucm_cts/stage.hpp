@@ -32,7 +32,7 @@ class Stage {
     std::atomic<Pace> stress{Pace::none};
     std::atomic<std::int64_t> overlaps{0};
 
-    /// The adapter broke the contract, so the trace cannot be told; the first problem counts.
+    /// The adapter broke the contract, so the trace does not count; the first problem is reported.
     void complain(const std::string& problem) {
         std::lock_guard<std::mutex> lock(mutex_);
         if (complaint_.empty() && !recorder.closed()) {

@@ -61,7 +61,7 @@ inline void stay_on_core(std::size_t number) {
 
 }  // namespace detail
 
-/// Threads that call again and again: by turns `exchange` of their references, and a body that nobody protects, which
+/// Threads that call again and again: by turns `exchange` of their references, and an unprotected body, which
 /// proves that on this machine, at this moment, threads do meet. Tasks keep it alive.
 class Stress : public std::enable_shared_from_this<Stress> {
   public:
@@ -108,7 +108,7 @@ class Stress : public std::enable_shared_from_this<Stress> {
         turn_.store(Turn::over);
     }
 
-    /// To be called when the tasks are done, or nobody waits for them any more: ends the stress, and tells what it found.
+    /// To be called when the tasks are done, or are no longer waited for: ends the stress, and returns what was counted.
     Numbers end() {
         stage_->stress = Pace::none;
         Numbers all = {0, 0, stage_->overlaps, 0, control_overlaps_};

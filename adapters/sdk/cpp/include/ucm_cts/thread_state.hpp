@@ -24,24 +24,24 @@ inline long system_id_of_this_thread() {
 #endif
 }
 
-/// Watches one thread. It is asleep when several looks in a row, `pause` apart, find it sleeping and find that it has
-/// not run in between: it waits for something that does not come. Elsewhere than on Linux nobody is ever asleep.
+/// Watches one thread. It is asleep when several checks in a row, `pause` apart, find it sleeping and find that it has
+/// not run in between: it waits for something that does not come. Elsewhere than on Linux no thread is found asleep.
 class SleepWatch {
   public:
     static std::chrono::microseconds pause() { return std::chrono::microseconds(200); }
 
-    /// One more look.
+    /// Checks once more: is the thread asleep?
     bool is_asleep(long system_id) {
         std::string waits;
         if (!is_sleeping(system_id, waits) || waits != waits_) {
             waits_ = waits;
-            looks_ = 0;
+            checks_ = 0;
         }
-        return !waits.empty() && ++looks_ >= LOOKS;
+        return !waits.empty() && ++checks_ >= CHECKS;
     }
 
   private:
-    static const int LOOKS = 4;
+    static const int CHECKS = 4;
 
 #if defined(__linux__)
     // `waits` becomes how often the thread has gone to sleep, as text
@@ -72,7 +72,7 @@ class SleepWatch {
 #endif
 
     std::string waits_;
-    int looks_ = 0;
+    int checks_ = 0;
 };
 
 }  // namespace ucm_cts

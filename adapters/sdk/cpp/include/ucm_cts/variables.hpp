@@ -19,29 +19,13 @@ class Variables {
     explicit Variables(const ContainerHandle& manager) { containers_["manager"] = manager; }
 
     void bind_id(const std::string& name, Id id) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        clear(name);
-        ids_[name] = id;
-        given_.insert(id);
+        saw({id});
+        bind(ids_, name, id);
     }
 
-    void bind_reference(const std::string& name, const Reference& reference) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        clear(name);
-        references_[name] = reference;
-    }
-
-    void bind_container(const std::string& name, const ContainerHandle& container) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        clear(name);
-        containers_[name] = container;
-    }
-
-    void bind_link(const std::string& name, const LinkHandle& link) {
-        std::lock_guard<std::mutex> lock(mutex_);
-        clear(name);
-        links_[name] = link;
-    }
+    void bind_reference(const std::string& name, const Reference& reference) { bind(references_, name, reference); }
+    void bind_container(const std::string& name, const ContainerHandle& container) { bind(containers_, name, container); }
+    void bind_link(const std::string& name, const LinkHandle& link) { bind(links_, name, link); }
 
     /// An id of a component or connection; `unknown` gives one that the framework has not given out.
     bool id(const std::string& name, Id& value) const {
@@ -73,6 +57,7 @@ class Variables {
         return look_up(links_, name, value);
     }
 
+    /// The framework has given these ids out, so that none of them is unknown.
     void saw(const std::vector<Id>& ids) {
         std::lock_guard<std::mutex> lock(mutex_);
         given_.insert(ids.begin(), ids.end());
@@ -89,11 +74,14 @@ class Variables {
         return true;
     }
 
-    void clear(const std::string& name) {
+    template <class Values, class Value>
+    void bind(Values& values, const std::string& name, const Value& value) {
+        std::lock_guard<std::mutex> lock(mutex_);
         ids_.erase(name);
         references_.erase(name);
         containers_.erase(name);
         links_.erase(name);
+        values[name] = value;
     }
 
     mutable std::mutex mutex_;

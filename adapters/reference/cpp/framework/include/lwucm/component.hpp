@@ -43,7 +43,7 @@ class FragmentObject {
     virtual void set_container_interface(std::shared_ptr<Container> container) = 0;
 };
 
-/// Implemented beside ComponentObject by bodies that want to hear of each connection.
+/// Implemented beside ComponentObject by bodies that are called at each connection.
 class Connectable {
   public:
     virtual ~Connectable() = default;

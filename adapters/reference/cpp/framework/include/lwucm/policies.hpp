@@ -34,7 +34,7 @@ class Interceptor {
   public:
     virtual ~Interceptor() = default;
 
-    /// Somebody calls `method`. Has `code` executed, which carries it out, and returns when that is done; an exception
+    /// A caller calls `method`. Has `code` executed, which carries it out, and returns when that is done; an exception
     /// of `code` leaves here.
     virtual void call(const std::string& method, const std::function<void()>& code) = 0;
 };

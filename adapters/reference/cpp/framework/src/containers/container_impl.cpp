@@ -43,9 +43,6 @@ componentId ContainerImpl::add_component(const Properties& configValues) {
 void ContainerImpl::remove_component(componentId comp_instance) {
     Operation operation(*shared_);
     const std::shared_ptr<Instance> member = find(comp_instance);
-    if (!member) {
-        throw NOT_FOUND("no such component");
-    }
     if (shared_->platform.options.removal == Options::Removal::refuse) {
         check_removable(*member);
     }
@@ -63,9 +60,6 @@ std::shared_ptr<PortElementObject> ContainerImpl::get_port_element(componentId c
             throw UCM_ERROR("the runtime is destroyed");
         }
         member = find(comp_instance);
-    }
-    if (!member) {
-        throw NOT_FOUND("no such component");
     }
     if (!member->provides(port_name)) {
         throw NOT_FOUND("no provided port element " + quoted(port_name));
@@ -86,9 +80,6 @@ connectionId ContainerImpl::connect(componentId instance, const std::string& por
                                     std::shared_ptr<PortElementObject> to_port) {
     Operation operation(*shared_);
     const std::shared_ptr<Instance> client = find(instance);
-    if (!client) {
-        throw NOT_FOUND("no such component");
-    }
     if (!client->requires_port(port_name)) {
         throw BAD_PARAMETER("no required port element " + quoted(port_name));
     }
@@ -287,7 +278,10 @@ void ContainerImpl::leave_links(const Instance& member, Attempts& attempts) {
 std::shared_ptr<Instance> ContainerImpl::find(componentId id) const {
     const auto found = std::find_if(members_.begin(), members_.end(),
                                     [id](const std::shared_ptr<Instance>& m) { return m->id() == id; });
-    return found == members_.end() ? nullptr : *found;
+    if (found == members_.end()) {
+        throw NOT_FOUND("no such component");
+    }
+    return *found;
 }
 
 std::shared_ptr<const Implementation> ContainerImpl::select(const Properties& configValues) const {

@@ -40,6 +40,7 @@ class ContainerImpl : public virtual Container, public std::enable_shared_from_t
     /// UCM_ERROR unless connections may be made and undone now.
     void check_configuring() const;
 
+    /// NOT_FOUND if the container has no such member.
     std::shared_ptr<Instance> find(componentId id) const;
     bool is_of(const Shared& shared) const { return shared_.get() == &shared; }
 
@@ -74,6 +75,9 @@ class ManagerImpl : public ContainerImpl, public Runtime {
     std::vector<LogRecord> trace_records() override { return shared_->platform.trace->records(); }
 
   private:
+    // Takes all steps, each for all containers before the next.
+    static void take_down(const std::vector<ContainerImpl*>& containers, Attempts& attempts);
+
     std::vector<std::shared_ptr<ContainerImpl>> sub_containers_;
 };
 

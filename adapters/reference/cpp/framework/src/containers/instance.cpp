@@ -101,44 +101,30 @@ void Instance::start() {
     for (PortConnection& service : execution_.services()) {
         dependencies.push_back(std::move(service));
     }
-    for (const Joined& one : joined_) {
-        one.end->starting();
-    }
+    notify_ends(&End::starting);
     try {
         execution_.enter([&] { body_->on_startup(dependencies); });
     } catch (...) {
         shut_ends();
-        for (const Joined& one : joined_) {
-            one.end->shutting_down();
-        }
+        notify_ends(&End::shutting_down);
         throw;
     }
     ready_ = true;
 }
 
-void Instance::open_ends() {
+void Instance::notify_ends(void (End::*what)()) const {
     for (const Joined& one : joined_) {
-        one.end->started();
-    }
-}
-
-void Instance::shut_ends() {
-    for (const Joined& one : joined_) {
-        one.end->stopping();
+        ((*one.end).*what)();
     }
 }
 
 void Instance::end_execution() {
-    for (const Joined& one : joined_) {
-        one.end->await_calls();
-    }
+    notify_ends(&End::await_calls);
     execution_.end();
 }
 
 void Instance::shut_down() {
-    for (const Joined& one : joined_) {
-        one.end->shutting_down();
-    }
+    notify_ends(&End::shutting_down);
     ready_ = false;
     execution_.enter([&] { body_->on_shutdown(); });
 }

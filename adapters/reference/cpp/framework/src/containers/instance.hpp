@@ -46,9 +46,9 @@ class Instance {
 
     // All members of its container have started, or are about to be shut down; in between others may execute it, and it
     // may execute by itself.
-    void open_ends();
+    void open_ends() { notify_ends(&End::started); }
     void begin_execution() { execution_.begin(); }
-    void shut_ends();
+    void shut_ends() { notify_ends(&End::stopping); }
     void end_execution();
 
     /// What the body gives for a provided port element, guarded as its policy has it.
@@ -74,6 +74,9 @@ class Instance {
         std::shared_ptr<LinkImpl> link;
         std::shared_ptr<End> end;
     };
+
+    // Calls one of the operations of `End` for each of its ends.
+    void notify_ends(void (End::*what)()) const;
 
     Required* find_required(const std::string& port);
 

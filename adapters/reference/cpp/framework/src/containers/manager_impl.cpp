@@ -31,11 +31,8 @@ void ManagerImpl::remove_container(std::shared_ptr<Container> subContainer) {
     if (found == sub_containers_.end()) {
         throw NOT_FOUND("no such container");
     }
-    const std::shared_ptr<ContainerImpl> container = *found;
     Attempts attempts;
-    container->shut_down_members(attempts);
-    container->disconnect_members(attempts);
-    container->remove_members(attempts);
+    take_down({found->get()}, attempts);
     sub_containers_.erase(found);
     attempts.check();
 }
@@ -48,15 +45,7 @@ void ManagerImpl::destroy() {
     }
     all.push_back(this);
     Attempts attempts;
-    for (ContainerImpl* container : all) {
-        container->shut_down_members(attempts);
-    }
-    for (ContainerImpl* container : all) {
-        container->disconnect_members(attempts);
-    }
-    for (ContainerImpl* container : all) {
-        container->remove_members(attempts);
-    }
+    take_down(all, attempts);
     sub_containers_.clear();
     {
         std::lock_guard<std::mutex> data(shared_->data);
@@ -66,6 +55,15 @@ void ManagerImpl::destroy() {
         shared_->platform.executor->end();
     }
     attempts.check();
+}
+
+void ManagerImpl::take_down(const std::vector<ContainerImpl*>& containers, Attempts& attempts) {
+    for (const auto step :
+         {&ContainerImpl::shut_down_members, &ContainerImpl::disconnect_members, &ContainerImpl::remove_members}) {
+        for (ContainerImpl* const container : containers) {
+            (container->*step)(attempts);
+        }
+    }
 }
 
 std::shared_ptr<Link> ManagerImpl::create_link(const std::string& connector, const InterfacePtr& interface) {

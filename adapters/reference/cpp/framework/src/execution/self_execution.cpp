@@ -32,7 +32,7 @@ void SelfExecution::work() {
         lock.unlock();
         try {
             guard_->call([this] { component_->run(); });
-        } catch (...) {  // nobody called it who could be told
+        } catch (...) {  // there is no caller to pass it to
         }
         lock.lock();
         changed_.wait_for(lock, std::chrono::milliseconds(2), [this] { return ending_; });

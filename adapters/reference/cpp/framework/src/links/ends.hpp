@@ -79,6 +79,9 @@ class Admission {
     int inside_ = 0;
 };
 
+/// Is it an end that requires its port element?
+inline bool is_sender(Role role) { return role == Role::client || role == Role::emitter; }
+
 /// The operations are called one at a time, in this order, and again from the first one on.
 class End {
   public:
@@ -90,7 +93,7 @@ class End {
     Instance& instance() const { return instance_; }
     Role role() const { return role_; }
     const std::string& port() const { return port_; }
-    bool is_sender() const { return role_ == Role::client || role_ == Role::emitter; }
+    bool is_sender() const { return lwucm::is_sender(role_); }
 
     /// Can its component be started, as far as this end is concerned?
     virtual bool is_usable() const { return true; }

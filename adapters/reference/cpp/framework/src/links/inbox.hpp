@@ -26,7 +26,7 @@ class Inbox {
     Inbox(const Inbox&) = delete;
     Inbox& operator=(const Inbox&) = delete;
 
-    /// False if it is not open and that shall be an error. Waits while the inbox is full, unless somebody may be
+    /// False if it is not open and that shall be an error. Waits while the inbox is full, unless a thread may be
     /// waiting for the caller: receivers that send to each other would wait in a circle.
     virtual bool put(const Message& message);
 

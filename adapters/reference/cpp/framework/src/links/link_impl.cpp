@@ -8,12 +8,6 @@
 
 namespace lwucm {
 
-namespace {
-
-bool is_sender(Role role) { return role == Role::client || role == Role::emitter; }
-
-}  // namespace
-
 LinkImpl::LinkImpl(std::shared_ptr<Shared> shared, InterfacePtr interface)
     : shared_(std::move(shared)), interface_(std::move(interface)) {}
 
@@ -21,7 +15,7 @@ void LinkImpl::attach(Role role, const std::shared_ptr<Container>& container, co
                       const std::string& port) {
     Operation operation(*shared_);
     const ContainerImpl& its_container = own(container);
-    const std::shared_ptr<Instance> instance = find_in(its_container, component);
+    const std::shared_ptr<Instance> instance = its_container.find(component);
     if (!has_role(role)) {
         throw BAD_PARAMETER("the connector has no such role");
     }
@@ -37,7 +31,7 @@ void LinkImpl::attach(Role role, const std::shared_ptr<Container>& container, co
 void LinkImpl::detach(const std::shared_ptr<Container>& container, componentId component, const std::string& port) {
     Operation operation(*shared_);
     const ContainerImpl& its_container = own(container);
-    const std::shared_ptr<Instance> instance = find_in(its_container, component);
+    const std::shared_ptr<Instance> instance = its_container.find(component);
     const auto found = std::find_if(ends_.begin(), ends_.end(), [&](const std::shared_ptr<End>& end) {
         return &end->instance() == instance.get() && end->port() == port;
     });
@@ -66,14 +60,6 @@ ContainerImpl& LinkImpl::own(const std::shared_ptr<Container>& container) const 
         throw BAD_PARAMETER("the container is none of this runtime");
     }
     return *known;
-}
-
-std::shared_ptr<Instance> LinkImpl::find_in(const ContainerImpl& container, componentId component) const {
-    const std::shared_ptr<Instance> instance = container.find(component);
-    if (!instance) {
-        throw NOT_FOUND("no such component");
-    }
-    return instance;
 }
 
 void LinkImpl::check_port(const Instance& instance, Role role, const std::string& port) const {

@@ -92,7 +92,6 @@ class LinkImpl : public Link, public std::enable_shared_from_this<LinkImpl> {
 
   private:
     ContainerImpl& own(const std::shared_ptr<Container>& container) const;
-    std::shared_ptr<Instance> find_in(const ContainerImpl& container, componentId component) const;
     void check_port(const Instance& instance, Role role, const std::string& port) const;
     void attach_sender(Instance& instance, const std::string& port);
     void attach_taker(Instance& instance, const std::string& port);

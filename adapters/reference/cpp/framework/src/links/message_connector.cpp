@@ -85,7 +85,7 @@ class ImmediateReceiver final : public Receiver {
         }
         try {
             deliver(*message);
-        } catch (...) {  // is nobody else's
+        } catch (...) {  // no concern of the emitter or of other receivers
         }
         return true;
     }

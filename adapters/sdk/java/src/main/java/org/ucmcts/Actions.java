@@ -98,7 +98,7 @@ final class Actions {
         List<Integer> members;
         try {
             members = List.copyOf(container.getComponents());
-        } catch (Throwable error) { // whatever the framework threw, and what comes of having been given nothing
+        } catch (Throwable error) { // thrown by the framework, or because it gave no container
             probe.record("siblings", "raised", true);
             return;
         }

@@ -10,9 +10,9 @@ import java.util.Map;
  * <p>An adapter forwards each operation of the Container API (12.10) one to one and translates errors. It adds no
  * state checks of its own: they would hide what is being measured. Operations end by returning or by throwing {@link
  * UcmException.NotFound}, {@link UcmException.BadParameter} or {@link UcmException.UcmError}; anything else is
- * reported as undeclared, which 12.10 forbids, so let the framework's own surprises through.
+ * reported as undeclared, which 12.10 forbids, so let the framework's other exceptions pass.
  *
- * @param <C> whatever the framework, or the adapter, uses for a container
+ * @param <C> the type that the framework, or the adapter, uses for a container
  */
 public abstract class Adapter<C> {
     /** Makes an empty runtime that can instantiate {@code implementations}; returns its root container (11.2.2.2). */

@@ -11,7 +11,7 @@ import java.util.Set;
 import java.util.function.Function;
 
 /**
- * What a JSON value has to look like. Reading one gives it back with objects as {@link Node} and defaults filled in.
+ * The form that a JSON value must have. Reading one gives it back with objects as {@link Node} and defaults filled in.
  */
 @FunctionalInterface
 interface Shape {

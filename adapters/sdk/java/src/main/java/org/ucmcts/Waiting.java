@@ -3,7 +3,7 @@ package org.ucmcts;
 import java.util.concurrent.TimeUnit;
 import java.util.function.BooleanSupplier;
 
-/** Waiting on monitors until something holds, whatever a framework does to its threads meanwhile. */
+/** Waiting on monitors until a condition holds, even if a framework interrupts the thread meanwhile. */
 final class Waiting {
     private static final long LONGEST_PATIENCE = 24L * 60 * 60 * 1000;
 
