@@ -14,7 +14,8 @@ public final class RoundTrip {
     public static void main(String[] arguments) throws Exception {
         BufferedReader lines = new BufferedReader(new InputStreamReader(System.in, StandardCharsets.UTF_8));
         for (String line = lines.readLine(); line != null; line = lines.readLine()) {
-            System.out.write(Json.line(plain(Messages.readMessage(Json.read(line.getBytes(StandardCharsets.UTF_8)), "$"))));
+            Object read = Json.read(line.getBytes(StandardCharsets.UTF_8));
+            System.out.write(Json.line(plain(Messages.readMessage(read, "$"))));
         }
         System.out.flush();
     }
