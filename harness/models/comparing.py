@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, MutableMapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -80,7 +80,7 @@ class Comparing:
     """One comparison: ``facts`` are filed by requirement and by what they are about; ``claims`` has every option."""
 
     declarations: Mapping[Element, Declaration]
-    claims: dict[str, str]
+    claims: MutableMapping[str, str]
     facts: dict[str, dict[str, Fact]] = field(default_factory=dict)
     readings: dict[str, set[str]] = field(default_factory=dict)
     declared: dict[tuple[str, ...], list[Element]] = field(default_factory=dict)

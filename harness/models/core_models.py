@@ -8,6 +8,7 @@ met.
 from __future__ import annotations
 
 import functools
+from collections import ChainMap
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -77,7 +78,7 @@ def compare(paths: Sequence[Path], claims: Mapping[str, str] = {}) -> Comparison
     files = [file for path in paths for file in (sorted(path.rglob("*.xml")) if path.is_dir() else (path,))]
     root, core = read_models(files)
     ours, declarations = _ours()
-    comparing = Comparing(declarations, _first_values() | dict(claims))
+    comparing = Comparing(declarations, ChainMap({}, claims, _first_values()))  # type: ignore[arg-type]  # only {} is written to
     if files:
         comparing.compare(ours, root, core)
     readings = {option: frozenset(values) for option, values in comparing.readings.items()}

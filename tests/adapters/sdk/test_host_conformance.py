@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fnmatch
+import itertools
 import re
 import threading
 import time
@@ -16,6 +17,7 @@ from java_builds import JavaBuilds, java
 from performing import told
 
 from ucm_cts.adapters.contract import messages as m
+from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.contract.programming_model import (
@@ -122,8 +124,19 @@ def check(case: Case, answer: m.FromHost) -> None:
     if expected[0] == "*":  # what comes first is the matter of another case
         expected = expected[1:]
         lines = lines[-len(expected) :]
+    assert all(wait < case.patience / 10 for wait in _settling(answer.events)), _settling(answer.events)
     unlike = [(line, due) for line, due in zip(lines, expected, strict=False) if not _is(line, due)]
     assert (len(lines), unlike) == (len(expected), []), "\n".join(lines)
+
+
+def _settling(trace: t.Trace) -> list[float]:
+    """How long each settle took whose worker was found to be done, held or blocked, in milliseconds.
+
+    Such a step does not wait for the patience to run out; a tenth of it leaves room for a machine that is busy otherwise.
+    """
+    steps = [event for event in trace if not event.thread]
+    settled = [(a, b) for a, b in itertools.pairwise(steps) if isinstance(b, t.Settled) and b.where != "running"]
+    return [(b.t - a.t) / 1e6 for a, b in settled]
 
 
 def _is(line: str, due: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import select
 import signal
+import statistics
 import subprocess
 import sys
 import time
@@ -228,14 +229,19 @@ def test_answers_nobody_waits_for_are_not_mixed_up() -> None:
 
 @pytest.mark.usefixtures("no_leaks")
 def test_fresh_host_after_a_crash_costs_little() -> None:
+    """Measured against the first host, which a busy machine slows down as well: a fork costs far less than a start."""
     begun = time.monotonic()
     with Hosts(locate("misbehaving:Aborts"), PATIENT) as hosts:
         assert hosts.welcome.product
         first = time.monotonic() - begun
-        answers = list(hosts.run(Run(n, TRIGGER) for n in range(20)))
-        each = (time.monotonic() - begun - first) / 20
-    assert all(isinstance(answer.reply, Incident) for answer in answers)
-    assert each < first / 2, "a busy machine slows down both"
+        costs = []
+        since = time.monotonic()
+        for answer in hosts.run(Run(n, TRIGGER) for n in range(21)):
+            assert isinstance(answer.reply, Incident)
+            costs.append(time.monotonic() - since)
+            since = time.monotonic()
+    assert statistics.median(costs) < first / 5
+    assert min(costs) < first / 10
 
 
 def test_lost_template_is_replaced() -> None:

@@ -1,0 +1,135 @@
+"""Every option of the interpretations is consulted: a declaration that the suite never reads would be a false promise."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import msgspec
+import pytest
+
+from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder
+from ucm_cts.adapters.contract.metamodel.reading import read_model
+from ucm_cts.adapters.mutants.python import CONTAINER, MUTANTS, VARIANTS, variants_of
+from ucm_cts.adapters.mutants.toolchain.registry import mutants, variants
+from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
+from ucm_cts.adapters.reference.toolchain.program import Program, reference
+from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.catalogue.requirements import (
+    load_interpretations,
+    load_life_cycle,
+    load_options,
+    load_requirements,
+)
+from ucm_cts.harness.execution.disguise import Disguise
+from ucm_cts.harness.models.core_models import CORE
+from ucm_cts.harness.models.core_models import compare as compare_models
+from ucm_cts.harness.purposes.payloads import Payloads
+from ucm_cts.harness.purposes.selection import load_purposes
+from ucm_cts.harness.results.statement import Statement, default_statement
+from ucm_cts.harness.statement.applicability import purposes_for, why_not
+from ucm_cts.harness.toolchains.acceptance import Acceptance
+from ucm_cts.harness.toolchains.generation import mapping_models
+from ucm_cts.harness.toolchains.idl.comparing import compare as compare_idl
+from ucm_cts.harness.toolchains.renaming import Renaming
+from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
+from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
+from ucm_cts.reference_models.model.ics import Ics
+from ucm_cts.reference_models.monitor import Monitor
+
+pytestmark = pytest.mark.slow
+
+REQUIREMENTS = {requirement.id: requirement for requirement in load_requirements()}
+INTERPRETATION = {option: entry for entry in load_interpretations() for option in entry.options}
+NOT_CONSULTED: Mapping[str, str] = {}
+"""Options without an effect on the suite, each with the reason."""
+
+
+class Recording(dict[str, str]):
+    """The readings of a statement; it records which options are consulted."""
+
+    def __init__(self, consulted: set[str], readings: Mapping[str, str] = {}) -> None:
+        super().__init__(default_statement().readings | dict(readings))
+        self._consulted = consulted
+
+    def __getitem__(self, option: str) -> str:
+        self._consulted.add(option)
+        return super().__getitem__(option)
+
+    def get(self, option: str, default: str = "") -> str:  # type: ignore[override]
+        self._consulted.add(option)
+        return super().get(option, default)
+
+
+def test_every_option_is_consulted() -> None:
+    consulted: set[str] = set()
+    readings = Recording(consulted)
+    _decide_what_applies(msgspec.structs.replace(default_statement(), readings=readings))
+    compare_models([CORE], readings)
+    _compare_generated_files(consulted)
+    for option in sorted(load_options().keys() - consulted):
+        if _changes_selection(option):
+            consulted.add(option)
+        else:
+            next((True for _ in _judge_traces(option, consulted) if option in consulted), False)
+    assert load_options().keys() - consulted == NOT_CONSULTED.keys()
+
+
+def _decide_what_applies(statement: Statement) -> None:
+    Acceptance(statement, Renaming())
+    purposes_for(statement, "core")
+    for requirement in REQUIREMENTS.values():
+        why_not(requirement, statement)
+
+
+def _compare_generated_files(consulted: set[str]) -> None:
+    """The files of the reference tool chain, then of mutants and variants that declare a reading of an option not yet consulted."""
+    _compare_with_models(reference(), Recording(consulted))
+    for derived in (*mutants().values(), *variants().values()):
+        declared = dict(reading.split("=", 1) for reading in derived.declares)
+        if derived.task == "idl" and declared.keys() - consulted:
+            _compare_with_models(derived.derive(reference()), Recording(consulted, declared))
+
+
+def _compare_with_models(program: Program, readings: Recording) -> None:
+    for name, text in mapping_models().items():
+        model = read_model(text.encode(), name).model
+        compare_idl(expected_idl(model), program.generators["idl"](model), readings)
+        expected_cpp(model, "cpp11", readings)
+        expected_cpp(model, "cpp03", readings)
+
+
+def _changes_selection(option: str) -> bool:
+    """Whether a value of ``option`` selects other test purposes than its first value."""
+    values = load_options()[option]
+    return len({tuple(purpose.id for purpose in load_purposes("core", f"{option}={value}")) for value in values}) > 1
+
+
+def _judge_traces(option: str, consulted: set[str]) -> Iterator[None]:
+    """Judges traces that concern ``option``: of frameworks that declare it, of the reference, and of variants that do not.
+
+    The quick ones come first: traces of test purposes for the requirements that the option belongs to.
+    """
+    entry = INTERPRETATION[option]
+    own = {r.id for r in REQUIREMENTS.values() if entry.id in r.interpretations or r.clause in entry.clauses}
+    mutated = [(m.adapter, m.readings, {*m.requirements}) for m in MUTANTS.values() if option in m.readings]
+    declaring = [(v.adapter, v.readings, own) for v in VARIANTS.values() if option in v.readings]
+    others = [(v.adapter, v.readings, own) for v in variants_of(CONTAINER).values() if option not in v.readings]
+    disguise, payloads, decoder = Disguise(1, "{port}_{element}"), Payloads(1), from_host_decoder()
+    for adapter, declared, requirements in [
+        *mutated,
+        *declaring,
+        (ReferenceAdapter, {}, own),
+        (ReferenceAdapter, {}, set(REQUIREMENTS)),
+        *others,
+    ]:
+        readings = Recording(consulted, declared)
+        monitor, engine = Monitor(load_life_cycle(), Ics(readings)), Engine(adapter)
+        for purpose in load_purposes(entry.profile, *(f"{name}={value}" for name, value in declared.items())):
+            if requirements.intersection(purpose.requirements):
+                scenarios = purpose.draw(1, readings) if purpose.draw else purpose.scenarios
+                for _, plain in scenarios:
+                    scenario = disguise.scenario(payloads.deal(plain))
+                    traced = decoder.decode(engine.answer(encode(Run(0, scenario))))
+                    assert isinstance(traced, Traced)
+                    monitor.judge(scenario, traced.events)
+                    yield
