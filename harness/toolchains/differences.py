@@ -1,4 +1,4 @@
-"""What comparing generated files with a mapping comes to."""
+"""The results of comparing generated files with a mapping."""
 
 from __future__ import annotations
 

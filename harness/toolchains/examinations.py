@@ -1,4 +1,4 @@
-"""What each profile of tool chains asks."""
+"""The examination of each profile of tool chains."""
 
 from __future__ import annotations
 

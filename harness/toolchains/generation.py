@@ -1,4 +1,4 @@
-"""The examination of the profiles that generate: legal models, and whether the files made of them hold what the mapping says."""
+"""The examination of the profiles that generate: compares files generated from legal models with the mapping."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which refused legal models show a defect of their own?
+"""Finds the refused legal models that show a defect of their own.
 
 One defect makes a tool chain refuse every model with a certain construct. Only the simplest of those models counts; the others share
 with it a construct that no accepted model has.

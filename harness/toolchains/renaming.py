@@ -1,7 +1,7 @@
 """Models as a tool chain gets them: in the spelling of its vendor, with names that are drawn anew for each run.
 
 Names get an ending that depends on the name and the run's seed, wherever they stand: a tool chain that knows the suite's models by heart
-knows none of them, and a name without declaration looks like any other. What is looked up by its printed name keeps it.
+knows none of them, and a name without declaration does not stand out. What is known by its printed name keeps it.
 """
 
 from __future__ import annotations

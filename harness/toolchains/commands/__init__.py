@@ -1,1 +1,1 @@
-"""A tool chain's commands: how its vendor describes them, and how they are run within limits."""
+"""A tool chain's commands: their description by the vendor, and their execution within limits."""

@@ -1,4 +1,4 @@
-"""Runs one command within limits of time, memory and output, whatever it does."""
+"""Runs one command within limits of time, memory and output."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from typing import Protocol
 
 from ucm_cts.harness.results.values import Incident
 
-_LOOK_SECONDS = 0.05
+_SAMPLE_SECONDS = 0.05
 _PAGE = os.sysconf("SC_PAGE_SIZE")
 _MIB = 1 << 20
 
@@ -35,7 +35,13 @@ class Limits(Protocol):
 
 @dataclass(frozen=True)
 class Ended:
-    """How a run ended: ``status`` is None if it was not to be run or went beyond a limit, which ``incident`` names."""
+    """The end of a run.
+
+    ``status``: the exit status; None if the command could not be run or exceeded a limit.
+    ``output``: what it printed.
+    ``errors``: what it printed as errors, if these are kept apart.
+    ``incident``: the limit that it exceeded, or why it could not be run.
+    """
 
     status: int | None
     output: str
@@ -44,7 +50,7 @@ class Ended:
 
     @property
     def problem(self) -> str:
-        """Which limit it went beyond, or why it was not run; empty if it ended by itself."""
+        """The limit that it exceeded, or why it could not be run; empty if it ended by itself."""
         return self.incident.detail if self.incident else ""
 
 
@@ -58,11 +64,18 @@ def run(
     apart: bool = False,
     environment: Mapping[str, str] | None = None,
 ) -> Ended:
-    """Run ``words`` in ``folder`` in a process group of its own, of which no process is left afterwards, nor any that has left the
-    group and still has the environment it began with. One that leaves the group and its environment both is not found.
+    """Run a command in a process group of its own, and end all its processes afterwards.
 
-    Of what it prints the first ``kept`` bytes are told, and more than ``flood`` end it. With ``apart`` errors are told
-    apart from output. Never raises for what the command does.
+    A process that has left the group is found by its environment; one that has left both is not. Never raises for what
+    the command does.
+
+    ``words``: the command and its arguments.
+    ``folder``: the working directory.
+    ``limits``: the time and memory that it may use.
+    ``kept``: the bytes of output that are returned, from the first.
+    ``flood``: the bytes of output that end the run.
+    ``apart``: whether errors are returned apart from output.
+    ``environment``: the environment; that of this process if None.
     """
     mark = secrets.token_hex(16)
     try:
@@ -78,23 +91,23 @@ def run(
     except OSError as error:
         return Ended(None, "", incident=Incident("unreachable", f"{words[0]} cannot be run: {error.strerror}"))
     with process:
-        watch = _Watch(process, limits, kept, flood)
+        supervisor = _Supervisor(process, limits, kept, flood)
         try:
-            incident = watch.until_the_end()
+            incident = supervisor.until_the_end()
         finally:
             with suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
             status = process.wait()
             _end_strays(process.pid, mark)
-    return Ended(status if incident is None else None, *watch.told, incident)
+    return Ended(status if incident is None else None, *supervisor.printed, incident)
 
 
-class _Watch:
+class _Supervisor:
     def __init__(self, process: subprocess.Popen[bytes], limits: Limits, kept: int, flood: int) -> None:
         self._process, self._limits = process, limits
         self._kept, self._flood, self._total = kept, flood, 0
-        self._looked = time.monotonic()
-        self._deadline = self._looked + limits.seconds
+        self._sampled = time.monotonic()
+        self._deadline = self._sampled + limits.seconds
         self._poll = select.poll()
         streams = [stream for stream in (process.stdout, process.stderr) if stream is not None]
         self._texts = {stream.fileno(): bytearray() for stream in streams}
@@ -103,7 +116,7 @@ class _Watch:
             self._poll.register(source, select.POLLIN)
 
     @property
-    def told(self) -> tuple[str, str]:
+    def printed(self) -> tuple[str, str]:
         """Output and errors."""
         texts = [text.decode(errors="replace") for text in self._texts.values()]
         return texts[0], texts[1] if len(texts) > 1 else ""
@@ -116,7 +129,7 @@ class _Watch:
                 return Incident("flood", f"more than {self._flood // _MIB} MiB of output")
             if time.monotonic() > self._deadline:
                 return Incident("hang", f"no end after {self._limits.seconds:g} s")
-            if self._is_fat():
+            if self._exceeds_memory():
                 return Incident("memory", f"more than {self._limits.memory} MiB of memory")
         return None
 
@@ -127,9 +140,9 @@ class _Watch:
     def _read(self) -> None:
         if not self._open:
             with suppress(subprocess.TimeoutExpired):
-                self._process.wait(_LOOK_SECONDS)
+                self._process.wait(_SAMPLE_SECONDS)
             return
-        for source, _ in self._poll.poll(_LOOK_SECONDS * 1000):
+        for source, _ in self._poll.poll(_SAMPLE_SECONDS * 1000):
             chunk = os.read(source, 1 << 16)
             self._total += len(chunk)
             text = self._texts[source]
@@ -138,11 +151,11 @@ class _Watch:
                 self._poll.unregister(source)
                 self._open.remove(source)
 
-    def _is_fat(self) -> bool:
+    def _exceeds_memory(self) -> bool:
         now = time.monotonic()
-        if now < self._looked + _LOOK_SECONDS:
+        if now < self._sampled + _SAMPLE_SECONDS:
             return False
-        self._looked = now
+        self._sampled = now
         return _resident(self._process.pid) > self._limits.memory * _MIB
 
 
@@ -150,7 +163,7 @@ _MARK = "UCM_CTS_RUN"
 """The variable in the environment by which all processes of a run are known."""
 
 _ROUNDS = 50
-"""How often strays are looked for that start others while they are ended."""
+"""How many times strays are searched for, because they may start others while they are ended."""
 
 
 def _end_strays(first: int, mark: str) -> None:
@@ -175,7 +188,7 @@ def _since(first: int) -> Iterator[int]:
 
 
 def _environment_of(number: int) -> list[bytes]:
-    """With what environment a process began; nothing if it is gone or somebody else's."""
+    """The initial environment of a process; empty if it has ended or belongs to another user."""
     with suppress(OSError), open(f"/proc/{number}/environ", "rb") as stream:
         return stream.read().split(b"\0")
     return []
@@ -196,7 +209,7 @@ def own_folder() -> Iterator[Path]:
 
 
 def _resident(group: int) -> int:
-    """Bytes that all processes of the group hold together, as far as the system tells."""
+    """Bytes that all processes of the group hold together, as far as the system reports."""
     used = 0
     for entry in os.scandir("/proc"):
         if entry.name.isdecimal():

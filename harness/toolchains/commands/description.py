@@ -29,13 +29,17 @@ LARGEST = 256 * 1024
 
 
 class Command(Value, frozen=True):
-    """How one task is done: ``command`` holds ``{model}`` and, for generators, ``{out}``, an empty folder. A checker that takes
-    several models at once, each for itself, has ``{models}`` instead, and names the file in each diagnostic.
+    """How one task is done. The last five fields are for C++ only.
 
-    ``refuses`` are the exit statuses that mean that the model is refused; 0 means that it is accepted, and any other is a failure of
-    the tool. ``diagnostic`` is a regular expression with a group ``line`` and, for several models, ``file``. ``compiler``, ``include`` (folders below
-    ``{out}``), ``headers`` and ``sources`` (patterns below ``{out}``; None leaves it to the linker which are needed) and
-    ``libraries`` (words for the linker that follow) are for C++ only.
+    ``command``: words with ``{model}`` and, for generators, ``{out}``, an empty folder. A checker that takes several models
+    in one call has ``{models}`` instead, and names the file in each diagnostic.
+    ``refuses``: exit statuses of a refused model; 0 means accepted, any other is a failure of the tool.
+    ``diagnostic``: a regular expression with a group ``line`` and, for several models, ``file``.
+    ``compiler``: the compiler and its options; empty for the default one.
+    ``include``: folders of headers below ``{out}``.
+    ``headers``: patterns of headers below ``{out}``.
+    ``sources``: patterns of source files below ``{out}``; None leaves the choice to the linker.
+    ``libraries``: words for the linker that follow.
     """
 
     command: tuple[str, ...]
@@ -49,7 +53,16 @@ class Command(Value, frozen=True):
 
 
 class ToolChain(Value, frozen=True):
-    """A product, its commands, and how it spells models. ``seconds`` and ``memory`` (MiB, resident) limit each call."""
+    """A product, its commands, and its spelling of models.
+
+    ``product``, ``version``: the product.
+    ``check``, ``idl``, ``cpp11``, ``cpp03``: the command of each task; None if the product does not have it.
+    ``dialect``: its spelling of models.
+    ``seconds``: the time that each call may take.
+    ``memory``: the MiB of resident memory that each call may use.
+    ``folder``: the folder of the description.
+    ``source``: the file of the description.
+    """
 
     product: str
     version: str
@@ -80,7 +93,7 @@ class ToolChain(Value, frozen=True):
 
 
 def read_toolchain(path: Path) -> ToolChain:
-    """The tool chain that the file at ``path`` describes. Raises ``DocumentError`` for whatever is wrong with it."""
+    """The tool chain that the file at ``path`` describes. Raises ``DocumentError``."""
     if path.exists() and not path.is_file():
         raise DocumentError(path, None, "is no plain file; give the name of a file that describes the tool chain")
     document, lines = read_toml(path, LARGEST)
@@ -117,7 +130,7 @@ _OF_CPP = ("compiler", "include", "headers", "sources", "libraries")
 
 
 def _check_keys(path: Path, document: dict[str, Any], lines: dict[str, int]) -> None:
-    """Tell keys that mean nothing, and commands that are no lists, before their values are read."""
+    """Refuse unknown keys, and commands that are no lists, before their values are read."""
     kinds: dict[str, type[msgspec.Struct]] = {
         **dict.fromkeys(("check", "idl", "cpp11", "cpp03"), Command),
         "dialect": Dialect,
@@ -155,7 +168,7 @@ def _check_lists(path: Path, prefix: str, table: dict[str, Any], lines: dict[str
 
 
 def _check_dialect(path: Path, dialect: Dialect, lines: dict[str, int]) -> None:
-    """Whatever a dialect spells otherwise must be spelled by clause 9 in the first place."""
+    """A dialect may only give other spellings to what clause 9 spells."""
     attributes = {name for spelling in SPELLINGS.values() for name in spelling.attributes}
     tags = {spelling.tag for spelling in SPELLINGS.values()}
     words = {word for spelling in SPELLINGS.values() for known in spelling.literals.values() for word in known.values()}
@@ -248,7 +261,7 @@ def _check(path: Path, task: Task, command: Command | None, lines: dict[str, int
 def program(toolchain: ToolChain, command: Command) -> list[str]:
     """The words of ``command`` with the program as the operating system finds it.
 
-    A program with a slash is looked for below the description's folder, any other on the path and beside this Python. Raises
+    A program with a slash is searched below the description's folder, any other on the path and beside this Python. Raises
     ``DocumentError`` if there is none, or no compiler that is named.
     """
     compiler = command.compiler[0] if command.compiler else None

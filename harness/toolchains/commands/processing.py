@@ -25,7 +25,7 @@ _FILES = 2_000
 _FILES_BYTES = 64 << 20
 _ENTRIES = 20_000
 _DEEPEST = 50
-"""Levels of folders below the folder for files that are looked into."""
+"""The greatest depth of folders whose files are read."""
 
 
 @dataclass(frozen=True)
@@ -167,7 +167,7 @@ class InProcess:
 
 
 def named_lines(output: str, diagnostic: str, model: str) -> frozenset[int]:
-    """The lines of ``model`` that ``output`` names; numbers beside the name of another file are of no interest."""
+    """The lines of ``model`` that ``output`` names; numbers beside the name of another file do not count."""
     last = model.count("\n") + 1
     lines: set[int] = set()
     for match in re.finditer(diagnostic, output[:_OUTPUT], re.MULTILINE):

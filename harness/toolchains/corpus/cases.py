@@ -39,7 +39,7 @@ class Case(Value, frozen=True):
 
 @functools.cache
 def load_cases() -> tuple[Case, ...]:
-    """All cases, file by file. Raises ``DocumentError`` for whatever is wrong with one of them."""
+    """All cases, file by file. Raises ``DocumentError``."""
     return tuple(case for path in sorted(CASES.glob("*.yaml")) for case in read_cases(path))
 
 

@@ -1,4 +1,4 @@
-"""What holds of reading whatever comes, and a command that tries it for as long as one likes:
+"""Properties of reading any input, and a command that tests them for a given time:
 ``python -m ucm_cts.harness.toolchains.fuzzing --seconds 3600``.
 """
 
@@ -23,7 +23,7 @@ from ucm_cts.harness.toolchains.corpus import strategies
 from ucm_cts.harness.toolchains.corpus.schema import violations
 
 LONGEST_MESSAGE = 1000
-"""Characters that a problem may be told in."""
+"""Characters that a message may hold."""
 
 A_ROUND = 500
 

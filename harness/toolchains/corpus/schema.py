@@ -1,4 +1,4 @@
-"""Our schema of UCM models: is a model in canonical spelling built as clause 9 says, whatever its names refer to?"""
+"""The schema of UCM models: checks the structure of a model in canonical spelling against clause 9, without its references."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def schema() -> etree.XMLSchema:
 
 @functools.cache
 def second_opinion() -> xmlschema.XMLSchema10:
-    """The same schema as xmlschema understands it, which is slow, and tells more."""
+    """The same schema as xmlschema understands it, which is slow, and says more."""
     return xmlschema.XMLSchema10(str(SCHEMA))
 
 

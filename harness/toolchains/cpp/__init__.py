@@ -1,1 +1,1 @@
-"""Are generated C++ headers what clause 13 says? A compiler decides; libclang lists what it cannot see."""
+"""Checks generated C++ headers against clause 13: with a compiler, and with libclang for what a compiler cannot show."""

@@ -1,4 +1,4 @@
-"""From a model and the files that were made of it to what they come to under clause 13."""
+"""Compares the files generated from a model with what clause 13 asks for."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def compare(
 ) -> Comparison:
     """Hold ``files``, texts by name, against what ``model`` becomes in C++.
 
-    ``layout`` says which of them are headers, where headers are looked for, and what is linked. Raises ``NoCompiler``.
+    ``layout`` says which of them are headers, where headers are searched, and what is linked. Raises ``NoCompiler``.
     """
     headers = tuple(name for name in sorted(files) if any(matches(name, pattern) for pattern in layout.headers))
     expected = expected_cpp(model, standard, readings)

@@ -1,4 +1,4 @@
-"""Runs a compiler, or what it made, within limits of time, memory and output, and reads what it says about which line."""
+"""Runs a compiler, or a compiled program, within limits of time, memory and output, and reads its messages line by line."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _LIMITED = 'ulimit -v "$0"; ulimit -f "$1"; ulimit -c 0; ulimit -s "$(ulimit -H 
 
 
 class Compiler(Value, frozen=True):
-    """The compiler that decides: ``command`` is its name and whatever it needs, such as folders of headers.
+    """The compiler: ``command`` is its name and its options, such as folders of headers.
 
     ``seconds`` is how long one run may take, ``memory`` how many MiB.
     """
@@ -45,7 +45,7 @@ class Error:
 
 
 class Layout(Value, frozen=True):
-    """Where generated files are: ``include`` are the folders where headers are looked for, ``headers`` patterns of those that a
+    """Where generated files are: ``include`` are the folders where headers are searched, ``headers`` patterns of those that a
     user includes, and ``sources`` patterns of files that are linked, None for those that are found to be needed. ``libraries``
     are words for the linker that follow.
     """
@@ -70,7 +70,7 @@ class Headers:
 
     @property
     def options(self) -> list[str]:
-        """What tells the compiler about the folders."""
+        """The options that name the folders."""
         return [word for below in self.layout.include for word in ("-I", str(self.folder / below))]
 
     def include(self, name: str) -> str:

@@ -1,4 +1,4 @@
-"""What headers under test must not know: the names that probes give to what is theirs, drawn anew for each compilation."""
+"""Random names of probes for each compilation, so that headers under test cannot know them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a program is linked with: the source files beside generated headers, and libraries of the vendor."""
+"""Links a program with the source files beside generated headers, and with libraries of the vendor."""
 
 from __future__ import annotations
 

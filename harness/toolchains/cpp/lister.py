@@ -1,4 +1,4 @@
-"""Looks at declarations with libclang: a program of its own, because headers can make libclang take all time and memory.
+"""Lists declarations with libclang, in a process of its own, because headers can make libclang take all time and memory.
 
 It is given the name of a file with a ``Request`` and prints ``Answers``; ``listing`` runs it within limits.
 """

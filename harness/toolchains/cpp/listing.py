@@ -1,4 +1,4 @@
-"""Has headers read by libclang, for what no probe can see: what is there that should not be.
+"""Has headers read by libclang, to find declarations that should not be there, which no probe can find.
 
 What is asked about is found as user code finds it: the compiler resolves a name. Nothing is judged, and that is said, where
 libclang cannot be used, does not understand the headers, or does not end within the limits of a compiler.

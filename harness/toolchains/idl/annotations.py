@@ -212,8 +212,8 @@ def numbered(vendor: Vendor, fact: Numbered) -> list[Wrong]:
         before = previous[key]
         next_ = {position[key]}
         if before is not None:
-            told = [v for n, v in wanted.items() if n.lower() == before.name.lower()]
-            next_ |= {v + 1 for v in told if annotated}
+            due = [v for n, v in wanted.items() if n.lower() == before.name.lower()]
+            next_ |= {v + 1 for v in due if annotated}
         next_ = set() if declared else next_
         if value not in ({number} if number is not None else next_):
             observed = "nothing that tells it" if number is None else str(number)

@@ -45,7 +45,7 @@ def compare(
     """Compare the vendor's ``files`` (name to text) with what is ``expected`` of them under the ``readings`` declared.
 
     ``readings`` maps options of ``suite/interpretations`` to values; what is not named counts as its first value.
-    ``second_opinion`` says whether files are IDL in which nothing else is wrong. Never raises for whatever the files hold.
+    ``second_opinion`` says whether files are IDL in which nothing else is wrong. Never raises.
     """
     read = read_files(files)
     vendor = Vendor(build(read.declarations), expected, readings, bool(read.problems), bool(read.missing))
@@ -67,7 +67,7 @@ def compare(
             exercised[requirement] = exercised.get(requirement, 0) + 1
         differences += found
     remarks: tuple[str, ...] = ()
-    if second_opinion is not None and not differences:  # what is wrong already is told, and often why omniidl complains
+    if second_opinion is not None and not differences:  # omniidl often complains about what is reported already
         second = second_opinion(files)
         differences += [
             _about_files("R-12.1-03", Wrong("IDL", f"omniidl: {one.text}", Place(one.file, one.line)))
@@ -95,7 +95,7 @@ def _difference(fact: Expected, wrong: Wrong) -> Difference:
 
 
 def _of_files(vendor: Vendor, read: Files, exercised: dict[str, int]) -> Iterator[Difference]:
-    """What can be said of the files by themselves, whatever the model."""
+    """What holds of the files for any model."""
     if not read.declarations and not read.problems:
         return
     exercised["R-12.1-03"] = exercised["R-12.1-02"] = 1

@@ -293,4 +293,4 @@ FACTS: Mapping[type[exp.Expected], Callable[[Vendor, Any], list[Wrong]]] = {
     exp.Indexed: indexed,
     exp.Defaulted: defaulted,
 }
-"""Looks at one expectation; raises ``NotExercised`` if what it is about is not there."""
+"""Checks one expectation; raises ``NotExercised`` if its subject is absent."""

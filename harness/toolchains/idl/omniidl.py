@@ -1,4 +1,4 @@
-"""A second opinion on generated IDL: omniidl, where it is installed and knows all that the files use.
+"""Compiles generated IDL with omniidl as well, where it is installed and knows all that the files use.
 
 omniidl knows neither annotations, which are blanked in place, nor template modules, nor IDL 4's names of integers.
 """

@@ -1,4 +1,4 @@
-"""What one check of IDL finds."""
+"""The results of one check of IDL."""
 
 from __future__ import annotations
 

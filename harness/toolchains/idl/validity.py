@@ -1,4 +1,4 @@
-"""Whether files that can be parsed are IDL: nothing is declared twice, every name means something, no other building blocks."""
+"""Checks parsed IDL: no declaration twice, each name declared, no other building blocks."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _names(vendor: Vendor, entry: Entry) -> Iterator[str]:
 
 
 def _selector(scope: Scope) -> Entry | None:
-    """The enumeration that tells the cases of a union apart: its enumerators may stand in the cases without their scope."""
+    """The enumeration that selects the cases of a union: its enumerators may stand in the cases without their scope."""
     union = scope.owner
     if union is None or not isinstance(union.declaration, idl.Union):
         return None

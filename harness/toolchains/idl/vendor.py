@@ -1,4 +1,4 @@
-"""A vendor's IDL beside what is expected of it: which declaration is meant, and whether types mean the same."""
+"""A vendor's IDL and the expectations of it: finds the declaration of a path, and compares types by meaning."""
 
 from __future__ import annotations
 

@@ -125,7 +125,7 @@ def _at(root: etree._Element, place: str) -> etree._Element:
 
 
 def _surroundings(element: etree._Element) -> tuple[str, ...]:
-    """What tells places apart: the kinds of what is around and inside an element."""
+    """The kinds of elements around and inside an element, by which places differ."""
     around = (str(e.tag) for e in element.iterancestors())
     inside = sorted({str(e.tag) for e in element.iterdescendants()})
     return (*around, "/", *inside)

@@ -1,1 +1,1 @@
-"""What clause 13 makes of a model: C++ declarations as data, each with its requirement and the element that it comes from."""
+"""The mapping of clause 13: C++ declarations as data, each with its requirement and its element of the model."""

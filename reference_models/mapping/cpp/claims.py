@@ -51,7 +51,7 @@ class Is(_OfTypes, frozen=True):
 
 
 class ArrayOf(_OfName, frozen=True):
-    """``name`` is ``template`` of ``element``, as deep as there are ``sizes``, whatever these are."""
+    """``name`` is ``template`` of ``element``, nested ``depth`` times."""
 
     template: str
     element: str
@@ -273,7 +273,7 @@ class Implemented(_OfOwner, frozen=True):
 
 
 class InheritsElement(_OfOwner, frozen=True):
-    """``owner`` derives from PortElementObject, wherever that is declared."""
+    """``owner`` derives from PortElementObject, in any namespace."""
 
 
 # claims about components

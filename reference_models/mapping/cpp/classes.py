@@ -1,4 +1,4 @@
-"""What claims about C++ speak of: classes, what they consist of, and values to try them with."""
+"""The subjects of claims about C++: classes, their members, and values to test them with."""
 
 from __future__ import annotations
 
@@ -31,7 +31,12 @@ Class = Named | Returned | Connected
 
 
 class Sample(Value, frozen=True):
-    """Two different values of ``type`` as C++ expressions; ``comparable`` if ``==`` tells them apart."""
+    """Two different values of a type.
+
+    ``type``: the type.
+    ``first``, ``second``: C++ expressions of the values.
+    ``comparable``: whether the type has ``==``.
+    """
 
     type: str
     first: str
@@ -83,11 +88,16 @@ class Connection(Value, frozen=True):
 
 
 class Abstract(Value, frozen=True):
-    """What a class that user code implements consists of, with all that it inherits; ``key`` is unique in the model.
+    """A class that user code implements, with inherited members.
 
-    The first so many ``methods`` are ``inherited``.
-    Components have ``life_cycle``; ``startup`` lists what it is connected to, ``more`` what policies may add to that.
-    ``owner`` is the class of a component.
+    ``key``: its key, unique in the model.
+    ``methods``: its member functions, inherited ones first.
+    ``getters``: the functions that return its port elements.
+    ``life_cycle``: whether it has the life cycle of a component.
+    ``startup``: the connections that a component is started with.
+    ``more``: types of connections that policies may add.
+    ``inherited``: the number of inherited ``methods``.
+    ``owner``: the class of a component, empty for interfaces.
     """
 
     key: str

@@ -20,7 +20,7 @@ from ucm_cts.reference_models.mapping.cpp.interfaces import (
 )
 
 LANGUAGES = ("c++", "cpp")
-"""How names of languages begin that this mapping is for, whatever their case; 9.4.4.2 leaves the names to the vendor."""
+"""The beginnings of the names of languages of this mapping, in any case; 9.4.4.2 leaves the names to the vendor."""
 
 LIFE_CYCLE = {"on_init": "R-13.7-05", "on_shutdown": "R-13.7-06", "on_remove": "R-13.7-07"}
 

@@ -341,7 +341,7 @@ def _constant_token(token: str, type_: Declared, declared: Declared, context: Co
 
 
 def exceptions(context: Context) -> Iterator[Expected]:
-    """All that is said of exceptions (13.4), and of their roots wherever there is one."""
+    """The expectations of exceptions (13.4), and of their roots if there is an exception."""
     roots = False
     for declared in context.declared:
         element = declared.element

@@ -1,1 +1,1 @@
-"""What clause 12 makes of a model: declarations, and the requirements that ask for them."""
+"""The mapping of clause 12: the declarations that it asks for, with their requirements."""

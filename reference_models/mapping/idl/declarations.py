@@ -1,6 +1,6 @@
-"""Declarations of IDL as values: what a file of IDL says, and in what a model's mapping is told.
+"""Declarations of IDL as values, for the contents of IDL files and for expectations of them.
 
-Names in types are scoped names as they are written, ``::`` in front if they begin at the root. Nothing here knows what a name means.
+Names in types are scoped names as they are written, ``::`` in front if they begin at the root. Names are not resolved here.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ class Annotation(msgspec.Struct, frozen=True):
 
 
 class Declaration(msgspec.Struct, frozen=True, kw_only=True):
-    """Whatever has a name. A leading underscore, which only escapes keywords, is not part of it."""
+    """Anything with a name. A leading underscore, which only escapes keywords, is not part of it."""
 
     name: str
     annotations: tuple[Annotation, ...] = ()
@@ -158,7 +158,7 @@ class Case(Declaration, frozen=True, kw_only=True):
 
 
 class Union(Declaration, frozen=True, kw_only=True):
-    """``selector`` tells which case holds."""
+    """``selector`` is the type of the values that select a case."""
 
     selector: Type
     cases: tuple[Case, ...] = ()
@@ -211,7 +211,7 @@ class Attribute(Declaration, frozen=True, kw_only=True):
 
 
 class Interface(Declaration, frozen=True, kw_only=True):
-    """``bases`` are scoped names; ``body`` holds operations and attributes, and whatever else is declared inside."""
+    """``bases`` are scoped names; ``body`` holds all declarations inside."""
 
     bases: tuple[str, ...] = ()
     body: tuple[Declaration, ...] = ()
@@ -234,7 +234,7 @@ class AnnotationDefinition(Declaration, frozen=True, kw_only=True):
 
 
 class Extended(Declaration, frozen=True, kw_only=True):
-    """A declaration of another building block, told by its first keyword: component, connector, porttype or valuetype."""
+    """A declaration of another building block, named by its first keyword: component, connector, porttype or valuetype."""
 
     kind: str
 

@@ -1,4 +1,4 @@
-"""What a vendor's IDL must show: one value for each thing that a requirement asks of one element of a model.
+"""Expectations of a vendor's IDL, one for each demand of a requirement on one element of a model.
 
 A ``path`` is where a declaration stands, from the root, in the names of the model: hyphens are still there. Types name what they
 mean by such paths (``::m::t``); a path of an abstract type stands for the parameter of a template.
@@ -76,7 +76,7 @@ class Means(Expected, frozen=True, kw_only=True):
 
 
 class Selects(Expected, frozen=True, kw_only=True):
-    """The union is told apart by ``type``."""
+    """The selector of the union has the type ``type``."""
 
     type: Type
 
@@ -116,9 +116,13 @@ class Raises(Expected, frozen=True, kw_only=True):
 
 
 class Only(Expected, frozen=True, kw_only=True):
-    """The interface has no ``kind`` (operation, attribute), not even inherited, beyond these names, those that end with
-    ``tolerated``, those that one of the ``patterns`` fits, in which ``*`` stands for any part of a name, and all that is in
-    ``ancestors``, which are all that the model has.
+    """The interface has no other operations or attributes, not even inherited ones.
+
+    ``kind``: operation or attribute.
+    ``names``: the permitted names.
+    ``tolerated``: permitted ends of names.
+    ``patterns``: patterns of permitted names, with ``*`` for any part.
+    ``ancestors``: all interfaces that the model lets it inherit from; what they have is permitted.
     """
 
     kind: str
@@ -129,7 +133,7 @@ class Only(Expected, frozen=True, kw_only=True):
 
 
 class Inherits(Expected, frozen=True, kw_only=True):
-    """The interface inherits, directly or not, from ``base``; a base of one name is looked for in any module."""
+    """The interface inherits, directly or not, from ``base``; a base of one name may stand in any module."""
 
     base: Path
 
@@ -148,7 +152,7 @@ class Valued(Expected, frozen=True, kw_only=True):
 
 
 class Numbered(Expected, frozen=True, kw_only=True):
-    """The value of each enumerator can be told: from an annotation, or from its position if there is none."""
+    """Each enumerator has its value: by an annotation, or by its position if there is none."""
 
     values: tuple[tuple[str, int], ...]
 
@@ -196,11 +200,14 @@ class Signature(msgspec.Struct, frozen=True):
 
 
 class Getter(Expected, frozen=True, kw_only=True):
-    """The interface at ``path``, or the one at ``otherwise`` if it is not there, has this operation, maybe inherited.
+    """The interface at ``path`` has this operation, itself or by inheritance.
 
-    ``aspect`` says what of it is asked: presence, arguments or result. ``names`` are alternatives; in them ``*`` stands for any part
-    of a name. The result is ``returns``, or if there are ``signatures`` any interface that has these operations. Unless ``needed``
-    nothing is wrong without it.
+    ``aspect``: what is expected of it: presence, arguments or result.
+    ``names``: alternative names, with ``*`` for any part.
+    ``returns``: the type of the result.
+    ``otherwise``: the interface that has it if there is none at ``path``.
+    ``signatures``: if given, the result may be any interface with these operations.
+    ``needed``: whether it must be there.
     """
 
     aspect: str
@@ -229,10 +236,15 @@ class Abstract(msgspec.Struct, frozen=True):
 
 
 class ExpectedIdl(msgspec.Struct, frozen=True):
-    """All that is expected of a model: ``types`` says what data types with a typedef are other names of, by path."""
+    """All that is expected of a model.
+
+    ``facts``: the expectations.
+    ``types``: the types that data types with a typedef rename, by path.
+    ``abstract``: the abstract types, by path.
+    ``unmapped``: data types without a mapping in clause 12; what refers to them is not judged.
+    """
 
     facts: tuple[Expected, ...]
     types: dict[Path, Type]
     abstract: dict[Path, Abstract]
     unmapped: frozenset[Path] = frozenset()
-    """Data types that clause 12 says nothing of; what refers to them is not judged."""

@@ -1,4 +1,4 @@
-"""What every part of the mapping needs: an element of a model with its scope, and what references in it mean as types of IDL."""
+"""Elements of a model with their scopes, and their references as types of IDL."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ INTERFACES = (c.Interface, c.AbstractInterface)
 
 
 class Subject(NamedTuple):
-    """An element that facts are told of, and the scope in which its references are looked up."""
+    """An element with expectations, and the scope of its references."""
 
     element: Named
     scope: Scope

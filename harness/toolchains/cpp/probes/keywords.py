@@ -1,4 +1,4 @@
-"""Macros of headers must not change what probes mean: keywords that they redefine are told, and none is left when probes begin."""
+"""Keeps macros of headers from changing probes: reports keywords that they redefine, and removes them before the probes."""
 
 from __future__ import annotations
 

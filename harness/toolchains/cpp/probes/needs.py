@@ -1,4 +1,4 @@
-"""What a claim is about: where headers speak of it, and whether it says nothing any more once another one has failed."""
+"""The subject of a claim: where headers declare it, and which failed claims make others meaningless."""
 
 from __future__ import annotations
 

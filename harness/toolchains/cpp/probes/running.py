@@ -1,4 +1,4 @@
-"""Holds generated headers against what clause 13 makes of a model: one translation unit of probes, compiled and run."""
+"""Compares generated headers with the claims of a model: compiles and runs one translation unit of probes."""
 
 from __future__ import annotations
 

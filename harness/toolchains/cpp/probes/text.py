@@ -1,4 +1,4 @@
-"""Pieces of a translation unit that all probes are made of, and their words in messages."""
+"""The parts of a translation unit that probes share, and their names in messages."""
 
 from __future__ import annotations
 

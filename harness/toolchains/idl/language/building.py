@@ -97,7 +97,7 @@ class Builder(Transformer[Any, Any]):
         self.reserved: Token | None = None
 
     def begin(self, file: str) -> None:
-        """Whatever comes stands in ``file``."""
+        """The declarations that follow stand in ``file``."""
         self._file = file
         self.reserved = None
 

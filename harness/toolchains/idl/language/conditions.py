@@ -1,4 +1,4 @@
-"""What stands after #if: whole numbers and operators as in C++, and whether macros are defined."""
+"""Evaluates conditions after #if: whole numbers and operators as in C++, and whether macros are defined."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ REST = "__VA_ARGS__"
 
 
 class Refused(Exception):
-    """Macros that cannot be replaced; the message tells why."""
+    """Macros that cannot be replaced; the message says why."""
 
 
 @dataclass(frozen=True)

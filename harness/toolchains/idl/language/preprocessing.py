@@ -1,4 +1,4 @@
-"""What the preprocessor leaves of files of IDL: no comments, no directives, no branch that is not taken, and macros replaced.
+"""The preprocessor of IDL: removes comments, directives and branches that are not taken, and replaces macros.
 
 Each line stays where it was. A file is seen as it is where it is included first; one that none includes stands for itself.
 """

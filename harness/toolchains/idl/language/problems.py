@@ -19,7 +19,7 @@ class Problem:
 
 
 class NotIdl(Exception):
-    """A text that is not IDL; ``problem`` tells why."""
+    """A text that is not IDL; ``problem`` says why."""
 
     def __init__(self, problem: Problem) -> None:
         super().__init__(str(problem))

@@ -119,7 +119,7 @@ def _parsed(text: str, file: str, start: str) -> tuple[Declaration, ...] | Expre
     try:
         parsed: tuple[Declaration, ...] | Expression = parser.parse(text, start=start)  # type: ignore[assignment]
     except UnexpectedInput as error:
-        raise NotIdl(_told(error, text, file)) from None
+        raise NotIdl(_problem_of(error, text, file)) from None
     if builder.reserved is not None:
         word = builder.reserved
         raise NotIdl(
@@ -128,7 +128,7 @@ def _parsed(text: str, file: str, start: str) -> tuple[Declaration, ...] | Expre
     return parsed
 
 
-def _told(error: UnexpectedInput, text: str, file: str) -> Problem:
+def _problem_of(error: UnexpectedInput, text: str, file: str) -> Problem:
     if isinstance(error, UnexpectedToken) and error.token.type != "$END":
         met = f"'{error.token[:40]}'"
     elif isinstance(error, UnexpectedCharacters):

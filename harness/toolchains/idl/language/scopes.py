@@ -13,7 +13,7 @@ MOST_STEPS = 100
 
 @dataclass(eq=False)
 class Scope:
-    """What declares names: the root, a module, an interface, an operation, or whatever has members."""
+    """What declares names: the root, a module, an interface, an operation, or anything with members."""
 
     around: Scope | None = None
     owner: Entry | None = None
@@ -34,7 +34,7 @@ class Scope:
 @dataclass(eq=False)
 class Entry:
     """A declaration where it stands; ``inner`` is the scope that it opens, if it does. ``followed`` is set while the template of
-    an instance is looked for, lest that lead in a circle.
+    an instance is searched, to end circles.
     """
 
     declaration: idl.Declaration

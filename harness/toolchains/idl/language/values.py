@@ -1,4 +1,4 @@
-"""What expressions of IDL are worth."""
+"""Evaluates expressions of IDL."""
 
 from __future__ import annotations
 
