@@ -14,6 +14,9 @@ from ucm_cts.adapters.contract.value import Int32, Int64, Value
 PortElementName = Annotated[str, Names("port element")]
 """How a port element is spelled at the Container API, ``<port>_<element>`` unless the adapter says otherwise."""
 
+MethodName = Annotated[str, Names("method")]
+Payload = Annotated[Int32, Names("payload")]
+
 
 class RaiseError(Value, frozen=True, tag_field="do", tag="raise"):
     """The probe leaves the hook with an exception that no interface declares."""
@@ -25,7 +28,7 @@ class ReturnValue(Value, frozen=True, tag_field="do", tag="return"):
     ``value``: the value.
     """
 
-    value: Int32
+    value: Payload
 
 
 class CallPort(Value, frozen=True, tag_field="do", tag="call"):
@@ -36,7 +39,7 @@ class CallPort(Value, frozen=True, tag_field="do", tag="call"):
     """
 
     port: PortElementName
-    value: Int32
+    value: Payload
 
 
 class HoldAtGate(Value, frozen=True, tag_field="do", tag="hold"):
@@ -45,7 +48,7 @@ class HoldAtGate(Value, frozen=True, tag_field="do", tag="hold"):
     ``gate``: name of the gate.
     """
 
-    gate: str
+    gate: Annotated[str, Names("gate")]
 
 
 class QuerySiblings(Value, frozen=True, tag_field="do", tag="siblings"):
@@ -61,7 +64,7 @@ class CallMethod(Value, frozen=True, tag_field="do", tag="call_method"):
     """
 
     port: PortElementName
-    method: str
+    method: MethodName
     arguments: tuple[Datum, ...] = ()
 
 
@@ -74,7 +77,7 @@ class Answer(Value, frozen=True, tag_field="do", tag="answer"):
     ``overwrite``: afterwards overwrite the arguments, as the owner of an IN parameter may.
     """
 
-    method: str
+    method: MethodName
     results: tuple[Datum, ...] | None = None
     exception: str | None = None
     overwrite: bool = False

@@ -14,7 +14,7 @@ from typing import Annotated, ClassVar, Literal, get_args
 
 from ucm_cts.adapters.contract.data_types import Interface
 from ucm_cts.adapters.contract.declarations import *  # their names are names of this module, too
-from ucm_cts.adapters.contract.declarations import Declaration, PortElementName
+from ucm_cts.adapters.contract.declarations import Declaration, Payload, PortElementName
 from ucm_cts.adapters.contract.traits import Binds, Kind, Lasts, Names, Uses, fields
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
 
@@ -219,7 +219,7 @@ class Invoke(StepBase, frozen=True, tag_field="op", tag="invoke"):
     wording = "{ref} exchange({value})"
 
     ref: UsedReference
-    value: Annotated[Int32, Names("payload")]
+    value: Payload
 
 
 class OpenGate(StepBase, frozen=True, tag_field="op", tag="open"):

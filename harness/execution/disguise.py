@@ -17,12 +17,14 @@ import msgspec
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.data_values import read_spelled
-from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario, Step
+from ucm_cts.adapters.contract.scenario import Action, Declaration, Policy, Scenario
 from ucm_cts.adapters.contract.traits import Binds, Names, fields
+from ucm_cts.adapters.contract.value import Value
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.purposes.payloads import EDGES, LARGEST
 
 T = TypeVar("T")
+S = TypeVar("S", bound=Value)
 
 _LETTERS = "bcdfghjklmnpqrstvwxz"
 
@@ -50,7 +52,7 @@ class Disguise:
             self._name_methods(sorted(interface.methods, key=len))
         return Scenario(
             {self._name(name): self._declaration(d) for name, d in scenario.components.items()},
-            tuple(self._step(step) for step in scenario.steps),
+            tuple(map(self._named, scenario.steps)),
             scenario.patience,
             {
                 self._name(name): Interface(
@@ -149,20 +151,10 @@ class Disguise:
         return plain if plain in s.STANDARD_METHODS else self._name(plain)
 
     def _action(self, action: Action) -> Action:
-        match action:
-            case s.CallPort():
-                return s.CallPort(self._port(action.port), self._value(action.value))
-            case s.ReturnValue():
-                return s.ReturnValue(self._value(action.value))
-            case s.CallMethod():
-                port, method = self._port(action.port), self._method(action.method)
-                return msgspec.structs.replace(action, port=port, method=method, arguments=self._arguments(action))
-            case s.Answer():
-                return msgspec.structs.replace(action, method=self._method(action.method))
-            case s.Burst():
-                return msgspec.structs.replace(action, port=self._port(action.port))
-            case _:
-                return action
+        named = self._named(action)
+        if isinstance(named, s.CallMethod):
+            return msgspec.structs.replace(named, arguments=self._arguments(named))
+        return named
 
     def _arguments(self, call: s.CallMethod) -> tuple[Datum, ...]:
         """Messages for the log begin with a name."""
@@ -172,21 +164,23 @@ class Disguise:
             case _:
                 return call.arguments
 
-    def _step(self, step: Step) -> Step:
-        """Variables, gates and workers keep their names, because no framework sees them."""
+    def _named(self, value: S) -> S:
+        """A step or an action in disguise. Variables, gates and workers keep their names, because no framework sees them."""
         changed: dict[str, str | int] = {}
-        for field, trait in fields(type(step)):
-            plain = getattr(step, field)
+        for field, trait in fields(type(value)):
+            plain = getattr(value, field)
             match trait:
                 case Binds(otherwise=named_by) if named_by and not plain:
-                    changed[field] = getattr(step, named_by)
+                    changed[field] = getattr(value, named_by)
                 case Names("implementation" | "component" | "interface"):
                     changed[field] = self._name(plain)
                 case Names("port element"):
                     changed[field] = self._port(plain)
+                case Names("method"):
+                    changed[field] = self._method(plain)
                 case Names("payload"):
                     changed[field] = self._value(plain)
-        return msgspec.structs.replace(step, **changed)
+        return msgspec.structs.replace(value, **changed)
 
 
 def _found(disguised: str) -> str:

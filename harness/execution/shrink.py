@@ -139,6 +139,6 @@ def tidied(scenario: Scenario, steps: tuple[Step, ...]) -> Scenario:
     added = {step.component for step in steps if isinstance(step, s.AddComponent)}
     components = {name: d for name, d in scenario.components.items() if name in added}
     plans = (actions for d in components.values() for actions in d.plan.values())
-    gates = {action.gate for actions in plans for action in actions if isinstance(action, s.HoldAtGate)}
+    gates = {gate for actions in plans for action in actions for gate in named(action, "gate")}
     steps = tuple(x for x in steps if gates.issuperset(named(x, "gate")))
     return msgspec.structs.replace(scenario, components=components, steps=steps)
