@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 from ucm_cts.harness.report.comparison import Column, Comparison, Row, first_finding
 from ucm_cts.harness.report.json_report import ReportEntry
-from ucm_cts.harness.report.order import SYMBOLS, VERDICTS, count
+from ucm_cts.harness.report.order import VERDICTS, count
 from ucm_cts.harness.report.page import rendered
 from ucm_cts.harness.results.values import Verdict
 
@@ -44,7 +44,6 @@ def to_html(comparison: Comparison, folder: Path) -> str:
         facts=_FACTS,
         first=first_finding,
         order=_ORDER,
-        symbols=SYMBOLS,
     )
 
 

@@ -6,13 +6,16 @@ import re
 from collections.abc import Iterable
 from typing import Protocol
 
-from ucm_cts.harness.results.values import FrameworkReport, Report, RequirementResult, ToolChainReport, Verdict
+from ucm_cts.harness.results.values import FrameworkReport, Overall, Report, RequirementResult, ToolChainReport, Verdict
 
 VERDICTS: tuple[Verdict, ...] = ("fail", "error", "inconclusive", "pass", "not applicable")
 """All verdicts, the worst first."""
 
 SYMBOLS: dict[Verdict, str] = {"fail": "✗", "error": "!", "inconclusive": "?", "pass": "✓", "not applicable": "–"}
 """A symbol a verdict, so that colour is never needed."""
+
+SEALS: dict[Overall, str] = {"conformant": "✓", "not conformant": "✗", "inconclusive": "?"}
+"""The same for the verdict of a run."""
 
 _NUMBER = re.compile(r"\d+")
 

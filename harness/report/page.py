@@ -7,13 +7,14 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup
 
+from ucm_cts.harness.report.order import SEALS, SYMBOLS
 from ucm_cts.harness.results.foreign import one_line
 
 _TEMPLATES = Path(__file__).parent / "templates"
 
 
 def rendered(template: str, **values: object) -> str:
-    """The page that ``template`` makes of ``values`` and of the style that all pages share."""
+    """The page that ``template`` makes of ``values`` and of the style and symbols that all pages share."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(_TEMPLATES),
         autoescape=True,
@@ -22,7 +23,7 @@ def rendered(template: str, **values: object) -> str:
         lstrip_blocks=True,
     )
     environment.filters["one_line"] = one_line
-    return environment.get_template(template).render(style=part("report.css"), **values)
+    return environment.get_template(template).render(style=part("report.css"), symbols=SYMBOLS, seals=SEALS, **values)
 
 
 def part(name: str) -> Markup:

@@ -8,7 +8,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from ucm_cts.harness.report.diagrams.sequence import last_call
-from ucm_cts.harness.report.order import SYMBOLS, count, counted, to_fix
+from ucm_cts.harness.report.order import SEALS, SYMBOLS, count, counted, to_fix
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.known_failures import all_known
@@ -24,21 +24,17 @@ _COLOURS: dict[Verdict, str] = {
     "pass": "green",
     "not applicable": "dim",
 }
-_BANNER: dict[Overall, tuple[str, str]] = {
-    "conformant": ("✓", "bold green"),
-    "not conformant": ("✗", "bold red"),
-    "inconclusive": ("?", "bold yellow"),
-}
+_STYLES: dict[Overall, str] = {"conformant": "bold green", "not conformant": "bold red", "inconclusive": "bold yellow"}
 
 
 def summary(report: Report, out: Path | None = None) -> RenderableType:
     """What to print at the end of a run; ``out`` is the folder the report was written to."""
-    symbol, style = _BANNER[report.verdict]
     name = one_line(f"{report.product} {report.version}", 80)
     known = " (all failures known)" if all_known(report) else ""
     lines = [
         Text.assemble(
-            (f"{symbol} {report.verdict.upper()}{known}", style), f"  {name}, profile {one_line(report.profile, 40)}"
+            (f"{SEALS[report.verdict]} {report.verdict.upper()}{known}", _STYLES[report.verdict]),
+            f"  {name}, profile {one_line(report.profile, 40)}",
         ),
         _counts(report),
     ]
