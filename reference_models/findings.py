@@ -1,4 +1,4 @@
-"""What the judge says about one trace."""
+"""What the monitor finds in one trace."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from ucm_cts.adapters.contract.value import Value
 
 
 class Arrow(Value, frozen=True):
-    """One message of a sequence diagram: who speaks to whom, and what. Lanes are ``test``, containers and bodies."""
+    """One message of a sequence diagram. Lanes are ``test``, containers and bodies."""
 
     source: str
     target: str
@@ -14,11 +14,13 @@ class Arrow(Value, frozen=True):
 
 
 class Finding(Value, frozen=True):
-    """One violation of one requirement, told so that a reader understands it in a minute.
+    """One violation of one requirement.
 
-    ``events`` are the ``n`` of the offending events; ``step`` is the scenario step they belong to, if any;
-    ``expected_events`` says what should have happened in their place. ``expected`` and ``observed`` are one sentence
-    each; two findings with the same ``requirement``, ``rule`` and ``cause`` have the same cause.
+    ``rule``: the name of the property. Two findings with the same ``requirement``, ``rule`` and ``cause`` have the same cause.
+    ``expected``, ``observed``: one sentence each.
+    ``events``: the ``n`` of the offending events.
+    ``step``: the scenario step they belong to, if any.
+    ``expected_events``: what should have happened in their place.
     """
 
     requirement: str

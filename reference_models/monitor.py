@@ -27,7 +27,7 @@ from ucm_cts.reference_models.properties.table import PropertyTable, features_of
 from ucm_cts.reference_models.verdicts import Verdicts
 
 _BUSINESS = frozenset(("exchange", "run", "method"))
-"""Where bodies are entered that is no callback."""
+"""Hooks that are not callbacks of the life cycle."""
 
 _NOTHING_HAPPENS = frozenset((t.Timeout, t.Settled))
 _CONTAINER_CALLS = frozenset(get_args(s.ContainerCall))
@@ -35,7 +35,7 @@ _CONNECTOR_CALLS = frozenset(get_args(s.ConnectorCall))
 
 
 class Monitor:
-    """Judges traces against one life-cycle table and what the vendor claims. It holds no state between traces."""
+    """Checks traces against one life-cycle table and the vendor's statement. It holds no state between traces."""
 
     def __init__(self, table: LifeCycleTable, ics: Ics | None = None) -> None:
         self.ics = ics or Ics()
@@ -46,7 +46,7 @@ class Monitor:
     def judge(self, scenario: s.Scenario, trace: Iterable[t.Event]) -> Verdicts:
         """What the properties say about ``trace``, which may break off anywhere, and is read once, event by event.
 
-        Where two operations overlap, because one of them took too long, reading ends: who did what cannot be told.
+        Where two operations overlap, because one of them took too long, reading ends: it is open which of them an event belongs to.
         """
         features = features_of(scenario)
         reader = _TraceReader(self, self._table_for(features), scenario, features)
@@ -77,9 +77,9 @@ class _Thread:
 
 
 class _TraceReader:
-    """One trace being read: the model, the operation in progress, and who is inside whom on each thread.
+    """One trace being read: the model, the operation in progress, and the bodies that each thread executes.
 
-    What takes an event in returns True where reading is to end, and else nothing.
+    Methods that take an event return True where reading is to end, and else nothing.
     """
 
     def __init__(
@@ -238,7 +238,7 @@ class _TraceReader:
                 runtime.starting_up[body] = event.thread
         runtime.changed()
         if ongoing is not None:
-            ongoing.hear(event)
+            ongoing.add(event)
 
     def changes(self, member: Member, hook: s.Hook) -> None:
         """What is so from now on, although the operation has not ended."""
@@ -273,7 +273,7 @@ class _TraceReader:
         if delivery is not None:
             self.check("delivered", delivery)
         else:
-            self.evaluate(self.table.called[call.by if call is not None else "nobody"], self.ongoing, event, call)
+            self.evaluate(self.table.called[call.by if call is not None else "framework"], self.ongoing, event, call)
         member = self.runtime.bodies.get(event.body)
         if member is not None and member.operational:
             member.served = True
@@ -312,7 +312,7 @@ class _TraceReader:
             self.interactions.request(event, call)
 
     def begin(self, thread: _Thread, call: BusinessCall) -> None:
-        call.look(self.runtime)
+        call.resolve(self.runtime)
         if thread.calls is None:
             thread.calls = []
             self.calls.append(thread.calls)

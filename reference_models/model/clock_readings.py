@@ -33,7 +33,7 @@ class ClockReading:
     """A body asked for the time and got it. All times are in nanoseconds.
 
     ``begin``, ``end``: the events.
-    ``asked``, ``told``: when, by the host's monotonic clock.
+    ``asked``, ``answered``: when, by the host's monotonic clock.
     ``time``: what the body's clock gave.
     ``advanced``: the virtual time that had passed by then.
     """
@@ -42,13 +42,13 @@ class ClockReading:
     begin: int
     end: int
     asked: int
-    told: int
+    answered: int
     time: int
     advanced: int
 
     @property
     def body(self) -> tuple[str, int]:
-        """Who read the clock."""
+        """The body that read the clock."""
         return self.call.request.body
 
     @property
@@ -66,7 +66,7 @@ def clock_call(runtime: ObservedRuntime, call: MethodCall) -> str:
     return request.method if is_clock else ""
 
 
-def time_told(call: MethodCall) -> tuple[int, int] | None:
+def time_given(call: MethodCall) -> tuple[int, int] | None:
     """The seconds and microseconds that a call of the clock gave; None if it gave no time."""
     reply = call.reply
     if reply is None or reply.failed or not reply.results:
@@ -89,13 +89,13 @@ def readings_of(runtime: ObservedRuntime, method: str) -> list[ClockReading]:
     ]
     readings = []
     for call in runtime.interactions.calls:
-        told = time_told(call) if clock_call(runtime, call) == method else None
-        if told is not None and call.reply is not None:
+        given = time_given(call) if clock_call(runtime, call) == method else None
+        if given is not None and call.reply is not None:
             request, reply = call.request, call.reply
             if any(o.overlaps(request.n, reply.n) for o, _ in advances):
                 continue  # it is open which came first
             advanced = sum(virtual for o, virtual in advances if o.begin.n < request.n)
-            time = told[0] * SECOND + told[1] * MICROSECOND
+            time = given[0] * SECOND + given[1] * MICROSECOND
             readings.append(ClockReading(call, request.n, reply.n, request.t, reply.t, time, advanced))
     return readings[:: len(readings) // _MOST + 1]
 

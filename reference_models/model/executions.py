@@ -1,4 +1,4 @@
-"""Business calls and executions of bodies: who is inside whom, and who was seen waiting to get in (11.1.3, 10.1.3).
+"""Business calls and executions of bodies, and the calls that were seen waiting for an execution (11.1.3, 10.1.3).
 
 Overlap is proved, not guessed: a call *waited* for an execution if it had been made, and the worker that made it was looked
 for and found waiting, while the execution was held at a gate that had not been opened.
@@ -41,8 +41,8 @@ _ACTIVE_CALLS = ("R-10.1.3.2-07", "R-10.1.3.2-08")
 _PROMISES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
 
 
-Caller = Literal["test", "body", "nobody"]
-"""Who made a call that led to an entry, if anybody did."""
+Caller = Literal["test", "body", "framework"]
+"""Who made the call that led to an entry; ``framework`` if there was no call."""
 
 
 @dataclass(slots=True, eq=False)
@@ -86,8 +86,8 @@ class BusinessCall:
             call = call.caller.call
         return call.step.thread if call.step is not None else None
 
-    def look(self, runtime: Runtime) -> None:
-        """Note who is called, and whether a call is possible."""
+    def resolve(self, runtime: Runtime) -> None:
+        """Note which instance is called, and whether a call is possible."""
         request = self.request
         if self.step is not None:
             _, self.callee = runtime.reference(self.step.ref)
@@ -170,7 +170,7 @@ class Executions:
         return waited[1] if waited is not None else None
 
     def lost(self) -> list[tuple[BusinessCall, Execution]]:
-        """Calls that nobody has answered although what they waited for is over, each told once."""
+        """Calls that have no answer although the execution they waited for is over. Each is returned once."""
         lost = {n: waiting for n, waiting in self.waiting.items() if waiting[1].over}
         for n in lost:
             del self.waiting[n]
@@ -230,7 +230,7 @@ class Executions:
                 execution.gate = event.gate
 
     def open(self, event: Opened) -> None:
-        """A gate was opened: nobody is held there any more."""
+        """A gate was opened: no body is held there any more."""
         self._opened.add(event.gate)
         for inside in self._inside.values():
             for execution in inside:
@@ -238,7 +238,7 @@ class Executions:
                     execution.gate = None
 
     def settle(self, event: Settled) -> None:
-        """A worker was looked for: if it waits, its call that is still on its way waits for who is held where it goes."""
+        """A worker was found: if it waits, its pending call waits for the execution that is held where the call goes."""
         if event.where not in ("blocked", "running"):
             return
         for call in (c for c in self._pending if c.worker == event.worker):
@@ -251,7 +251,7 @@ class Executions:
 
 
 class NoExecutions(Executions):
-    """Stands for the executions of scenarios without policies: nothing is recorded, nobody waits."""
+    """Stands for the executions of scenarios without policies: nothing is recorded and no call waits."""
 
     _NOTHING = Execution(Enter(0, 0, 0, "", 0, "exchange"), None)
 

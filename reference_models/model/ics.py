@@ -15,7 +15,7 @@ TOLERANCES: Mapping[str, float] = {
 """IXIT values that hold unless others are declared: milliseconds, ``clock-rate`` in percent."""
 
 OBSERVED = "observed"
-"""The value of an option that binds nobody."""
+"""The value of an option that permits all readings."""
 
 
 @dataclass(frozen=True)
@@ -37,5 +37,5 @@ class Ics:
         return self.reading(option) in (value, OBSERVED)
 
     def tolerance(self, name: str) -> float:
-        """A declared time in milliseconds, or percentage. Raises ``KeyError`` for one nobody knows."""
+        """A declared time in milliseconds, or percentage. Raises ``KeyError`` for an unknown name."""
         return self.tolerances.get(name, TOLERANCES[name])

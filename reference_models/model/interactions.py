@@ -78,7 +78,7 @@ class Interactions:
 
     @property
     def is_joining(self) -> bool:
-        """Is somebody just being made an end of a connector, or does somebody stop being one?"""
+        """Is a port element just being attached to a connector, or detached?"""
         return any(isinstance(o.step, s.Attach | s.Detach) for o in self.in_progress.values())
 
     def has_left(self, delivery: Delivery) -> bool:
@@ -153,7 +153,7 @@ class Interactions:
             call.prepared = self._is_prepared(call)
             call.idle = [end for end, _ in call.targets if _is_idle(self._runtime, end.member)]
         if call.is_message:
-            self._look_around(call)
+            self._note_crowding(call)
         self.calls.append(call)
         self._open.setdefault(event.thread, []).append(call)
 
@@ -235,7 +235,7 @@ class Interactions:
         begun = [self._runtime.startups.get(end.member.body) for end in ends]
         return bool(own) and all(b is not None and b[0] > end.since for b in begun for end in ends)
 
-    def _look_around(self, call: MethodCall) -> None:
+    def _note_crowding(self, call: MethodCall) -> None:
         """Is another message on its way?"""
         self._under_way = [other for other in self._under_way if not _has_come(other)]
         for other in self._under_way:

@@ -7,16 +7,18 @@ from dataclasses import dataclass, field
 from ucm_cts.reference_models.model.runtime import Connection, Member
 
 SENDERS = ("client", "emitter")
-"""The roles of those who call or push."""
+"""The roles of ends that call or push."""
 
 TAKERS = ("server", "receiver")
-"""The roles of those who are called or pushed to."""
+"""The roles of ends that are called or pushed to."""
 
 
 @dataclass(slots=True, eq=False)
 class End:
-    """A port element attached to a link. ``until`` is the ``n`` of what detached it, ``connection`` is there for clients
-    and emitters.
+    """A port element attached to a link.
+
+    ``since``, ``until``: the ``n`` of the events that attached and detached it.
+    ``connection``: only for clients and emitters.
     """
 
     role: str
@@ -29,8 +31,10 @@ class End:
 
 @dataclass(slots=True, eq=False)
 class LinkState:
-    """A connection with a core connector. ``broken`` says where it is broken now, ``broken_at`` since when (``t``), and
-    ``mended_at`` when it was mended last of what ``was_broken``.
+    """A connection with a core connector.
+
+    ``broken``, ``broken_at``: where it is broken now, and since when (``t``).
+    ``was_broken``, ``mended_at``: where it was broken, and when that was mended last (``t``).
     """
 
     name: str

@@ -1,6 +1,6 @@
 """What was read of the trace, compared with what was to be written into it (10.1.4.2).
 
-Records are told apart by their texts. One that is not the text of a message is of a traced call if it contains the name of
+Records are distinguished by their texts. One that is not the text of a message is of a traced call if it contains the name of
 its method, and it is a message that was altered if it contains the name that this message begins with.
 """
 
@@ -63,7 +63,7 @@ class LogReading:
 
 @dataclass(slots=True, eq=False)
 class Message:
-    """What a body wrote, or was to write. ``due`` messages have their record in the log sooner or later, ``barred`` ones,
+    """A message that a body wrote, or was to write. ``due`` messages have their record in the log sooner or later, ``barred`` ones,
     which are below the threshold, have none; of others nothing is known.
     """
 
@@ -210,7 +210,7 @@ def _without_messages(contents: Contents) -> list[LogRecord]:
             _first(own).record = record
         else:
             late.append(record)
-    for record in late:  # none is left of its severity: it is another one's, or of nobody
+    for record in late:  # none is left of its severity: it belongs to another one, or to none
         of_text = by_text[record.message]
         free = [m for m in of_text if m.record is None and not m.barred]
         if free:
@@ -261,7 +261,7 @@ def _tracings(reading: LogReading, runtime: ObservedRuntime) -> dict[str, Tracin
 
 
 def _add(tracing: Tracing, policy: Policy, over: bool, threshold: Threshold) -> bool:
-    """A call is traced by this policy; tells whether its record is due."""
+    """A call is traced by this policy; returns whether its record is due."""
     severity = policy.parameters.get(s.LOG_SEVERITY, "")
     tracing.severities.add(severity)
     if not (over and threshold.knows(severity)):

@@ -19,7 +19,7 @@ _NANOSECONDS = 1_000_000
 """In a millisecond."""
 
 _LONGEST = 200
-"""Characters of what a message carries that people are shown."""
+"""The most characters of a message's values that findings show."""
 
 _PUNCTUALITY = 0.9
 """A wait for patience may end after this part of it: clocks differ."""
@@ -48,7 +48,7 @@ def is_well(member: Member) -> bool:
 
 
 def counts(member: Member) -> bool:
-    """Does it count what it gets, so that nobody sees the single message?"""
+    """Does it count what it gets and record no single message?"""
     return any(isinstance(a, s.CountMessages) for a in member.declaration.plan.get("method", ()))
 
 
@@ -116,7 +116,7 @@ def pushed_before_start(runtime: ObservedRuntime, delivery: Delivery) -> bool:
 
 
 def waited_for(runtime: ObservedRuntime, timeout: Timeout, since: int) -> bool:
-    """Has patience run out for what was due from ``since`` (``t``) on, and is nobody held who could be the reason?"""
+    """Has patience run out for what was due from ``since`` (``t``) on, while no body is held that could be the reason?"""
     interactions = runtime.interactions
     patience = runtime.scenario.patience * _NANOSECONDS * _PUNCTUALITY
     return not interactions.held and timeout.t - max(since, interactions.released_at) >= patience
@@ -136,7 +136,7 @@ def overdue(runtime: ObservedRuntime, timeout: Timeout) -> Iterator[tuple[Method
 
 
 def name_of(call: MethodCall) -> str:
-    """The message, as findings tell of it."""
+    """The message, as findings name it."""
     emitter = call.caller.lane if call.caller is not None else call.request.component
     values = str(list(call.request.arguments or ()))
     return f"{values if len(values) <= _LONGEST else f'{values[:_LONGEST]}…'} of {emitter}"

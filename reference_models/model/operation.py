@@ -145,7 +145,7 @@ class OperationInProgress:
         """The model cannot predict it if ``condition`` holds."""
         self.judged = self.judged and not condition
 
-    def hear(self, callback: Enter) -> None:
+    def add(self, callback: Enter) -> None:
         """A body was entered while the operation was in progress."""
         self.callbacks.append(callback)
         self.hooks.add(callback.hook)

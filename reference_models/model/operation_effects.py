@@ -30,7 +30,7 @@ def apply(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
 
 
 def _linger(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
-    """Whose on_shutdown raised, and the operation with it, may be operational still, until on_startup comes again or a stop returns."""
+    """An instance whose on_shutdown made the operation raise may be operational, until on_startup comes again or a stop returns."""
     for (component, instance), callbacks in ongoing.by_body.items():
         member = runtime.bodies.get((component, instance or 0))
         phases = [c.hook for c in callbacks if c.hook in ("on_startup", "on_shutdown")]
@@ -103,7 +103,7 @@ def _connected(runtime: Runtime, ongoing: OperationInProgress, step: s.Connect, 
         return
     reference, provider = runtime.reference(step.to)
     if isinstance(end, Raise):
-        if member.body in ongoing.by_body:  # it began: nobody knows what stands
+        if member.body in ongoing.by_body:  # it began: it is open what stands
             member.suspended = True
             for earlier in member.live_connections(step.port):
                 earlier.live = None
@@ -213,7 +213,7 @@ def _destroyed(runtime: Runtime, ongoing: OperationInProgress, step: s.Destroy, 
 
 
 def _perhaps_removed(runtime: Runtime, members: Sequence[Member]) -> None:
-    """The removal failed, but part of it happened: nobody knows what is left."""
+    """The removal failed, but part of it happened: it is open what is left."""
     for client, used in runtime.clients_of(members):
         client.suspended = True
         for connection in used:
@@ -227,13 +227,13 @@ def _perhaps_removed(runtime: Runtime, members: Sequence[Member]) -> None:
 
 def _removed(runtime: Runtime, ongoing: OperationInProgress, removed: Sequence[Member]) -> None:
     for client, used in runtime.clients_of(removed):
-        told = len(ongoing.received(client, "on_disconnect"))
+        undone = len(ongoing.received(client, "on_disconnect"))
         for connection in used:
-            connection.live = False if told >= len(used) else None
+            connection.live = False if undone >= len(used) else None
         if ongoing.received(client, "on_shutdown"):
             client.operational = False
-        if told < len(used) or not client.operational:
-            client.suspended = client.suspended or told < len(used)
+        if undone < len(used) or not client.operational:
+            client.suspended = client.suspended or undone < len(used)
     for member in removed:
         member.operational = False
         _forget_start(member)
@@ -317,7 +317,7 @@ def handed_over(startup: Enter) -> dict[str, list[MaybeReference]]:
 
 
 def _resolve(member: Member, startup: Enter) -> None:
-    """What on_startup handed over tells which of the doubtful connections stand."""
+    """What on_startup handed over shows which of the doubtful connections stand."""
     given = handed_over(startup)
     for connection in member.connections:
         if connection.live is not None:
@@ -335,7 +335,7 @@ def _resolve(member: Member, startup: Enter) -> None:
 
 
 def _reached_unseen(runtime: Runtime, container: Container) -> None:
-    """The manager's start or stop may have reached sub-containers without members, where nobody can tell."""
+    """The manager's start or stop may have reached sub-containers without members, where no callback shows it."""
     if len(runtime.containers) > 1 and container is runtime.containers[s.MANAGER]:
         for other in runtime.containers.values():
             if other is not container and not other.live_members():
@@ -343,12 +343,12 @@ def _reached_unseen(runtime: Runtime, container: Container) -> None:
 
 
 def _in_doubt(member: Member) -> bool:
-    """May what it was told be of a connection of which nobody knows whether it stood?"""
+    """May its callbacks be of a connection of which it is open whether it stood?"""
     return not member.gone and any(c.live is None for c in member.connections)
 
 
 def _follow(ongoing: OperationInProgress, member: Member) -> None:
-    """An instance that is not judged goes where its callbacks say."""
+    """The state of a suspended instance follows its callbacks."""
     for callback in ongoing.by_body.get(member.body, ()):
         if callback.hook == "on_startup":
             member.operational = True

@@ -1,6 +1,6 @@
 """Run a scenario on the reference model instead of a framework: the first permitted outcome of each operation happens.
 
-Used to derive scenarios from the life-cycle table, never to judge.
+Used to derive scenarios from the life-cycle table, never to find violations.
 """
 
 from __future__ import annotations
@@ -43,13 +43,13 @@ class Prediction:
         other.runtime = _copied(self.runtime)
         return other
 
-    def look(self, step: s.ContainerCall) -> OperationInProgress:
+    def begin(self, step: s.ContainerCall) -> OperationInProgress:
         """The operation in progress that ``step`` would begin now; nothing changes."""
         return self._rows.open(self.runtime, 0, step)
 
     def perform(self, step: s.ContainerCall) -> OperationInProgress:
         """Carry ``step`` out in the first way that suits every instance concerned."""
-        return self.carry_out(step, next(self.ways(self.look(step))))
+        return self.carry_out(step, next(self.ways(self.begin(step))))
 
     def ways(self, ongoing: OperationInProgress) -> Iterator[Way]:
         """Ways to go that the table permits, the first one first: with each answer, each instance does each thing that it
@@ -76,11 +76,11 @@ class Prediction:
 
     def carry_out(self, step: s.ContainerCall, way: Way) -> OperationInProgress:
         """Carry ``step`` out in that ``way``, one of ``ways``."""
-        ongoing = self.look(step)
+        ongoing = self.begin(step)
         for (member, _), hooks in zip(ongoing.roles, way.callbacks, strict=True):
             component, instance = self._body(step, member)
             for hook in hooks if component else ():
-                ongoing.hear(Enter(0, 0, 0, component, instance, hook))  # type: ignore[arg-type]
+                ongoing.add(Enter(0, 0, 0, component, instance, hook))  # type: ignore[arg-type]
         apply(self.runtime, ongoing, self._end(step, ongoing, way.answer))
         return ongoing
 

@@ -29,7 +29,7 @@ class RowSelection:
 
     def __init__(self, table: LifeCycleTable) -> None:
         self._rows = {(r.state, r.operation, r.condition): r for r in table.rows}
-        self._looks: dict[str, Callable[[ObservedRuntime, OperationInProgress, Any], None]] = {
+        self._select: dict[str, Callable[[ObservedRuntime, OperationInProgress, Any], None]] = {
             "add_component": self._add,
             "remove_component": self._remove,
             "get_port_element": self._get_port_element,
@@ -52,7 +52,7 @@ class RowSelection:
         if runtime.destroyed or container.doubtful or (container.removed and operation != "remove_container"):
             ongoing.judged = False
             return ongoing
-        self._looks[operation](runtime, ongoing, step)
+        self._select[operation](runtime, ongoing, step)
         ongoing.unclear_if(ongoing.subject is not None and ongoing.subject.container is not container)
         if len(runtime.containers) > 1:
             self._other_phases(runtime, ongoing)
@@ -149,7 +149,7 @@ class RowSelection:
         unusable = step.to == s.NIL or (provider is not None and provider.gone)
         if member is None:
             self._role(ongoing, None, "absent", why + _late(ongoing))
-            ongoing.judged = not unusable  # two things are wrong, and nobody says which is told
+            ongoing.judged = not unusable  # two things are wrong, and it is open which is reported
             return
         wrong = ""
         if step.port not in member.declaration.requires:
@@ -256,7 +256,7 @@ class RowSelection:
             if not member.operational:
                 self._member_role(ongoing, member, "not started")
             elif failing:
-                alone = failing == [member]  # of several that fail, each may be the first, and the last told
+                alone = failing == [member]  # of several that fail, each may be the first, and the last reported
                 self._member_role(ongoing, member, "on_shutdown fails" if alone else "a peer's on_shutdown fails")
             else:
                 self._member_role(ongoing, member, "")

@@ -2,7 +2,7 @@
 
 The model is an observer. It predicts by looking up the life-cycle table and then takes over what really happened.
 Where it can no longer know (after a violation, or where the text leaves the outcome open) it *suspends* the instance:
-properties stay silent about it until a start or stop that succeeds tells the state again.
+properties stay silent about it until a start or stop that succeeds shows the state again.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from ucm_cts.adapters.contract.trace import MaybeReference, Reference, Skip
 from ucm_cts.reference_models.model.life_cycle import State
 
 NO_ID = 2**64
-"""The id of a connection whose id nobody was told."""
+"""The id of a connection whose id is not known."""
 
 MOST_CONNECTIONS = 4
 """So many connections of an instance are remembered one by one."""
@@ -48,10 +48,13 @@ class Connection:
 class Member:
     """A component instance as far as the trace has shown it.
 
-    ``suspended``: its state is not known, so nothing about it is judged. ``doubtful``: not even whether it is a member.
-    ``leaving``: a removal of it failed half-way. ``lingering``: its on_shutdown raised, and with it the operation, so that it may
-    still be operational. ``handed_over``: the connections that on_startup told it of last, None while that is not known.
-    ``closing``: on_shutdown has come since. ``raising``: where its plan makes it raise, None while nobody has asked.
+    ``suspended``: its state is not known, so properties are silent about it.
+    ``doubtful``: it is not even known whether it is a member.
+    ``leaving``: a removal of it failed half-way.
+    ``lingering``: its on_shutdown raised, and with it the operation, so that it may still be operational.
+    ``handed_over``: the connections that its last on_startup gave it; None while that is not known.
+    ``closing``: on_shutdown has come since.
+    ``raising``: where its plan makes it raise; None until it is needed.
     """
 
     name: str
@@ -102,7 +105,7 @@ class Member:
         self.container.changed()
 
     def doubt(self) -> None:
-        """Nobody knows whether it still is a member."""
+        """It is open whether it still is a member."""
         self.doubtful = self.container.of_doubt = True
 
     def live_connections(self, port: str | None = None) -> list[Connection]:
@@ -147,9 +150,12 @@ class Member:
 
 @dataclass(slots=True, eq=False)
 class Container:
-    """A container: ``started`` is None where the text leaves the outcome of a failed start or stop open, ``doubtful``
-    says the same of its removal. ``members`` are all it ever had; ``of_doubt`` says that of one of them nobody knows whether
-    it still is.
+    """A container.
+
+    ``started``: None where the text leaves the outcome of a failed start or stop open.
+    ``doubtful``: the text leaves the outcome of its removal open.
+    ``members``: all it ever had.
+    ``of_doubt``: one of its members is doubtful.
     """
 
     name: str
@@ -212,16 +218,16 @@ class Behind(NamedTuple):
 class Runtime:
     """All containers, instances, connections and references of one scenario.
 
-    ``members``, ``connections`` and ``references`` are what variables hold now; ``present`` are the instances in the order
-    in which they were added, without those that have been removed and left nothing behind. ``with_policies`` says that there
-    was one with policies.
-    ``startups`` tells of each body when its last on_startup began, by ``n``, and on which thread. ``starting`` are bodies
-    whose on_startup has returned during the operation in progress, ``starting_up`` those that are inside it because their
-    container's start is in progress, each with its thread; ``in_vain`` are gates that were waited for until patience ran
-    out, ``opened`` those that were opened without that. ``inside`` are
-    the bodies in which a thread is carrying out business methods or run, the innermost last. ``not_offered`` tells of
-    operations that the adapter does not offer.
-    ``behind`` is what executions.behind has worked out since anything ``changed``, and ``changes`` how often that was so.
+    ``members``, ``connections``, ``references``: what variables hold now.
+    ``present``: the instances in the order in which they were added, without those that have been removed without a trace.
+    ``with_policies``: an instance had policies.
+    ``startups``: when the last on_startup of each body began (``n``), and on which thread.
+    ``starting``: bodies whose on_startup has returned during the operation in progress.
+    ``starting_up``: bodies inside on_startup because their container is being started, each with its thread.
+    ``in_vain``: gates that were waited for until patience ran out; ``opened``: those that were opened without that.
+    ``inside``: the bodies in which each thread carries out business methods or run, the innermost last.
+    ``not_offered``: operations that the adapter does not offer.
+    ``behind``: what executions.behind has found since anything ``changed``; ``changes``: how often that was so.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -263,7 +269,7 @@ class Runtime:
             self.bodies[member.body] = member
 
     def let_go(self, member: Member) -> None:
-        """An instance has been removed: it may be called, but its connections are nobody's matter unless they are unclear."""
+        """An instance has been removed. Its connections matter no more, unless they are unclear."""
         member.leave()
         if member in self.present and not any(c.live is not False or c.ambiguous for c in member.connections):
             self.present.remove(member)

@@ -61,13 +61,13 @@ def _service_call(runtime: ObservedRuntime, call: MethodCall) -> ServiceCall | N
 
 
 def _serves_several(runtime: ObservedRuntime, member: Member | None, port: str | None) -> bool:
-    """Is the port element, or was it, an end of more than one connection, so that nobody can tell which one led to it?"""
+    """Is or was the port element an end of several connections, so that it is open which one led to it?"""
     links = runtime.interactions.links.values()
     return sum(any(e.member is member and e.port == port for e in link.ends) for link in links) > 1
 
 
 def _comes_back(call: MethodCall, server: Member) -> bool:
-    """Is the server among those who wait for this call?"""
+    """Is the server among the bodies that wait for this call?"""
     body = server.body
     return any(one.enter.body == body for one in call.business.callers())
 
@@ -119,7 +119,7 @@ def ended_by(runtime: ObservedRuntime, one: ServiceCall) -> list[Operation]:
 
 
 def is_left_hanging(runtime: ObservedRuntime, worker: str | None, since: int, until: int | None = None) -> bool:
-    """Was ``worker`` waited for in vain, between these events, while nobody was held and nothing happened?"""
+    """Was ``worker`` waited for in vain, between these events, while no body was held and nothing happened?"""
     quiet = runtime.scenario.patience * _NANOSECONDS * _QUIET
     return worker is not None and any(
         isinstance(wait.step, s.Join)
@@ -185,8 +185,8 @@ def _answered(left: Exit, reply: Reply) -> Trouble:
 def what_sets_apart(
     runtime: ObservedRuntime, one: ServiceCall, served: Sequence[ServiceCall]
 ) -> Literal["", "inherited", "second server", "client"]:
-    """What a call that is not carried out has that those have not which are ``served``: an inherited method, a connection
-    that was to have a second server, or a client that is not the one who is served there.
+    """How a call that is not carried out differs from those that are ``served``: by an inherited method, a connection that
+    was to have a second server, or another client.
     """
     if one.is_inherited:
         return "inherited"

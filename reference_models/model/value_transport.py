@@ -1,6 +1,6 @@
-"""What became of a value on its way: where it differs from what was sent, and which type is to blame (10.1.1).
+"""What became of a value on its way: where it differs from what was sent, and which type is the reason (10.1.1).
 
-The innermost type that differs is to blame, unless the same value of it was carried well elsewhere with no more around it:
+The innermost type that differs is the reason, unless the same value of it was carried well elsewhere with no more around it:
 then what is around it is. Pure comparison of data; clause_10_1_1.py says what is compared.
 """
 
@@ -80,12 +80,12 @@ class Evidence:
             key, depth = part.key, len(part.around)
             self.least[key] = min(depth, self.least.get(key, depth))
 
-    def to_blame(self, part: Part) -> str:
+    def broken_by(self, part: Part) -> str:
         """The requirement that was broken when ``part`` was not carried well."""
         chain = (*part.around, part)
         unseen = [index for index, one in enumerate(chain) if self.least.get(one.key, index + 1) > index]
-        to_blame = unseen[-1] if unseen else len(chain) - 1
-        return requirement_of(chain[to_blame].of, is_innermost=to_blame == len(chain) - 1)
+        reason = unseen[-1] if unseen else len(chain) - 1
+        return requirement_of(chain[reason].of, is_innermost=reason == len(chain) - 1)
 
 
 def requirement_of(of: d.AnyType, is_innermost: bool = False) -> str:

@@ -1,7 +1,7 @@
 """What connectors carried in one trace: every value that was sent and arrived, and where the two differ (10.1.1).
 
 Values can also go wrong for reasons that are not in them: another client's, or a direction that does not work at all. Those
-are the matters of the connectors' own clauses, and told apart here.
+belong to the connectors' own clauses, and are separated here.
 """
 
 from __future__ import annotations
@@ -24,9 +24,12 @@ _OVERWRITTEN_BY = 3
 
 @dataclass(frozen=True)
 class Carried:
-    """A value of a call that arrived, as ``got``, which may be anything. ``way`` tells in which direction, ``events`` are both
-    ends, and ``differences`` where it is another one; none if it was carried well. That may be ``doubtful``: whatever went
-    wrong in the call is like others of its values, or others were on their way as well.
+    """A value of a call that arrived.
+
+    ``got``: the value that arrived, of any type.
+    ``way``: its direction; ``events``: both ends.
+    ``differences``: where it differs; none if it was carried well.
+    ``doubtful``: what went wrong is like others of its values, or others were on their way as well.
     """
 
     call: MethodCall
@@ -56,7 +59,7 @@ def values_carried(runtime: ObservedRuntime) -> list[Carried]:
 
 
 def altered_calls(runtime: ObservedRuntime) -> frozenset[MethodCall]:
-    """The calls with values that arrived as others, for the sake of their types: nobody else's matter."""
+    """The calls with values that arrived as others, because of their types. No other property is concerned."""
     return frozenset(one.call for one in values_carried(runtime) if one.differences)
 
 

@@ -1,6 +1,6 @@
 """Properties about values: every core data type is carried by both connectors, in every direction and at any depth (10.1.1).
 
-They look when the trace is over: a value is known to be carried well alone only then, and which message was which.
+They are checked when the trace is over: only then it is known which values were carried well alone, and which message was which.
 """
 
 from __future__ import annotations
@@ -45,16 +45,16 @@ def exact_values(check: Property, runtime: ObservedRuntime) -> Conclusions:
     for carried in well if wrong else ():
         evidence.add(carried.of, carried.sent)
     for carried, difference in wrong:
-        yield _accuse(check, carried, difference, evidence.to_blame(difference.part))
+        yield _altered(check, carried, difference, evidence.broken_by(difference.part))
 
 
-def _accuse(check: Property, carried: Carried, difference: transport.Difference, requirement: str) -> Finding:
+def _altered(check: Property, carried: Carried, difference: transport.Difference, requirement: str) -> Finding:
     part = difference.part
     kind = kind_name(part.of)
     return check.fail(
         f"{_sort_of(part.of, part.value)}{kind} as {carried.way}",
-        expected=f"{kind} {told(part.of, part.value)}{_place(part)} arrives as sent",
-        observed=f"it arrived as {told(part.of, difference.got)}",
+        expected=f"{kind} {shown(part.of, part.value)}{_place(part)} arrives as sent",
+        observed=f"it arrived as {shown(part.of, difference.got)}",
         at=carried.events,
         requirement=requirement,
     )
@@ -84,7 +84,7 @@ def _number(of: Float, value: str) -> float:
     return float(struct.unpack(">f" if of.kind == "FLOAT" else ">d", bytes.fromhex(value))[0])
 
 
-def told(of: AnyType, value: object) -> str:
+def shown(of: AnyType, value: object) -> str:
     """``value`` for people, not too long."""
     if isinstance(of, Float) and isinstance(value, str) and not misfit(of, value):
         return f"{value} ({_number(of, value)!r})"
@@ -120,7 +120,7 @@ def values_accepted(check: Property, runtime: ObservedRuntime) -> Conclusions:
         return
     alone = [of for _, values in refused for of, _ in values[:1]]
     for one, values in refused:
-        yield _accuse_of_refusal(check, one, *values[0], alone)
+        yield _refusal(check, one, *values[0], alone)
 
 
 def _may_be_carried(
@@ -161,16 +161,14 @@ def _typed(types: Sequence[AnyType], given: Sequence[Datum] | None) -> Iterator[
         yield from zip(types, given, strict=True)
 
 
-def _accuse_of_refusal(
-    check: Property, one: ServiceCall, of: AnyType, value: Datum, alone: Sequence[AnyType]
-) -> Finding:
-    """To blame is the innermost part whose type was refused by itself as well."""
+def _refusal(check: Property, one: ServiceCall, of: AnyType, value: Datum, alone: Sequence[AnyType]) -> Finding:
+    """The innermost part whose type was refused by itself as well is the reason."""
     suspects = [part for part in transport.inside(transport.Part(of, value)) if not part.around or part.of in alone]
     suspect = max(suspects, key=lambda part: len(part.around))
     reply = one.call.reply
     return check.fail(
         f"{kind_name(suspect.of)} refused",
-        expected=f"a call with {kind_name(of)} {told(of, value)} is carried out, as others are",
+        expected=f"a call with {kind_name(of)} {shown(of, value)} is carried out, as others are",
         observed="it ended with an exception that the server did not raise",
         at=(one.call.request.n, reply.n if reply is not None else one.call.request.n),
         requirement=transport.requirement_of(suspect.of),

@@ -1,4 +1,4 @@
-"""Properties about return codes: what a push is answered, and whether that is true (10.1.2)."""
+"""Properties about return codes: which code a push gives, and whether the code is true (10.1.2)."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> 
 
 @property_at("completed", _CODES)
 def without_receivers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
-    """A push that nobody receives is answered what the vendor has declared."""
+    """A push without receivers is answered as the vendor has declared."""
     if (
         not call.is_message
         or call.targets
@@ -159,7 +159,7 @@ def delivered_before_ok(check: Property, runtime: ObservedRuntime, call: MethodC
 
 @property_at("completed", "R-10.1.2-01", timed=True)
 def failure_noticed(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
-    """While its connector is known to be broken an interaction does not look as if it had gone well."""
+    """While its connector is known to be broken an interaction does not seem to succeed."""
     if call.link is None or not call.broken or call.reply is None:
         return ()
     if call.link.connector == s.SERVICE_CONNECTOR:
@@ -224,7 +224,7 @@ def comm_error_when_due(check: Property, runtime: ObservedRuntime, call: MethodC
 def ok_after_mending(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """When what was broken has been mended push gives ok again."""
     link = call.link
-    if link is None or not link.mended_at or not link.was_broken:  # who could not break it may still mend it
+    if link is None or not link.mended_at or not link.was_broken:  # a hook that cannot break it may still mend it
         return ()
     if not _is_undisturbed(runtime, call) or not msg.is_quiet(runtime, call):
         return ()

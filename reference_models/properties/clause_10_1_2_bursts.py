@@ -1,4 +1,4 @@
-"""Properties about bursts: many messages, of which only is told how many were pushed and counted (10.1.2, 10.1.6)."""
+"""Properties about bursts: many messages, of which only the numbers pushed and counted are known (10.1.2, 10.1.6)."""
 
 from __future__ import annotations
 

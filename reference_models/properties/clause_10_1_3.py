@@ -131,7 +131,7 @@ def circle_entered(check: Property, runtime: ObservedRuntime, execution: ex.Exec
     waiting = [c for c in callers if c.enter.body == body]
     member = runtime.bodies.get(body)
     if waiting and member is not None:
-        return _came_round(
+        return _returned_to(
             check, runtime, member, waiting[0], execution.way, "enter", (waiting[0].enter.n, execution.enter.n)
         )
     return ()
@@ -142,7 +142,7 @@ def circle_refused(check: Property, runtime: ObservedRuntime, call: MethodCall) 
     """A call came back to the component whose execution waits for it, and was refused."""
     reply = call.reply
     if reply is not None and reply.raised and not call.deliveries:
-        return _look_round(check, runtime, call.business, "refuse", (call.business.n, reply.n))
+        return _returned(check, runtime, call.business, "refuse", (call.business.n, reply.n))
     return ()
 
 
@@ -150,10 +150,10 @@ def circle_refused(check: Property, runtime: ObservedRuntime, call: MethodCall) 
 def circle_waits(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call came back to the component whose execution waits for it, and both were still waiting in the end."""
     for call in runtime.executions.on_their_way:
-        yield from _look_round(check, runtime, call, "wait", (call.n,))
+        yield from _returned(check, runtime, call, "wait", (call.n,))
 
 
-def _look_round(
+def _returned(
     check: Property, runtime: ObservedRuntime, call: ex.BusinessCall, reading: str, events: tuple[int, ...]
 ) -> Conclusions:
     callers = list(call.callers())
@@ -161,11 +161,11 @@ def _look_round(
         body = member.body
         for caller in callers:
             if caller.enter.body == body:
-                yield from _came_round(check, runtime, member, caller, port, reading, events)
+                yield from _returned_to(check, runtime, member, caller, port, reading, events)
                 return
 
 
-def _came_round(
+def _returned_to(
     check: Property,
     runtime: ObservedRuntime,
     member: Member,

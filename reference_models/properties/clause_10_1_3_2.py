@@ -52,7 +52,7 @@ def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Executio
 
 @property_at("began", _REENTERED)
 def overlap_possible(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
-    """Two callers may be inside an unprotected passive component, which is told and never demanded."""
+    """Two callers may be inside an unprotected passive component, which is reported and not required."""
     if execution.met and ex.protection_of(runtime.scenario.components[execution.enter.component]) == "unprotected":
         return (Taken("unprotected-concurrency", "concurrent"), check.kept(), Measured("overlaps provoked"))
     return ()
@@ -95,7 +95,7 @@ def _time_passed(runtime: ObservedRuntime, begin: int, end: int) -> bool:
 
 @property_at("over", _REENTERED)
 def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execution, end: int) -> Conclusions:
-    """Who waits while an unprotected component is executed is kept out, which is wrong if callers are said to meet."""
+    """A call that waits while an unprotected component is executed is kept out, which is wrong if callers are declared to meet."""
     enter = execution.enter
     body = enter.body
     if ex.protection_of(runtime.scenario.components[enter.component]) != "unprotected":
@@ -115,7 +115,7 @@ def callers_meet(check: Property, runtime: ObservedRuntime, execution: ex.Execut
 
 @property_at("began", "R-10.1.3.2-05")
 def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execution) -> Concluded:
-    """A run was held inside for several of the intervals at which run is called, and nobody came in."""
+    """A run was held inside for several of the intervals at which run is called, and no other execution began."""
     runs = [run for run in execution.earlier if run.over]
     if execution.way != "run" or execution.met or len(runs) < _INTERVALS:
         return ()
@@ -130,7 +130,7 @@ def run_kept_out(check: Property, runtime: ObservedRuntime, execution: ex.Execut
 def waiting_calls_served(
     check: Property, runtime: ObservedRuntime, call: ex.BusinessCall, waited: ex.Execution, end: int
 ) -> Concluded:
-    """Who had to wait for an execution is served when it has ended; ``end`` is 0 if the call never came back."""
+    """A call that had to wait for an execution is served when it has ended; ``end`` is 0 if the call never came back."""
     enter = waited.enter
     if ex.protection_of(runtime.scenario.components[enter.component]) in ("", "unprotected"):
         return ()
@@ -138,7 +138,7 @@ def waiting_calls_served(
         return check.kept()
     ending = runtime.interactions.ends_phases(call.n, end or NEVER)
     if ending or not all(member.serving for member, _ in ex.goals_of(runtime, call)):
-        return ()  # who is being stopped serves nobody
+        return ()  # a component that is being stopped serves no call
     return check.fail(
         "refused" if end else "never",
         expected=f"the call that waits while '{lane(*enter.body)}' is executed is carried out afterwards",
@@ -155,7 +155,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
         return
     promised = ex.calls_promised(member.declaration, port)
     own = [(e, x) for e, x in call.entries if e.body == member.body]
-    if not promised or (call.waited and not own):  # who waits in vain is waiting_calls_served's matter
+    if not promised or (call.waited and not own):  # a call that waits in vain is the matter of waiting_calls_served
         return
     right = [x for e, x in own if e.port == port and e.value == call.value and x is not None]
     if len(own) == len(right) == 1 and isinstance(end, Return) and end.value == right[0].value:
@@ -177,7 +177,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
 def no_self_execution(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: ex.BusinessCall | None
 ) -> Concluded:
-    """A passive component is executed because somebody calls it."""
+    """A passive component is executed only when it is called."""
     member = runtime.bodies.get(event.body)
     requirement = _BY_ITSELF.get(ex.protection_of(member.declaration), "") if member is not None else ""
     if member is None or not requirement or member.suspended:

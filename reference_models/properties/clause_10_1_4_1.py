@@ -1,4 +1,4 @@
-"""Properties about the clock service: order, rate, agreement and range of the times that bodies are told (10.1.4)."""
+"""Properties about the clock service: order, rate, agreement and range of the times that bodies get (10.1.4)."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def clock_answers(check: Property, runtime: ObservedRuntime, call: MethodCall) -
     method, caller, reply = clocks.clock_call(runtime, call), call.caller, call.reply
     if not method or reply is None or caller is None or caller.suspended:
         return ()
-    if clocks.time_told(call) is not None:
-        if _has_told(runtime, call, *(other for other in clocks.CLOCK_METHODS if other != method)):
+    if clocks.time_given(call) is not None:
+        if _has_given(runtime, call, *(other for other in clocks.CLOCK_METHODS if other != method)):
             return check.kept()
         return ()
     return check.fail(
@@ -42,20 +42,20 @@ def clock_answers(check: Property, runtime: ObservedRuntime, call: MethodCall) -
     )
 
 
-def _has_told(runtime: ObservedRuntime, call: MethodCall, *methods: str) -> bool:
-    """Have other methods told this caller the time, too?"""
+def _has_given(runtime: ObservedRuntime, call: MethodCall, *methods: str) -> bool:
+    """Have other methods given this caller the time, too?"""
     calls = runtime.interactions.calls
-    own = (c for c in reversed(calls) if c.caller is call.caller and clocks.time_told(c) is not None)
+    own = (c for c in reversed(calls) if c.caller is call.caller and clocks.time_given(c) is not None)
     return any(clocks.clock_call(runtime, c) in methods for c in own)
 
 
 @property_at("completed", "R-10.1.4.2-14")
 def time_range(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """The microseconds of a time are those of one second, and its seconds have 32 bits without sign."""
-    told = clocks.time_told(call) if clocks.clock_call(runtime, call) else None
-    if told is None or call.reply is None:
+    given = clocks.time_given(call) if clocks.clock_call(runtime, call) else None
+    if given is None or call.reply is None:
         return ()
-    seconds, microseconds = told
+    seconds, microseconds = given
     if 0 <= microseconds <= _LARGEST_MICROSECONDS and 0 <= seconds <= _LARGEST_SECONDS:
         return check.kept()
     part, value = ("seconds", seconds) if not 0 <= seconds <= _LARGEST_SECONDS else ("microseconds", microseconds)
@@ -109,7 +109,7 @@ def local_time_order(check: Property, runtime: ObservedRuntime) -> Conclusions:
         if went >= 0:
             if drift <= tolerance:
                 yield check.kept()
-        elif later.asked - earlier.told - went > drift:
+        elif later.asked - earlier.answered - went > drift:
             yield _went_back(check, earlier, later, 0.0)
             return
 
@@ -131,7 +131,7 @@ def synchronized_time_passes(check: Property, runtime: ObservedRuntime) -> Concl
     """Between two readings of one body synchronized time went on, by half of the real time at least."""
     tolerance = runtime.ics.tolerance("synchronization-tolerance") * clocks.MILLISECOND
     for earlier, later, drift in _pairs(runtime, clocks.SYNCHRONIZED):
-        least = (later.asked - earlier.told) // 2 + later.advanced - earlier.advanced
+        least = (later.asked - earlier.answered) // 2 + later.advanced - earlier.advanced
         went = clocks.passed(earlier.time, later.time)
         if earlier.body != later.body or went >= least - tolerance - drift:
             continue
@@ -149,7 +149,7 @@ def local_time_rate(check: Property, runtime: ObservedRuntime) -> Conclusions:
         if earlier.body != later.body or _width(earlier) + _width(later) > tolerance:
             continue
         virtual = later.advanced - earlier.advanced
-        least, most = later.asked - earlier.told + virtual, later.told - earlier.asked + virtual
+        least, most = later.asked - earlier.answered + virtual, later.answered - earlier.asked + virtual
         went, slack = clocks.passed(earlier.time, later.time), tolerance + drift + 2 * clocks.MICROSECOND
         if least * (1 - rate) - slack <= went <= most * (1 + rate) + slack:
             if least >= _LONG_ENOUGH * tolerance and drift <= tolerance:
@@ -167,7 +167,7 @@ def local_time_epoch(check: Property, runtime: ObservedRuntime) -> Conclusions:
         return
     tolerance = runtime.ics.tolerance("epoch-tolerance") * clocks.MILLISECOND
     for reading in clocks.readings_of(runtime, clocks.LOCAL):
-        calendar = clocks.calendar_at(runtime.interactions.pauses, reading.asked, reading.told)
+        calendar = clocks.calendar_at(runtime.interactions.pauses, reading.asked, reading.answered)
         if calendar is None:
             continue
         away = clocks.passed(calendar[0] + reading.advanced, reading.time)
@@ -193,13 +193,13 @@ def _pairs(
 ) -> Iterator[tuple[clocks.ClockReading, clocks.ClockReading, int]]:
     """Two readings, one after the other, and by how many nanoseconds the clock may have been set in between.
 
-    Pairs of which nobody can know that are left out.
+    Pairs for which that is open are left out.
     """
     readings = clocks.readings_of(runtime, method)
     pauses = runtime.interactions.pauses
     for later in readings:
         for earlier in (r for r in readings if r.end < later.begin):
-            calendar = (0, 0) if is_never_set else clocks.calendar_at(pauses, earlier.asked, later.told)
+            calendar = (0, 0) if is_never_set else clocks.calendar_at(pauses, earlier.asked, later.answered)
             if calendar is not None:
                 yield earlier, later, calendar[1]
 
@@ -224,7 +224,7 @@ def _paced(
 
 
 def _width(reading: clocks.ClockReading) -> int:
-    return reading.told - reading.asked
+    return reading.answered - reading.asked
 
 
 def _who(reading: clocks.ClockReading) -> str:

@@ -74,7 +74,7 @@ def service_call(check: Property, runtime: ObservedRuntime) -> Conclusions:
 
 @property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE, timed=True)
 def service_call_ends(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """A call that nothing disturbs ends when its server has been left, if that waits for nobody."""
+    """A call that nothing disturbs ends when its server has been left, if the server waits for no other body."""
     for one in service_calls(runtime):
         if one.call.reply is None and _may_be_expected(one) and _hangs(runtime, one, disturbed_at(runtime, one)):
             good = [other for other, trouble in _undisturbed(runtime) if not trouble]
@@ -108,7 +108,7 @@ def _concerned(runtime: ObservedRuntime, one: ServiceCall, good: list[ServiceCal
 
 
 def _may_be_expected(one: ServiceCall) -> bool:
-    """Does its server wait for nobody else?"""
+    """Does its server wait for no other body?"""
     calls = (s.CallPort, s.CallMethod, s.Burst)
     return not any(isinstance(a, calls) for plan in one.server.member.declaration.plan.values() for a in plan)
 
@@ -245,7 +245,7 @@ def service_uncalled(check: Property, runtime: ObservedRuntime) -> Conclusions:
 
 @property_at("closed", _CALLS)
 def servers_that_left(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """Who is no longer a server of the connection is not entered by calls through it."""
+    """A component that is no longer a server of the connection is not entered by calls through it."""
     interactions = runtime.interactions
     for delivery in interactions.deliveries:
         link, call, enter = delivery.link, delivery.call, delivery.enter

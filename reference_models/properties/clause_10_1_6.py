@@ -1,4 +1,4 @@
-"""Properties about messages: who gets them, how often, in which order, when and unchanged (10.1.6)."""
+"""Properties about messages: their receivers, number, order, time and values (10.1.6)."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ def message_order(check: Property, runtime: ObservedRuntime, delivery: Delivery)
 
 @property_at("delivered", "R-10.1.6.1-19")
 def values_isolated(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Concluded:
-    """Who overwrites what he pushed or got changes what nobody else sees."""
+    """An emitter or receiver that overwrites its message changes no other component's copy."""
     call = delivery.call
     if call is None or not call.is_message or delivery.fit not in ("same", "altered"):
         return ()
@@ -225,7 +225,7 @@ def message_connector(
 
 @property_at("ended", _STANDARD, at=("start",), feature="interactions")
 def joined_and_started(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
-    """Whoever is joined by a message connector can be started."""
+    """Components that are joined by a message connector can be started."""
     if not isinstance(ongoing.end, Raise) or ongoing.forgiving:
         return ()
     members = ongoing.container.live_members()

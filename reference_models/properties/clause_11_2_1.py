@@ -19,7 +19,7 @@ _BEFORE_INIT, _ATTRIBUTES = "R-11.2.1.2-05", "R-10.1.1-06"
 
 _UNDOING = ("disconnect", "remove_component", "remove_container", "destroy")
 _SHOWN = 3
-"""So many attributes are told of."""
+"""The most attributes that a finding lists."""
 
 
 @property_at("entered", _BEFORE_INIT, _ATTRIBUTES, at=("on_init",), feature="attributes")

@@ -202,7 +202,7 @@ def alternation(check: Property, runtime: ObservedRuntime, callback: Callback) -
 
 @property_at("entered", "R-12.10-22", at=LIFE_CYCLE_HOOKS)
 def discarded(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
-    """What a failed add_component made hears nothing more but its on_remove."""
+    """A body that a failed add_component made receives nothing more but its on_remove."""
     event = callback.event
     if event.body not in runtime.discarded or event.hook == "on_remove":
         return ()

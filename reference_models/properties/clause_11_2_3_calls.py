@@ -108,7 +108,7 @@ def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, 
     return _violate(check, check.stands_for[0], "refused", expected, "the call raised", call.n, reply.n, providers[0])
 
 
-@property_at("called", _DISABLED, at=("body", "nobody"))
+@property_at("called", _DISABLED, at=("body", "framework"))
 def disabled_ports(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
 ) -> Concluded:
@@ -132,7 +132,7 @@ def disabled_ports(
         if other is not None and other.container is not container and other.container.started is not False:
             return ()
         if call.request.body in runtime.startups and ongoing is None:
-            return ()  # it has kept the reference that it heard of in a start that failed
+            return ()  # it has kept the reference that a failed start gave it
     return check.fail(
         "called before start",
         expected=f"{member.lane} is not called before its container {container.name} is started",
@@ -144,7 +144,7 @@ def disabled_ports(
 
 @property_at("replied", _DISABLED)
 def refused_ports(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Concluded:
-    """A call that a component makes as soon as it is told to start may be refused: ports were closed until then, too."""
+    """A call that a component makes in on_startup may be refused: ports were closed until then, too."""
     if call.caller_hook == "on_startup" and reply.raised and not call.entries:
         return check.kept()
     return ()
@@ -168,7 +168,7 @@ def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: B
     )
 
 
-@property_at("called", _NOT_RUN, at=("nobody",))
+@property_at("called", _NOT_RUN, at=("framework",))
 def nothing_after_stop(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
 ) -> Concluded:

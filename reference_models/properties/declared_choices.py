@@ -76,7 +76,7 @@ def undeclared_choice(ics: Ics, ongoing: OperationInProgress, end: Result, fitte
 
 def _is_choice(ongoing: OperationInProgress, end: Result, member: Member | None, row: Row, fit: Fit) -> bool:
     """Was the framework free to go another way, and is nothing but this choice the reason that it went this one?"""
-    if row.operation == "remove_provider":  # whoever removes a container takes its members along, in use or not
+    if row.operation == "remove_provider":  # a container is removed with its members, in use or not
         return ongoing.operation == "remove_component"
     for option in _options(fit):
         if option == "manager-start":  # what is no start or stop of the manager's own has nothing to reach
@@ -137,7 +137,7 @@ def declared_drain(check: Property, runtime: ObservedRuntime, ongoing: Operation
 
 @property_at("entered", _REVERSE_ORDER, at=("on_startup",))
 def declared_order(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
-    """Who declares that members are started one by one does not start them at a time, by several threads."""
+    """A framework declared to start members one by one does not start them at a time, by several threads."""
     event, member, ongoing, _ = callback
     if member is None or not _is_started(callback):
         return
@@ -153,7 +153,7 @@ def declared_order(check: Property, runtime: ObservedRuntime, callback: Callback
 
 @property_at("entered", _REVERSE_ORDER, at=("on_startup",), timed=True)
 def declared_meeting(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
-    """Who declares that members are started at once does not let one wait until another one's on_startup has ended.
+    """A framework declared to start members at once lets none wait until another one's on_startup has ended.
 
     Another one whose on_startup has ended, although the gate it held at was to open when both had come to it, was inside as
     long as there is patience.

@@ -77,7 +77,7 @@ def _explore(table: LifeCycleTable, configuration: Configuration) -> Iterator[tu
         for step in configuration.probes + configuration.moves:
             if not _bound(now, step):
                 continue
-            seen_now = {(row.id, _kind(now, member)) for member, row in now.look(step).roles}
+            seen_now = {(row.id, _kind(now, member)) for member, row in now.begin(step).roles}
             wanted = {row_id for row_id, kind in seen_now if kept[row_id, kind] < WAYS_TO_A_ROW}
             kept.update(seen_now)
             for row_id in sorted(wanted):

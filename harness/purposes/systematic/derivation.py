@@ -48,7 +48,7 @@ class _Derivation:
             moves.append({})
             for number, meant in enumerate(self.setting.inputs):
                 given = _named(now.runtime, meant)
-                ongoing = now.look(given.step)
+                ongoing = now.begin(given.step)
                 after = self.after(now, state, given, ongoing) if is_defined(now, ongoing) else None
                 if after is None:
                     continue

@@ -180,7 +180,7 @@ def blame(of: AnyType, sent: Datum, got: object, *carried_well: tuple[AnyType, D
     evidence = Evidence()
     for one in carried_well:
         evidence.add(*one)
-    return [evidence.to_blame(d.part) for d in differences(Part(of, sent), got)]
+    return [evidence.broken_by(d.part) for d in differences(Part(of, sent), got)]
 
 
 def test_the_innermost_type_that_differs_is_to_blame() -> None:
