@@ -22,7 +22,9 @@ from ucm_cts.harness.selftest.generated import mutants
 RULES = ("universal", "python")
 CONCERNED = {
     "framework.py": ("11", "12.10"),
+    "members.py": ("11", "12.10"),
     "policies.py": ("10.1.3",),
+    "execution.py": ("10.1.3",),
     "container_services.py": ("10.1.4",),
     "connectors.py": ("10.1.1", "10.1.2", "10.1.5", "10.1.6"),
 }
