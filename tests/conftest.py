@@ -16,9 +16,9 @@ signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 @pytest.hookimpl(tryfirst=True)  # before -m selects
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """What uses such a fixture is native, and what is neither native nor slow is fast.
+    """A test that uses such a fixture is native; a test that is neither native nor slow is fast.
 
-    The fast tests of a file stay with one worker, for what they keep between them; so do the native ones. Slow tests
+    The fast tests of a file run on one worker, because they share caches; so do the native ones. Slow tests
     are handed out one by one, and first.
     """
     for item in items:

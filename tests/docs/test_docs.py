@@ -1,4 +1,4 @@
-"""What README and docs say is so: links lead somewhere, commands and examples are run as they stand there."""
+"""README and docs are correct: links have targets, and commands and examples run as printed."""
 
 from __future__ import annotations
 
@@ -183,7 +183,7 @@ def test_pytest_command_is_the_one_that_test_pytest_plugin_runs() -> None:
     assert commands("pytest --pyargs") == ["pytest --pyargs ucm_cts.suite --iut ADAPTER"]
 
 
-def test_every_option_is_told_and_no_other() -> None:
+def test_options_are_documented_exactly() -> None:
     pages = [
         "README.md",
         *(f"docs/{name}.md" for name in ("detection", "explore") if (ROOT / f"docs/{name}.md").is_file()),

@@ -137,7 +137,7 @@ RATE, ORDER = "R-10.1.4.1-09", "R-10.1.4.1-08"
 
 
 def with_times(events: list[Event], *milliseconds: int) -> list[Event]:
-    """The local clock told these times instead, one after the other, and nobody asked the synchronised one."""
+    """The local clock gave these times instead, one after the other; the synchronised one was not asked."""
     times = iter(milliseconds)
     asked = ""
     changed = []
@@ -173,7 +173,7 @@ def test_clock_that_goes_back_is_excused_only_if_it_may_have_been_set() -> None:
     assert findings(scenario, set_back, local_clock="monotonic").keys() == {ORDER, RATE}
 
 
-def test_nothing_is_concluded_where_nobody_looked_at_the_calendar() -> None:
+def test_clock_without_calendar_readings_is_undecided() -> None:
     scenario = purpose(LONGER)
     events = [e for e in with_times(events_of(scenario), 5000, 4000, 4001, 4101) if not isinstance(e, Paused)]
     assert findings(scenario, events) == {}
@@ -181,7 +181,7 @@ def test_nothing_is_concluded_where_nobody_looked_at_the_calendar() -> None:
 
 
 def test_rate_is_not_judged_of_readings_that_took_long() -> None:
-    """The machine stood still while the clock was read: nobody knows when it was."""
+    """The machine stood still while the clock was read, so the time of the reading is unknown."""
     scenario = purpose(LONGER)
     slow: list[Event] = []
     late = 0
@@ -220,7 +220,7 @@ def with_log(events: list[Event], change: Any) -> list[Event]:
     ]
 
 
-def test_who_gives_up_waiting_for_records_too_early_tells_no_truth() -> None:
+def test_ending_the_wait_for_records_too_early_is_a_contradiction() -> None:
     scenario = purpose(LOG)
     events = events_of(scenario)
     assert contradiction(scenario, events) is None
@@ -240,7 +240,7 @@ def test_record_is_missing_only_when_somebody_waited_for_it() -> None:
     assert findings(impatient, with_log(events, lambda records: records[1:])) == {}
 
 
-def test_records_of_others_are_nobodys_fault() -> None:
+def test_records_of_other_sources_are_ignored() -> None:
     scenario = purpose(LOG)
     noise = (LogRecord("info", "container started"), LogRecord("debug", ""))
     events = with_log(events_of(scenario), lambda records: (*noise, *records))
@@ -276,7 +276,7 @@ def test_log_that_cannot_be_read_is_not_judged() -> None:
 
 
 def test_messages_are_disguised() -> None:
-    """Nobody can know them beforehand; what their texts are like stays as it is."""
+    """They differ in each run; the form of their texts is kept."""
     narrow = next(scenarios for name, _, scenarios in purposes({}) if name == "log/narrow texts")[0]
     disguise = Disguise(1, "{port}_{element}")
     plain, other = (

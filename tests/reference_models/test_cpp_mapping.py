@@ -1,4 +1,4 @@
-"""What clause 13 makes of models, as data: the reference model of the C++ mapping, and which requirements it speaks of."""
+"""The reference model of the C++ mapping (13) and its requirements."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ def test_forward_references_are_generated_in_order(task: str) -> None:
     assert header.index("class point_t {") < header.index("path_t;") < header.index("class segment_t {")
 
 
-def test_who_defines_constants_in_headers_is_not_applicable_for_sources() -> None:
+def test_constants_in_headers_make_source_requirements_not_applicable() -> None:
     default = default_statement()
     other = msgspec.structs.replace(default, readings=default.readings | {"cpp03-float-constants": "header"})
     assert not_applicable(default) == {}

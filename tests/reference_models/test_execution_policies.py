@@ -1,4 +1,4 @@
-"""Execution policies (10.1.3): gate schedules prove exclusion, and a framework without it is caught each time."""
+"""Execution policies (10.1.3): gate schedules prove exclusion, and a framework without it fails each time."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def test_every_schedule_proves_something() -> None:
 
 
 @pytest.mark.parametrize("seen", [None, "another", "done"])
-def test_who_was_not_seen_waiting_proves_nothing(seen: str | None) -> None:
+def test_worker_not_seen_waiting_is_undecided(seen: str | None) -> None:
     monitor = Monitor(load_life_cycle())
     called = [p for p in overlap_purposes() if p.id.startswith("protected") and not p.id.endswith("/messages")]
     cases = [case for purpose in called for case in purpose.scenarios]

@@ -1,4 +1,4 @@
-"""Which push a delivery belongs to, when several could be meant (10.1.6)."""
+"""A delivery belongs to one push, also where several are possible (10.1.6)."""
 
 from __future__ import annotations
 
@@ -97,12 +97,12 @@ def test_a_message_of_this_phase_comes_first(story: Story) -> None:
     assert [story.deliver("left", 1).call for _ in range(2)] == [late, early]
 
 
-def test_what_was_refused_comes_last(story: Story) -> None:
+def test_refused_push_comes_last(story: Story) -> None:
     refused, taken = story.push("left", 1, "comm_error"), story.push("left", 1)
     assert [story.deliver("left", 1).call for _ in range(2)] == [taken, refused]
 
 
-def test_another_connections_message_is_nobodys(story: Story) -> None:
+def test_message_of_another_connection_is_stray(story: Story) -> None:
     own = story.push("left", 1)
     story.push("right", 2)
     strange = story.deliver("left", 2)
@@ -110,7 +110,7 @@ def test_another_connections_message_is_nobodys(story: Story) -> None:
     assert story.deliver("left", 1).call is own
 
 
-def test_what_seemed_to_be_altered_was_invented(story: Story) -> None:
+def test_apparently_altered_message_was_invented(story: Story) -> None:
     own = story.push("left", 1)
     strange = story.deliver("left", 7)
     assert (strange.call, strange.fit) == (own, "altered")
@@ -120,7 +120,7 @@ def test_what_seemed_to_be_altered_was_invented(story: Story) -> None:
     assert own.deliveries == [true]
 
 
-def test_what_seemed_to_be_the_first_altered_was_the_second(story: Story) -> None:
+def test_apparently_first_altered_message_was_the_second(story: Story) -> None:
     first, second = story.push("left", 1), story.push("left", 2)
     altered = story.deliver("left", 7)
     story.deliver("left", 1)
@@ -135,7 +135,7 @@ def test_a_receiver_at_two_ports_gets_it_twice(story: Story) -> None:
     assert len(call.deliveries) == 2
 
 
-def test_who_pushes_alone_is_not_crowded(story: Story) -> None:
+def test_single_push_is_not_crowded(story: Story) -> None:
     assert not story.push("left", 1).crowded
     assert story.push("left", 2).crowded  # the first one has not arrived
     story.deliver("left", 1)
@@ -156,7 +156,7 @@ class CannotBreak(ReferenceAdapter):
         raise UcmError("it cannot")
 
 
-def test_who_cannot_break_a_connection_may_mend_it() -> None:
+def test_mending_without_a_break_is_no_failure() -> None:
     (purpose,) = select(load_purposes("core"), "transport-breaks")
     statement = read_statement(HOME / "ics.toml")
     for _, asked in purpose.scenarios:

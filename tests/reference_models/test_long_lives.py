@@ -1,4 +1,4 @@
-"""However long a life is: it is judged as it comes, in bounded memory, and what is wrong at its end is found."""
+"""Long scenarios are judged in bounded memory, and faults at their end are found."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def test_whether_it_can_be_true_takes_little_memory() -> None:
     assert peak < 2 * MEGABYTE, peak
 
 
-def test_what_is_wrong_after_many_rounds_is_found() -> None:
+def test_fault_after_many_rounds_is_found() -> None:
     life = LongLife(300, 2)
     scenario, monitor = life.scenario(), Monitor(load_life_cycle())
     answered = monitor.judge(scenario, late(life.events(), len(life) - 100, value=77))

@@ -1,4 +1,4 @@
-"""Properties are pure: in whichever order they are checked, a trace has the same verdicts."""
+"""Properties are pure: a trace has the same verdicts in every order of checks."""
 
 from __future__ import annotations
 

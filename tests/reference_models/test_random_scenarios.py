@@ -1,4 +1,4 @@
-"""Whatever is asked of whatever framework: nobody who conforms is failed, and no trace is too odd to be judged."""
+"""Random scenarios: conformant frameworks do not fail, and every trace can be judged."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tiny holes in the protection of components are found by stress, and circles of calls are told of (10.1.3.2)."""
+"""Stress finds rare overlaps in protected components; circles of calls are observed (10.1.3.2)."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def stressed() -> tuple[Scenario, Trace]:
     ("counted", "exercised"),
     [({"overlaps": 0, "control_overlaps": 3}, True), ({"overlaps": 0, "control_overlaps": 0}, False)],
 )
-def test_who_finds_nothing_where_nobody_protects_has_proved_nothing(counted: dict[str, int], exercised: bool) -> None:
+def test_stress_without_overlaps_of_the_unprotected_body_is_undecided(counted: dict[str, int], exercised: bool) -> None:
     asked, trace = stressed()
     told = tuple(msgspec.structs.replace(e, **counted) if isinstance(e, Stressed) else e for e in trace)
     verdicts = Monitor(load_life_cycle()).judge(asked, told)
@@ -132,7 +132,7 @@ CIRCLES = {"enter": ReferenceAdapter} | {
 
 
 @pytest.mark.parametrize(("reading", "adapter"), CIRCLES.items())
-def test_circle_is_told_and_not_judged_unless_declared(reading: str, adapter: type[ReferenceAdapter]) -> None:
+def test_circle_is_observed_and_fails_only_if_declared_otherwise(reading: str, adapter: type[ReferenceAdapter]) -> None:
     passive = [p for p in policy_purposes("circle/") if p.id == "circle/protected passive"]
     for name, verdicts in judged(passive, adapter).items():
         assert verdicts.readings["protected-recursion"] == {reading}, name

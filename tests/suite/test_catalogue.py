@@ -73,7 +73,7 @@ def test_every_option_belongs_to_a_tested_requirement() -> None:
 
 
 @pytest.mark.parametrize("profile", PROFILES)
-def test_what_is_offered_has_nothing_pending(profile: str) -> None:
+def test_offered_profile_has_nothing_pending(profile: str) -> None:
     assert any(r.profile in PARTS[profile] for r in REQUIREMENTS.values())
     assert in_the_making(profile) == ""
 

@@ -1,4 +1,4 @@
-"""What the tests of the C++ parts need built, and conversations with it."""
+"""The C++ builds of the tests, and exchanges of messages with them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tool chains that lie, die or talk too much: ``fake.py BEHAVIOUR check MODEL``. Each is told apart by what it does."""
+"""Tool chains with one wrong behaviour each: ``fake.py BEHAVIOUR check MODEL``. Each function is one behaviour."""
 
 from __future__ import annotations
 

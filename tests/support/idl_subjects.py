@@ -1,4 +1,4 @@
-"""What the tests of profile idl share: models of the suite with what is expected of them, and one small model with IDL by hand."""
+"""Shared by the tests of profile idl: the suite's models with expected IDL, and one small model with IDL by hand."""
 
 from __future__ import annotations
 

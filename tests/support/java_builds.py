@@ -1,4 +1,4 @@
-"""What the tests of the Java parts need built."""
+"""The Java builds of the tests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A made-up run with real-looking traces and hostile texts: what the tests of reports are written for."""
+"""A made-up run with realistic traces and hostile texts, for the tests of reports."""
 
 from __future__ import annotations
 

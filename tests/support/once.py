@@ -1,4 +1,4 @@
-"""What several test workers need is made by one of them."""
+"""Makes a shared file once for all test workers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plays scenarios on a Python adapter in this process and tells the trace in short lines."""
+"""Runs scenarios on a Python adapter in this process and writes the trace in short lines."""
 
 from __future__ import annotations
 

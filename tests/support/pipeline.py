@@ -1,4 +1,4 @@
-"""Runs the whole suite on a Python adapter in this process: what most tests of rules need."""
+"""Runs the whole suite on a Python adapter in this process: for the tests of properties."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _TIME = re.compile(rb'"t":\d+')
 
 
 class Judged(NamedTuple):
-    """What the judge says of one trace under no statement: findings, readings seen by option, requirements exercised."""
+    """The verdicts of the monitor on one trace under no statement: findings, readings seen by option, requirements exercised."""
 
     findings: tuple[Finding, ...]
     readings: Mapping[str, frozenset[str]]

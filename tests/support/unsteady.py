@@ -1,4 +1,4 @@
-"""Frameworks that do wrong now and then: tests say how often (``left``)."""
+"""Frameworks that fail sometimes; tests set how often (``left``)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whatever comes as a model, reading it ends with an answer; reader and schema agree about what is built as clause 9 says."""
+"""Reading ends with an answer for any bytes; reader and schema agree about models built as clause 9 says."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ quick = settings(max_examples=300, deadline=None, suppress_health_check=list(Hea
 
 
 @pytest.mark.parametrize("holds", PROPERTIES, ids=lambda holds: holds.__name__)
-def test_what_holds_of_reading(holds: Callable[[Any], None]) -> None:
+def test_properties_of_reading(holds: Callable[[Any], None]) -> None:
     given(PROPERTIES[holds])(quick(holds))()
 
 

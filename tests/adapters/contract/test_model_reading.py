@@ -1,4 +1,4 @@
-"""Models are read and written in every printed spelling, and what does not fit is told: all of it, with its line and a remedy."""
+"""Models are read and written in every printed spelling; every problem is reported with its line and a remedy."""
 
 from __future__ import annotations
 
@@ -275,7 +275,7 @@ def test_a_delegation_is_written_in_either_printed_way() -> None:
     assert b'<ConnectionEnd name="e" part="a" port="q"/>' in write_model(model)
 
 
-def test_whatever_a_value_holds_is_written_so_that_it_is_read_again() -> None:
+def test_any_value_survives_writing_and_reading() -> None:
     value = "a<b>&\"'\t\n\r é\u2028\U0001f600"
     model = Model(
         modules=(
@@ -317,7 +317,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize(("inside", "kind", "told"), WRONG.values(), ids=WRONG.keys())
-def test_what_does_not_fit_is_told(inside: str, kind: str, told: str) -> None:
+def test_each_problem_is_reported(inside: str, kind: str, told: str) -> None:
     problem = only(f'<ContractModule name="m">\n{inside}\n</ContractModule>')
     assert (problem.kind, problem.line) == (kind, 2)
     assert told in problem.message
@@ -333,7 +333,7 @@ def test_truths_are_two() -> None:
     assert problem.message == "UnionCase 'c': defaultCase is 'yes', but must be one of true, false, 1, 0"
 
 
-def test_all_is_told() -> None:
+def test_all_problems_are_reported() -> None:
     assert problems(
         """<ContractModule>
              <Structure/>
@@ -371,6 +371,6 @@ def test_words_are_known_in_their_canonical_form() -> None:
             assert set(words.values()) <= set(words)
 
 
-def test_other_tags_are_nobody_elses() -> None:
+def test_other_tags_are_unique() -> None:
     tags = [tag for spelling in SPELLINGS.values() for tag in (spelling.tag, *spelling.other_tags)]
     assert len(tags) == len(set(tags)) == len(TAGS) - 2

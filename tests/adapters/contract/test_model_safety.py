@@ -1,4 +1,4 @@
-"""Hostile models are refused with one clear line, in time and memory that do not depend on what they would become."""
+"""Hostile models are refused with one clear line, in time and memory that do not depend on their expansion."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def test_document_types_are_refused(doctype: bytes, encoding: str) -> None:
     assert "take the DOCTYPE out" in only(xml).message
 
 
-def test_entities_that_nobody_declared_are_refused() -> None:
+def test_undeclared_entities_are_refused() -> None:
     assert only(b'<ContractModule name="&e9;"/>').kind == "not XML"
 
 
@@ -76,7 +76,7 @@ WRONG_ENCODINGS = {
     "UTF-8 that says ASCII": f'<?xml version="1.0" encoding="US-ASCII"?>{MODULE}'.encode(),
     "UTF-32": MODULE.encode("utf-32"),
     "UTF-7": f'<?xml version="1.0" encoding="UTF-7"?>{MODULE}'.encode("utf-7"),
-    "nobody's": f'<?xml version="1.0" encoding="zork"?>{MODULE}'.encode(),
+    "an unknown encoding": f'<?xml version="1.0" encoding="zork"?>{MODULE}'.encode(),
     "no encoding of text": f'<?xml version="1.0" encoding="hex"?>{MODULE}'.encode(),
     "a long name": f'<?xml version="1.0" encoding="z{"o" * 100_000}rk"?>{MODULE}'.encode(),
     "half a character": MODULE.encode()[:23] + b'"/>',
@@ -104,7 +104,7 @@ BROKEN = {
     "two roots": MODULE.encode() * 2,
     "two of one attribute": b'<ContractModule name="m" name="n"/>',
     "two of one attribute in a namespace": b'<ContractModule name="m" xmlns:a="u" xmlns:b="u" a:x="1" b:x="1"/>',
-    "a prefix that nobody declared": b'<ContractModule name="m" x:y="1"/>',
+    "an undeclared prefix": b'<ContractModule name="m" x:y="1"/>',
     "tags that cross": b'<ContractModule name="m"><Structure name="s"></ContractModule></Structure>',
     "JSON": b'{"name": "m"}',
     "XML 1.1": b'<?xml version="1.1"?><ContractModule name="m\x01"/>',
@@ -113,11 +113,11 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("xml", BROKEN.values(), ids=BROKEN.keys())
-def test_what_is_not_xml_is_told(xml: bytes) -> None:
+def test_bytes_that_are_no_xml_are_reported(xml: bytes) -> None:
     assert only(xml).kind == "not XML"
 
 
-def test_truncated_files_are_told_with_the_line_where_they_end() -> None:
+def test_truncated_files_are_reported_with_their_last_line() -> None:
     assert only(b'<ContractModule name="m">\n\n<Structure name="s"').line == 3
 
 

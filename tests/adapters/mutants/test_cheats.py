@@ -1,4 +1,4 @@
-"""Adapters that cheat are found out by the ordinary pipeline, for the right reason; the limits of that are what docs/honesty.md says."""
+"""The ordinary pipeline detects cheating adapters for the right reason, within the limits of docs/honesty.md."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def test_cheat_is_found_out_for_the_right_reason(cheat: Cheat) -> None:
 
 
 @pytest.mark.parametrize("cheat", UNSEEN.values(), ids=UNSEEN.keys())
-def test_what_no_observation_shows(cheat: Cheat) -> None:
+def test_undetectable_cheats_stay_undetected(cheat: Cheat) -> None:
     assert not examine_cheat(cheat).came_out
 
 

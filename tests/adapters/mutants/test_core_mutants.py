@@ -1,4 +1,4 @@
-"""Frameworks that do clause 10.1 wrongly are found out, for the right reason; those that do it in their own way are not."""
+"""Mutants of clause 10.1 fail for the right reason; variants do not fail."""
 
 from __future__ import annotations
 

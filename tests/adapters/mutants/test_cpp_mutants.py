@@ -54,7 +54,7 @@ def test_mutant_is_found_out(command: Path, known: dict[str, NativeMutant], name
     assert {kill.requirement for kill in result.kills if kill.names_the_place} & set(known[name].requirements)
 
 
-def test_nobody_is_no_mutant(command: Path) -> None:
+def test_unknown_mutant_is_refused(command: Path) -> None:
     done = subprocess.run([command], env={VARIABLE: "nobody"}, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr == f"there is no mutant 'nobody'; {VARIABLE}=list names them all\n"

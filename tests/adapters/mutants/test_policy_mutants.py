@@ -1,4 +1,4 @@
-"""Frameworks that apply execution policies wrongly are found out, and those that do it in their own way are not (10.1.3)."""
+"""Mutants of execution policies (10.1.3) fail; variants do not fail."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Options of the C++ reference framework: whatever is chosen conforms, and is what it is said to be."""
+"""Options of the C++ reference framework: every choice conforms and behaves as documented."""
 
 from __future__ import annotations
 

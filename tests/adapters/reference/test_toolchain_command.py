@@ -60,7 +60,7 @@ def test_files_are_made_of_legal_models_only(models: Path, task: str) -> None:
         (["java", "legal.xml"], "No such command"),
     ],
 )
-def test_wrong_use_is_told_in_words(models: Path, arguments: list[str], problem: str) -> None:
+def test_wrong_use_gives_a_message(models: Path, arguments: list[str], problem: str) -> None:
     status, _, err = told(models, *arguments)
     assert status == 2
     assert problem in err

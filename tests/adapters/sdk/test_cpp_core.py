@@ -130,7 +130,7 @@ def test_declared_and_other_exceptions(builds: Builds) -> None:
     assert replies(same_as_in_python(builds, fails)) == [(None, None, True)] * 3
 
 
-def test_every_reference_is_called_and_nobody_is_called_through_a_port_without_reference(builds: Builds) -> None:
+def test_every_reference_of_a_port_is_called_and_a_port_without_reference_calls_nothing(builds: Builds) -> None:
     components = {"C": client(s.CallMethod("other", "quiet"), s.Burst("other", 1, 5)), "S": server()}
     assert not entered(same_as_in_python(builds, asked(components, linked(s.Invoke("go", 1)))))
 
@@ -290,7 +290,7 @@ def test_messages_are_awaited_while_they_come(builds: Builds) -> None:
     assert counted[11] == 50_000
 
 
-def test_pausing_tells_both_clocks(builds: Builds) -> None:
+def test_pause_records_both_clocks(builds: Builds) -> None:
     scenario = s.Scenario({}, (s.Pause(20), s.Pause(-1), s.Pause(0)))
     trace = events(builds.program("patchbay"), scenario)
     assert contradiction(scenario, trace) is None
@@ -352,7 +352,7 @@ def test_protected_component_withstands_stress(builds: Builds, policy: str) -> N
 
 
 @needs_two_cores
-def test_callers_of_a_component_that_nobody_protects_meet(builds: Builds) -> None:
+def test_callers_of_an_unprotected_component_overlap(builds: Builds) -> None:
     found, trace = stressed(builds.reference, s.UNPROTECTED_PASSIVE)
     assert found.overlaps > 100
     assert found.control_overlaps > 100

@@ -114,7 +114,7 @@ def test_same_scenarios_make_the_same_traces_behind_both_sdks(java: JavaBuilds) 
     assert contradiction(runs[-1].scenario, told) is None
 
 
-def test_stress_counts_who_meets_whom(java: JavaBuilds) -> None:
+def test_stress_counts_overlaps(java: JavaBuilds) -> None:
     steps = (s.AddComponent("P"), s.GetPortElement("P", "p_e", "r"), s.Stress(("r", "r"), 300), s.Invoke("r", 1))
     trace = events(java.program("StrictAdapter"), s.Scenario(PAIR, steps))
     (stressed,) = [event for event in trace if isinstance(event, t.Stressed)]
@@ -176,7 +176,7 @@ def test_listening(java: JavaBuilds, kind: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("wrong", [["--listen", "udp://x:1"], ["--listen", "tcp://x"], ["surprise"]])
-def test_wrong_use_is_told_in_one_line(java: JavaBuilds, wrong: list[str]) -> None:
+def test_wrong_use_gives_one_line(java: JavaBuilds, wrong: list[str]) -> None:
     done = subprocess.run([java.program("RudeAdapter"), *wrong], capture_output=True, text=True, check=False)
     assert (done.returncode in (1, 2), done.stdout) == (True, "")
     assert re.fullmatch(r"rude: .*tcp://HOST:PORT or unix:.*PATH\n", done.stderr)
@@ -217,7 +217,7 @@ def test_what_leaves_an_operation(java: JavaBuilds) -> None:
     assert contradiction(s.Scenario({}, steps), trace) is None, "an interrupt of the framework does not shorten waits"
 
 
-def test_contract_that_is_broken_is_told(java: JavaBuilds) -> None:
+def test_broken_contract_is_refused(java: JavaBuilds) -> None:
     listed = s.Scenario({}, (s.CreateContainer("sub"), s.GetComponents(container="sub")))
     started = s.Scenario({"A": s.Declaration()}, (s.Stop(),))
     answers, _, _ = talk(java.program("RudeAdapter"), m.Run(1, listed), m.Run(2, started))

@@ -174,12 +174,14 @@ BLOCKS = ["start thread=w", "settle worker=w", "stop", "join worker=w"]
         (["remove_container container=nil thread=w", "settle worker=w", "join worker=w"], "running"),
     ],
 )  # fmt: skip
-def test_settle_tells_where_a_worker_is(steps: list[str], where: str) -> None:
+def test_settle_records_the_state_of_a_worker(steps: list[str], where: str) -> None:
     trace = play({}, steps, Waits, patience=100)
     assert [line.rpartition("=")[2] for line in trace if line.startswith("settled")] == [where]
 
 
-def test_nobody_is_seen_to_be_blocked_where_the_operating_system_does_not_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_worker_counts_as_running_if_the_operating_system_does_not_report_its_state(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(workers, "_sleeps", lambda thread: None)
     monkeypatch.setattr(engine, "SEAL", engine.sealed())
     assert "settled worker=w where=running" in play({}, BLOCKS, Waits, patience=50)

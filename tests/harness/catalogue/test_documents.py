@@ -1,4 +1,4 @@
-"""Bad documents give one clear message with file and line, whatever is wrong with them."""
+"""Each error in a document gives one clear message with file and line."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_error_names_file_line_and_problem(tmp_path: Path, text: str, line: int,
     assert word in message
 
 
-def test_what_is_told_is_one_line_that_harms_no_terminal(tmp_path: Path) -> None:
+def test_messages_are_one_line_without_control_characters(tmp_path: Path) -> None:
     path = tmp_path / "script.yaml"
     for odd in ("\\e[31m\\u202e\\n\\r", "x" * 1_000_000):
         path.write_text(GOOD.replace("sink", f'"{odd}"'))

@@ -77,7 +77,7 @@ def test_conformant_framework_without_a_terminal(here: Path) -> None:
     }  # fmt: skip
 
 
-def test_nobody_has_to_read_what_is_printed(here: Path) -> None:
+def test_closed_output_does_not_stop_a_run(here: Path) -> None:
     read, write = os.pipe()
     os.close(read)
     command = [sys.executable, "-m", "ucm_cts", "run", "reference-py", "-k", REQUIREMENT, "--out", "out"]
@@ -100,7 +100,7 @@ def test_terminal_that_knows_no_symbols(here: Path) -> None:
         assert (b"x NOT CONFORMANT" in done.stdout) == (SUBJECT in arguments)
 
 
-def test_output_that_is_lost_is_told_and_the_report_is_not(here: Path) -> None:
+def test_lost_output_is_an_error_and_the_report_is_kept(here: Path) -> None:
     command = [sys.executable, "-m", "ucm_cts", "run", "reference-py", "--out", "out"]
     with open("/dev/full", "w") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)

@@ -156,7 +156,7 @@ def test_selection() -> None:
         assert set(suite("--iut", "reference-py", "-k", spelling).nodes) == of_clause != set()
 
 
-def test_statement_says_what_is_run_and_what_binds(here: Path) -> None:
+def test_statement_selects_purposes_and_binding_readings(here: Path) -> None:
     (here / "ics.toml").write_text('[readings]\nremove-while-ready = "cascade"\n')
     session = suite("--iut", "reference-py", "--iut-ics", "ics.toml", "-k", "ready/remove_component")
     assert session.status == 1
@@ -207,7 +207,7 @@ def test_failure_says_requirement_expected_observed_and_shows_both(wrong: tuple[
         assert pictures == ["observed", "expected"] * heads
         assert "✗" in message
         assert "✓" in message
-        assert ".py:" not in message, "the suite's own code is nobody's concern"
+        assert ".py:" not in message, "messages do not show the suite's own code"
         more = re.search(r"^and (\d+) more$", message, re.MULTILINE)
         assert heads <= 3
         assert heads == 3 or not more
@@ -254,7 +254,7 @@ def test_known_failures_are_expected_until_they_no_longer_occur(here: Path) -> N
         assert (f"known failure of {REQUIREMENT} no longer occurs (start *): remove it" in session.out) == bool(status)
 
 
-def test_adapter_that_lies_is_not_the_frameworks_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_dishonest_adapter_is_not_the_frameworks_fault(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("LIES", '[["cut", 20, 0]]')
     session = suite("--iut", "hostile.lying", "-k", "restart")
     assert session.status == 1

@@ -148,7 +148,7 @@ def test_hostile_texts_stay_in_their_cells(tmp_path: Path) -> None:
         ("other.json", "{}", "there is neither report.json nor matrix.json in"),
     ],
 )
-def test_what_is_no_whole_result_is_refused(tmp_path: Path, name: str, content: str, message: str) -> None:
+def test_incomplete_result_is_refused(tmp_path: Path, name: str, content: str, message: str) -> None:
     (tmp_path / name).write_text(content)
     done = ucm_cts("results", tmp_path, "--out", tmp_path / "out")
     assert done.status == 2
@@ -169,5 +169,5 @@ def test_published_files_are_as_the_command_writes_them() -> None:
         assert path.read_bytes() == to_result(result)
 
 
-def test_what_is_published_is_small() -> None:
+def test_published_results_are_small() -> None:
     assert sum(path.stat().st_size for path in (ROOT / "results").rglob("*") if path.is_file()) < 600_000

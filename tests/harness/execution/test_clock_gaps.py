@@ -132,7 +132,7 @@ def test_finding_that_is_shown_again_is_confirmed_once() -> None:
     assert run.patience == [5]
 
 
-def test_what_is_not_found_again_is_unstable() -> None:
+def test_unconfirmed_failure_is_unstable() -> None:
     run = MadeUp([])
     confirmation = run.confirmation()
     confirmed, unconfirmed = confirmation.separate(ANSWER, [TIMED, LASTING])
@@ -243,7 +243,7 @@ def test_failure_that_was_seen_more_than_once_is_confirmed_too(slips: int, verdi
     assert bool(result.findings[0].steady) == (verdict == "inconclusive")
 
 
-def test_what_there_is_no_time_to_look_at_stands_and_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_failures_without_time_for_confirmation_stand_and_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(campaign, "SECONDS_FOR_CONFIRMATION", -1)
     unsteady.Slips.left = 1
     (purpose,) = (p for p in load_purposes("core") if p.id == "same-connection-twice")

@@ -1,4 +1,4 @@
-"""Nothing can be hard-coded: each run spells names and payloads differently, and only people see the scripts' own."""
+"""Each run has its own names and payloads; reports show those of the scripts."""
 
 from __future__ import annotations
 

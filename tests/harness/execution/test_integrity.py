@@ -1,4 +1,4 @@
-"""A trace that no truthful host can produce is told from one that it can: each small lie in a right trace is found."""
+"""The integrity check accepts truthful traces and finds each small edit that no truthful host can produce."""
 
 from __future__ import annotations
 
@@ -149,16 +149,16 @@ STRANGER = Reference("server", 2, "in")
 LIES: dict[str, tuple[Edit, str]] = {
     "a step that is missing": (drop(where("call", step=ADD), where("return", step=ADD)), ""),
     "a step that never ends": (drop(where("raise", step=STOP)), "ended"),
-    "a step that nobody asked for": (change("call", {"step": 99}, step=LIST), "no step 99"),
+    "a step that was not requested": (change("call", {"step": 99}, step=LIST), "no step 99"),
     "a worker's step on the scenario's thread": (on_thread(0, ENTRY, NINE), "which is another one's"),
     "a step of the scenario on another thread": (on_thread(7, LIST), "not on the scenario's own"),
     "a worker on two threads": (on_thread(7, NINE), "others of 'w' on thread 1"),
     "a step inside another one": (move(where("return", step=LIST), where("call", step=SKIPPED - 1) + 1), "is open on"),
-    "a gate nobody opened": (drop(where("opened")), "goes on although gate 'g' is closed"),
+    "a gate that was not opened": (drop(where("opened")), "goes on although gate 'g' is closed"),
     "a gate opened too late": (move(where("opened"), where("return", step=ENTRY)), "goes on although gate"),
     "a gate opened twice": (lambda events: events.insert(0, events[where("opened")]), "no step opens it"),
     "another gate opened": (change("opened", {"gate": "h"}), "no step opens it"),
-    "a wait for nobody": (move(where("held"), where("call", step=LIST)), "not seen a body at gate 'g'"),
+    "a wait without a body": (move(where("held"), where("call", step=LIST)), "not seen a body at gate 'g'"),
     "a join that did not wait": (move(where("return", step=NINE), where("call", step=NINE + 2)), "'w' is not done"),
     "patience that was not had": (insert(where("call", step=LIST), Timeout(0, 0, 0, REACH)), "too early"),
     "a step carried out twice": (change("call", {"step": ADD}, step=LIST), "twice"),
@@ -174,8 +174,8 @@ LIES: dict[str, tuple[Edit, str]] = {
     "a reference that is none": (change("return", {"value": 3}, step=GET), "cannot return"),
     "a value from start": (change("return", {"value": 0}, step=START), "cannot return"),
     "a connection id that is none": (change("return", {"value": None}, step=CONNECT), "cannot return"),
-    "a reference to nobody": (change("return", {"value": STRANGER}, step=GET), "never made"),
-    "a component nobody declared": (change("create", {"component": "nobody"}, component="server"), "no component"),
+    "a reference without a body": (change("return", {"value": STRANGER}, step=GET), "never made"),
+    "an undeclared component": (change("create", {"component": "nobody"}, component="server"), "no component"),
     "an instance left out": (change("create", {"instance": 2}, component="server"), "made after 0"),
     "a body that was never made": (drop(where("create", component="server")), "never made"),
     "a call of nothing": (change("enter", {"value": None}, hook="exchange", component="server"), "exchange on"),
@@ -188,11 +188,11 @@ LIES: dict[str, tuple[Edit, str]] = {
     "a body that never leaves": (drop(where("exit", hook="on_init")), ""),
     "another body acts": (change("held", {"component": "steady"}), "without having been entered"),
     "another thread acts": (change("siblings", {"thread": 9}), "without having been entered"),
-    "a gate of nobody": (change("held", {"gate": "h"}), "plan"),
+    "an unplanned gate": (change("held", {"gate": "h"}), "plan"),
     "a planned failure that did not come": (
         change("exit", {"raised": False}, hook="on_shutdown", component="faulty"), "against its plan"
     ),
-    "a failure nobody planned": (change("exit", {"raised": True}, hook="on_init", component="steady"), "against its plan"),
+    "an unplanned failure": (change("exit", {"raised": True}, hook="on_init", component="steady"), "against its plan"),
     "another result than planned": (change("exit", {"value": 8}, value=9), "its plan says 9"),
     "another result than computed": (change("exit", {"value": 0}, hook="exchange", component="server"), "its plan says"),
     "a step skipped for nothing": (skip_list, "although manager is bound"),
@@ -208,7 +208,7 @@ LIES: dict[str, tuple[Edit, str]] = {
 
 
 @pytest.mark.parametrize(("edit", "problem"), LIES.values(), ids=LIES.keys())
-def test_lie_is_found(edit: Edit, problem: str) -> None:
+def test_contradiction_is_found(edit: Edit, problem: str) -> None:
     events = list(TRUTH)
     edit(events)
     found = contradiction(RICH, renumbered(events))
@@ -216,7 +216,7 @@ def test_lie_is_found(edit: Edit, problem: str) -> None:
     assert problem in found
 
 
-def test_truth_is_believed() -> None:
+def test_truthful_traces_have_no_contradiction() -> None:
     assert contradiction(RICH, TRUTH) is None
     kinds = {type(event) for event in TRUTH}
     assert {Held, Opened, Skip} <= kinds, "the scenario has a bit of everything"
@@ -269,7 +269,7 @@ def test_waits_end_when_patience_has_run_out() -> None:
 
 
 def test_plans_are_checked_by_what_bodies_really_got() -> None:
-    """A client that was given no reference at on_startup has nobody to call."""
+    """A client that was given no reference at on_startup has no reference to call."""
     client = {"provides": ["in"], "requires": ["out"], "plan": {"exchange": [CALL]}}
     steps = [
         {"op": "add_component", "component": "client"},

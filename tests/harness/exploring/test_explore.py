@@ -1,4 +1,4 @@
-"""Exploration: what fails is found by scenarios nobody wrote, shortened, told once, remembered and tried first next time."""
+"""Exploration draws scenarios, shortens failures, reports each once, remembers it and tries it first next time."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def exploration(folder: Path) -> Any:
 # what it finds
 
 
-def test_a_failure_is_told_once_with_its_shortest_scenario(found: Path) -> None:
+def test_a_failure_is_reported_once_with_its_shortest_scenario(found: Path) -> None:
     told = exploration(found)
     (failure,) = told["failures"]
     assert (failure["requirement"], failure["clause"]) == (REQUIREMENT, "11.2.2.1")
@@ -158,7 +158,7 @@ ASKED = t.Request(*BODY, "out.api", 1)
         ((), False),
     ],
 )
-def test_who_may_wait(trace: t.Trace, may: bool) -> None:
+def test_traces_that_may_wait(trace: t.Trace, may: bool) -> None:
     assert may_wait(Scenario({}, (s.Invoke("one", 1),)), trace) == may
 
 
@@ -192,7 +192,7 @@ def test_it_ends_when_nothing_can_be_tried_any_more(adapter: str) -> None:
     assert left_out.occurrences >= IN_VAIN
 
 
-def test_incidents_are_told_once_remembered_and_tried_first(here: Path) -> None:
+def test_incidents_are_reported_once_remembered_and_tried_first(here: Path) -> None:
     arguments = "--seed", "1", "--database", "kept", "--budget"
     subject = "hostile.failing:DiesAtOnce"
     first = ucm_cts("explore", subject, *arguments, "4scenarios", "--out", "first")
@@ -385,7 +385,7 @@ def test_one_scenario_is_kept_for_each_cause() -> None:
     assert memory.recall() == []
 
 
-def test_what_cannot_be_read_is_told_and_left_alone(here: Path) -> None:
+def test_unreadable_remembered_failures_are_reported_and_kept(here: Path) -> None:
     remember(DirectoryBasedExampleDatabase("kept"), "stops_in_startup_order")
     (entry,) = (p for p in Path("kept").rglob("*") if p.is_file() and b"add_component" in p.read_bytes())
     entry.write_bytes(b"{")
@@ -415,7 +415,7 @@ def test_what_cannot_be_read_is_told_and_left_alone(here: Path) -> None:
         (("--profile", "nonsense"), "'nonsense' is not one of"),
     ],
 )
-def test_wrong_use_is_told_in_a_line(here: Path, arguments: tuple[str, str], told: str) -> None:
+def test_wrong_use_gives_one_line(here: Path, arguments: tuple[str, str], told: str) -> None:
     (here / "file").write_text("")
     outcome = ucm_cts("explore", REFERENCE, *arguments)
     assert outcome.status == 2

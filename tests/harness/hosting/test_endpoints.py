@@ -1,4 +1,4 @@
-"""Through whichever endpoint a framework is reached, the suite sees the same and says the same."""
+"""A framework has the same traces and verdicts through every endpoint."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ PYTHON = "ucm_cts.adapters.reference.python.adapter:ReferenceAdapter"
 def plain(name: str, trace: Trace) -> list[Any]:
     """Events without what no two runs share: times, and identifiers beyond which is which.
 
-    Where several threads run a race, the order is nobody's either.
+    Where several threads race, the order is left out as well.
     """
     scenario = dict(sample())[name]
     known: dict[int, int] = {}

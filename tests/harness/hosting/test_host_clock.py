@@ -1,4 +1,4 @@
-"""A host's times go on from answer to answer, and are lived through; honest hosts are never taken for others."""
+"""A host's times increase from answer to answer and match the elapsed time; honest hosts have no contradiction."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def test_answers_in_the_order_in_which_they_were_lived() -> None:
     assert clock.contradiction(told(50 * MS, 3_000 * MS), 45 * MS, 3_000 * MS) is None
 
 
-def test_old_trace_told_again() -> None:
+def test_replayed_trace_is_a_contradiction() -> None:
     clock = HostClock(False)
     trace = told(20 * MS, 30 * MS)
     assert clock.contradiction(trace, 10 * MS, 40 * MS) is None

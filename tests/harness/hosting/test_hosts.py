@@ -1,4 +1,4 @@
-"""Whatever a host does, each scenario gets its answer or its incident, and nothing stays behind."""
+"""Each scenario gets an answer or an incident from any host; no process or descriptor is left over."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def test_hang_is_an_incident_with_stacks(adapter: str) -> None:
 
 
 @pytest.mark.usefixtures("no_leaks")
-def test_stuck_thread_is_told_and_the_host_replaced() -> None:
+def test_stuck_thread_is_reported_and_the_host_replaced() -> None:
     answer, others = around_trigger("misbehaving:HangsOnWorkers", PATIENT, IN_THREAD)
     assert isinstance(answer.reply, Traced)
     assert answer.reply.stuck == ("w",)
@@ -185,7 +185,7 @@ def test_without_a_welcome_there_is_no_host(
 
 
 @pytest.mark.usefixtures("no_leaks")
-def test_second_look_tells_what_happened_before_a_crash() -> None:
+def test_second_run_streams_the_events_before_a_crash() -> None:
     scenario = Scenario(TRIGGER.components, (s.AddComponent("calm"), s.AddComponent("trigger")))
     with Hosts(locate("misbehaving:Aborts"), PATIENT) as hosts:
         first = next(hosts.run([Run(1, scenario)]))
@@ -199,7 +199,7 @@ def test_second_look_tells_what_happened_before_a_crash() -> None:
 
 
 @pytest.mark.usefixtures("no_leaks")
-def test_second_look_may_come_between_answers() -> None:
+def test_second_run_may_come_between_answers() -> None:
     seen = []
     with Hosts(locate("misbehaving:Aborts"), PATIENT) as hosts:
         for answer in hosts.run(Run(n, TRIGGER if n % 7 == 3 else CALM) for n in range(100)):
@@ -220,7 +220,7 @@ def test_long_pipelines_do_not_lock_up() -> None:
 
 
 @pytest.mark.usefixtures("no_leaks")
-def test_answers_nobody_waits_for_are_not_mixed_up() -> None:
+def test_abandoned_answers_are_not_mixed_up() -> None:
     with Hosts(locate(REFERENCE), PATIENT) as hosts:
         for _ in hosts.run(Run(n, CALM) for n in range(20)):
             break
@@ -307,7 +307,7 @@ def test_listening_host(tmp_path: Path, address: str) -> None:
             server.kill()
 
 
-def test_nobody_listens(tmp_path: Path) -> None:
+def test_address_without_listener(tmp_path: Path) -> None:
     with (
         Hosts(locate(f"unix:{tmp_path}/nobody")) as hosts,
         pytest.raises(HostUnavailable, match="is the adapter running"),
@@ -346,7 +346,7 @@ def short_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("short_names")
-def test_short_names_name_any_door() -> None:
+def test_short_names_name_any_endpoint() -> None:
     assert (locate("as-class").kind, locate("as-class").target) == ("python", REFERENCE)
     assert (locate("as-module").kind, locate("as-module").target) == ("python", "misbehaving")
     assert (locate("as-path").kind, locate("as-path").text) == ("executable", "as-path")

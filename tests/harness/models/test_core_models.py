@@ -39,7 +39,7 @@ def test_without_models_everything_is_absent() -> None:
 
 
 @each_declaration
-def test_what_is_changed_breaks_its_requirement_alone(declaration: Declaration) -> None:
+def test_changed_declaration_breaks_its_requirement_alone(declaration: Declaration) -> None:
     inside = {
         r for r, d in DECLARATIONS.items()
         if d.file == declaration.file and element_of(declaration) in element_of(d).iterancestors()

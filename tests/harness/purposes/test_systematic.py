@@ -1,4 +1,4 @@
-"""The systematic suites keep their promise: every wrong machine is found out, by the machine's own measure and by the judge."""
+"""The systematic suites find every wrong machine, by the machine's own outputs and by the monitor."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ def test_extra_states_of_larger_machines_are_found_out(build: Build) -> None:
 
 
 @of_settings
-def test_suites_without_a_look_at_where_they_are_let_some_survive(build: Build) -> None:
+def test_suites_without_state_identification_let_transfer_faults_survive(build: Build) -> None:
     subject = Subject(machine_of(build))
     faults = single_faults(subject)
     blind = survivors(subject, transition_cover(subject.machine), faults)
@@ -220,7 +220,7 @@ def test_the_judge_finds_nothing_wrong_with_the_right_machine(build: Build, read
 
 @of_vendors
 @of_settings
-def test_the_judge_finds_out_what_the_suite_finds_out(build: Build, readings: dict[str, str]) -> None:
+def test_the_monitor_finds_the_faults_that_the_suite_finds(build: Build, readings: dict[str, str]) -> None:
     setting, subject = build(), Subject(machine_of(build, readings))
     monitor = Monitor(load_life_cycle(), Ics(readings))
     tried = Tried(subject, hsi(subject.machine, 0))
@@ -284,7 +284,7 @@ def failing(adapter: type[Adapter], readings: dict[str, str]) -> set[str]:
         ("everything_goes", {}),
     ],
 )
-def test_conformant_frameworks_are_spared_whatever_they_declare(name: str, readings: dict[str, str]) -> None:
+def test_conformant_frameworks_are_spared_under_all_declarations(name: str, readings: dict[str, str]) -> None:
     adapter = VARIANTS[name].adapter if name else ReferenceAdapter
     assert failing(adapter, readings) == set()
 

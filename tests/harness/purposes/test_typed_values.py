@@ -1,4 +1,4 @@
-"""Every value that is drawn is one of its type, within the vendor's readings; what goes wrong on its way is found and blamed."""
+"""Drawn values belong to their type and the vendor's readings; a changed value is found and its type is named."""
 
 from __future__ import annotations
 
@@ -172,7 +172,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize(("of", "value"), WRONG.values(), ids=WRONG.keys())
-def test_what_is_no_value_of_a_type_is_told(of: AnyType, value: object) -> None:
+def test_wrong_values_of_a_type_are_reported(of: AnyType, value: object) -> None:
     assert misfit(of, value)
 
 
@@ -183,7 +183,7 @@ def blame(of: AnyType, sent: Datum, got: object, *carried_well: tuple[AnyType, D
     return [evidence.broken_by(d.part) for d in differences(Part(of, sent), got)]
 
 
-def test_the_innermost_type_that_differs_is_to_blame() -> None:
+def test_the_innermost_type_that_differs_is_found() -> None:
     line = Structure("line", {"ends": Array(POINT, (2,)), "name": NAME})
     sent: Datum = [[[1, 2, 3], [4, 5, 6]], "n"]
     assert blame(line, sent, [[[1, 2, 3], [4, 5, 7]], "n"]) == ["R-10.1.1-07"]
@@ -197,7 +197,7 @@ def test_the_innermost_type_that_differs_is_to_blame() -> None:
     assert blame(COLOUR, "red", "blue") == ["R-10.1.1-12"]
 
 
-def test_what_is_around_a_value_is_to_blame_where_that_value_is_carried_well_elsewhere() -> None:
+def test_the_enclosing_type_is_found_where_its_value_alone_is_carried_well() -> None:
     points = Sequence(POINT)
     well: tuple[AnyType, Datum] = (LONG, 9)
     assert blame(POINT, [1, 2, 9], [1, 2, 0], well) == ["R-10.1.1-13"]
@@ -207,7 +207,7 @@ def test_what_is_around_a_value_is_to_blame_where_that_value_is_carried_well_els
     assert blame(Alias("number", LONG), 9, 0, (LONG, 8)) == ["R-10.1.1-07"]
 
 
-def test_the_case_of_a_union_is_told_from_its_value() -> None:
+def test_the_case_of_a_union_is_distinguished_from_its_value() -> None:
     union = Union("u", COLOUR, (UnionCase("n", LONG, ("red",)), UnionCase("t", NAME, ("green", "blue"), default=True)))
     assert blame(union, ["red", 1], ["red", 2]) == ["R-10.1.1-07"]
     assert blame(union, ["red", 1], ["red", "text"]) == ["R-10.1.1-14"]

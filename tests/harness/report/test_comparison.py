@@ -1,4 +1,4 @@
-"""``ucm-cts compare``: what reports say stands side by side, whoever wrote them, and what is no report is refused."""
+"""``ucm-cts compare``: reports of all products are shown side by side; other files are refused."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_rows_are_in_the_order_of_clauses_and_know_what_was_not_asked(tmp_path: 
     assert {option.name: option.differs for option in both.options} == {"double-start": False, "late-add": True}
 
 
-def test_the_page_tells_who_passes_what_and_where_they_differ(tmp_path: Path) -> None:
+def test_the_page_shows_verdicts_and_differences(tmp_path: Path) -> None:
     save(tmp_path, LEFT, RIGHT)
     page_file = tmp_path / "new" / "page.html"
     outcome = ucm_cts("compare", *sorted(tmp_path.glob("*/report.json")), "--out", page_file)
@@ -218,7 +218,7 @@ def test_the_unbroken_report_is_taken(tmp_path: Path) -> None:
     assert len(compare([good, same]).columns) == 2
 
 
-def test_other_mistakes_are_told_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_other_mistakes_give_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     files = save(tmp_path, LEFT, RIGHT)
     page = tmp_path / "page.html"
     for number in (0, 1, 13):

@@ -1,4 +1,4 @@
-"""Sequence diagrams of what happened, and of what should have."""
+"""Sequence diagrams of observed and expected events."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a reader of a report would miss: checked on a made-up run with real-looking traces and hostile texts."""
+"""The contents of reports, checked on a made-up run with realistic traces and hostile texts."""
 
 from __future__ import annotations
 

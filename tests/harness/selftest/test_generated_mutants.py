@@ -1,4 +1,4 @@
-"""The machinery of generated mutants: what a mutant is, which are programs of their own, what is noticed, what is counted."""
+"""The machinery of generated mutants: how mutants are made, selected, run and counted."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_what_the_tool_makes_is_sorted_out(tool: Tool, capsys: pytest.CaptureFix
     assert capsys.readouterr().out == ""
 
 
-def test_the_same_line_is_told_apart_by_its_number(tool: Tool, tmp_path: Path) -> None:
+def test_equal_lines_differ_by_their_number(tool: Tool, tmp_path: Path) -> None:
     tool.rules = (("a", "b"), ("a", "b"), ("a", "c\n    break;"))
     (tmp_path / "x.py").write_text("    a\nif a:\n    a\n")
     made = list(generate(tmp_path / "x.py", ()))

@@ -1,4 +1,4 @@
-"""The self-test tells mutants that are killed for the right reason from those that are not, and right from wrong variants."""
+"""The self-test distinguishes kills for the right reason from others, and spared variants from failed ones."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def test_mutant_is_killed() -> None:
     assert (kill.requirement, result.clause) == ("R-11.2.1.2-04", "11.2.1.2")
 
 
-def test_failure_of_another_requirement_kills_nobody_and_spills() -> None:
+def test_failure_of_another_requirement_is_a_spill_and_no_kill() -> None:
     mutant = replace(all_mutants()["initialises_at_stop"], breaks=("R-11.2.1.2-01",), clauses=("11.2.1.2",))
     result = examine_mutant(mutant, QUICK)
     assert (result.is_killed, result.survives) == (False, ("R-11.2.1.2-01",))
@@ -173,7 +173,7 @@ def test_interrupted_self_test_has_what_was_found(tmp_path: Path, monkeypatch: p
     assert "subjects not examined" in Path("out/matrix.html").read_text()
 
 
-def test_whole_matrix_without_a_killer_for_each_requirement_proves_nothing() -> None:
+def test_whole_matrix_needs_a_killed_mutant_for_each_requirement() -> None:
     matrix = Matrix("1", 1, 1.0, ("R-11.2.1.2-01",), (), (), False)
     assert matrix.is_proved
     assert not msgspec.structs.replace(matrix, is_all=True).is_proved

@@ -1,4 +1,4 @@
-"""Series: the same run again and again, told in one table."""
+"""Series: repeated runs in one table."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_steady_series_succeeds(monkeypatch: pytest.MonkeyPatch) -> None:
     assert output.count("none") == 2
 
 
-def test_flip_is_told_and_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_changed_verdict_is_reported_and_fails(monkeypatch: pytest.MonkeyPatch) -> None:
     flipped = {"R-2": "inconclusive"}
     status, output = run(monkeypatch, [told("1"), told("2", "inconclusive", **flipped)])
     assert status == 1

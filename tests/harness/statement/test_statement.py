@@ -1,4 +1,4 @@
-"""The vendor's statement: as a file, what of the suite applies under it, and what becomes of false claims."""
+"""The vendor's statement: its file, the requirements that apply under it, and false claims."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def test_what_is_written_has_every_value_with_its_permitted_ones_its_meaning_and
     assert max(map(len, text.split("\n"))) <= 128
 
 
-def test_whatever_a_product_is_called_comes_through() -> None:
+def test_any_product_name_is_kept() -> None:
     stated = stating(product='A "b" \\ #\t\x7f\x01\n\U0001f600é', version="'")
     assert read_statement(written(stated)).product == stated.product
 
@@ -145,7 +145,7 @@ BAD = {
 
 
 @pytest.mark.parametrize(("text", "line", "problem"), BAD.values(), ids=BAD.keys())
-def test_bad_statement_is_told_with_file_line_and_remedy(text: str, line: int | None, problem: str) -> None:
+def test_bad_statement_is_reported_with_file_line_and_remedy(text: str, line: int | None, problem: str) -> None:
     path = Path("bad.toml")
     path.write_text(text)
     with pytest.raises(DocumentError) as caught:
@@ -278,7 +278,7 @@ def run(statement: Statement, *requirements: str, adapter: str = ADAPTER) -> Rep
         (ADAPTER, "observed", "pass"),
     ],
 )
-def test_who_starts_all_at_once_has_no_order_to_reverse(adapter: str, declared: str, verdict: str) -> None:
+def test_simultaneous_start_has_no_order_to_reverse(adapter: str, declared: str, verdict: str) -> None:
     hasty = default_statement().ixit | {"patience": 100.0}
     statement = stating(readings={"start-order": declared}, ixit=hasty)
     chosen = [p for p in purposes_for(statement, "container") if "R-11.2.2.1-13" in p.requirements]
@@ -363,7 +363,7 @@ def test_models_give_verdicts(here: Path) -> None:
     assert "return_codes.xml:10" in (here / "out" / "report.html").read_text()
 
 
-def test_models_that_cannot_be_used_are_told_before_anything_runs(here: Path) -> None:
+def test_unusable_models_are_reported_before_the_run(here: Path) -> None:
     for models, problem in ((("none.xml",), "none.xml: cannot be read"), (("bad.xml",), "bad.xml:1: is not XML")):
         (here / "bad.xml").write_text("<a>")
         with pytest.raises(DocumentError, match=problem):
@@ -401,7 +401,7 @@ def test_ics_writes_a_statement_that_run_takes(here: Path) -> None:
     assert report_of(here / "ucm-cts-report")["statement"]["source"] == "ucm-cts-ics.toml"
 
 
-def test_ics_writes_over_nothing_unless_told_to(here: Path) -> None:
+def test_ics_overwrites_only_with_the_option(here: Path) -> None:
     identity = Welcome(PROTOCOL, "Fancy\n\x00" + "x" * 1000, "1", "")
     (here / "mine.toml").write_text("mine")
     with pytest.raises(WrongUse, match="--force"):

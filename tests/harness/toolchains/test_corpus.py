@@ -86,14 +86,14 @@ def test_all_that_is_not_printed_is_in_some_legal_model() -> None:
 
 
 @pytest.mark.parametrize("construct", CONSTRUCTS)
-def test_who_does_not_know_our_spelling_neither_fails_nor_passes(construct: str) -> None:
+def test_an_unspecified_spelling_that_is_always_refused_decides_nothing(construct: str) -> None:
     judged = _judged_without({q.name for q in ASKED if CONSTRUCTS[construct].search(q.text)})
     assert not [j.question.name for j in judged if j.outcome == "broken"]
     assert any(j.outcome == "undecided" and not j.leaves_others for j in judged)
 
 
 @pytest.mark.parametrize("construct", CONSTRUCTS)
-def test_who_knows_our_spelling_elsewhere_is_held_to_it(construct: str) -> None:
+def test_an_unspecified_spelling_that_is_accepted_elsewhere_counts(construct: str) -> None:
     having = [q for q in ASKED if q.due == "accept" and not q.twin and CONSTRUCTS[construct].search(q.text)]
     assert any(j.outcome == "broken" for j in _judged_without({min(having, key=lambda q: len(q.text)).name}))
 

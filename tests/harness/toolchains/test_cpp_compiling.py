@@ -1,4 +1,4 @@
-"""What the compiler says is read, whatever the compiler, and what it does not survive is told."""
+"""Diagnostics of every compiler are read, and its crashes are reported."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def test_compilers_without_json_are_understood(tmp_path: Path) -> None:
     assert compiled.errors == (Error("R-13.1-01#3", 1, "no"),)
 
 
-def test_a_missing_compiler_is_told(tmp_path: Path) -> None:
+def test_a_missing_compiler_is_reported(tmp_path: Path) -> None:
     with pytest.raises(NoCompiler, match="no program 'no-such-compiler'"):
         compile_text("", tmp_path, NO_HEADERS, "cpp11", Compiler(("no-such-compiler",)))
 
@@ -112,7 +112,7 @@ def test_headers_that_do_not_compile_hide_nothing_silently() -> None:
     assert "R-13.3-01" in comparison.unjudged
 
 
-def test_a_program_that_dies_is_told_of_the_check_where_it_died() -> None:
+def test_a_crash_of_a_probe_program_names_the_check() -> None:
     files = dict(reference().generators["cpp11"](model("refinement")))
     name = "refinement_application.hpp"
     files["ucm_support.hpp"] = files["ucm_support.hpp"].replace(
@@ -142,7 +142,7 @@ def test_headers_cannot_name_a_probe(forged: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["my\nown.hpp", "\udcff\udcfe.hpp"])
-def test_a_header_that_cannot_be_named_is_told(name: str) -> None:
+def test_a_header_that_cannot_be_included_is_reported(name: str) -> None:
     files = {**reference().generators["cpp11"](model("modules")), name: "#pragma once\n"}
     comparison = compare(model("modules"), files, "cpp11", {}, Compiler())
     (difference,) = comparison.differences

@@ -1,4 +1,4 @@
-"""Headers cannot talk their way out of a probe: neither macros nor prints nor exits of theirs make a broken rule pass."""
+"""Macros, output and exits in headers do not make a broken rule pass."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def test_macros_of_headers_change_no_probe(tail: str) -> None:
 
 
 @pytest.mark.parametrize(("standard", "keyword"), [("cpp11", "noexcept"), ("cpp03", "while")])
-def test_a_redefined_keyword_is_told_with_its_name_and_place(standard: Standard, keyword: str) -> None:
+def test_a_redefined_keyword_is_reported_with_its_name_and_place(standard: Standard, keyword: str) -> None:
     files = dict(reference().generators[standard](model("modules")))
     lines = files["platform.hpp"].count("\n")
     files["platform.hpp"] += f"#define {keyword}\n"
@@ -107,7 +107,7 @@ def test_a_redefined_keyword_is_told_with_its_name_and_place(standard: Standard,
     assert difference.line == lines + 1
 
 
-def test_macros_that_are_nobody_s_keyword_are_spared() -> None:
+def test_macros_that_are_no_keywords_are_spared() -> None:
     tail = "#include <stdbool.h>\n#define noexcept throw()\n#define nullptr 0\n#define keep 1\n#define check\n#define ucts\n"
     files = added(dict(reference().generators["cpp03"](model("modules"))), tail)
     found = compare(model("modules"), files, "cpp03", {}, Compiler())

@@ -1,4 +1,4 @@
-"""Which source files beside generated headers are linked: those that are needed, or those that the vendor names."""
+"""The source files beside generated headers that are linked: needed ones, or those that the vendor names."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def test_files_with_names_of_other_encodings_are_read(tmp_path: Path) -> None:
     assert made.files == {"\\xff\\xfe.hpp": "#pragma once\n"}
 
 
-def test_old_compilers_of_long_long_are_told_so(tmp_path: Path) -> None:
+def test_old_compilers_are_told_that_long_long_is_permitted(tmp_path: Path) -> None:
     allowed = Compiler(("g++", "-Wno-long-long"))
     assert compile_text("long x = 1LL;\n", tmp_path, NO_HEADERS, "cpp03", Compiler()).errors
     assert not compile_text("long x = 1LL;\n", tmp_path, NO_HEADERS, "cpp03", allowed).errors

@@ -1,4 +1,4 @@
-"""What libclang looks at is found as user code finds it, wherever headers declare it, and headers do not tell it another story."""
+"""libclang finds declarations as user code does, wherever headers declare them, and headers cannot deceive it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What operators know of names: where references lead in a model of lxml elements, and what is added to it."""
+"""Names in a model of lxml elements: the targets of references, and additions to the model."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ EDITS = [
 
 
 @pytest.mark.parametrize(("old", "new", "requirement", "element"), EDITS, ids=[e[2] for e in EDITS])
-def test_an_edit_is_told_with_requirement_element_and_places(
+def test_an_edit_is_reported_with_requirement_element_and_places(
     old: str, new: str, requirement: str, element: str
 ) -> None:
     (difference,) = differences(edited(old, new))
@@ -106,7 +106,7 @@ def test_declared_readings_are_binding(reading: str, failed: bool) -> None:
     assert bool(differences(TELLER_IDL, reading)) == failed
 
 
-def test_what_is_missing_is_told_once() -> None:
+def test_a_missing_element_is_reported_once() -> None:
     (difference,) = differences(TELLER_IDL[: TELLER_IDL.index("module bank {")])
     assert (difference.requirement, difference.element) == ("R-12.7-06", "::bank")
 
@@ -172,7 +172,7 @@ interface Connectable { void on_connect(in string p, in PortElementObject r); vo
 @pytest.mark.parametrize(
     ("old", "new", "requirement", "expected", "observed"), CALLED_OTHERWISE, ids=[row[4] for row in CALLED_OTHERWISE]
 )
-def test_differences_of_printed_declarations_are_told_as_idl(
+def test_differences_of_printed_declarations_are_shown_as_idl(
     old: str, new: str, requirement: str, expected: str, observed: str
 ) -> None:
     assert PRINTED.count(old) == 1

@@ -1,4 +1,4 @@
-"""IDL is read with all that clause 12 uses, what is no IDL is refused where it ceases to be, and hostile texts cost little."""
+"""All IDL that clause 12 uses is read, other text is refused at the first wrong place, and hostile texts cost little."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def test_declarations_say_what_is_written_and_where() -> None:
     assert operation.parameters[0].type == Text(False, Literal("integer", "4"))
 
 
-def test_unions_enumerations_templates_and_natives_are_told_apart() -> None:
+def test_unions_enumerations_templates_and_natives_are_distinguished() -> None:
     union, enum, native, template, instance, struct = read_idl(
         "union u switch (e) { case A: default: long x; }; enum e { A, B }; @f(max=3) native n; "
         "module t<interface I> { }; module t<m::J> o; struct s : b { long a; };"

@@ -1,4 +1,4 @@
-"""Of files of IDL that is read which a preprocessor leaves, each line where it was, and hostile directives cost little."""
+"""IDL files are read as a preprocessor leaves them, each line at its place; hostile directives cost little."""
 
 from __future__ import annotations
 

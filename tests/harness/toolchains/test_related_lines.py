@@ -1,4 +1,4 @@
-"""Where a diagnostic may point to: the lines that have to do with a change, and none of the others."""
+"""The lines that a diagnostic may name: those related to a change."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Models in other names and spellings: nobody knows them by heart, and nothing else about them changes."""
+"""Renaming gives models other names and spellings and changes nothing else."""
 
 from __future__ import annotations
 

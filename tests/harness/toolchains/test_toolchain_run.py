@@ -1,4 +1,4 @@
-"""``ucm-cts run --toolchain``: verdicts of tool chains that keep the rules, lie, die or do not end, and what people read of them."""
+"""``ucm-cts run --toolchain``: verdicts and pages of conformant, wrong, crashing and hanging tool chains."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def test_odd_manners_do_not_matter(here: Path, behaviour: str) -> None:
     assert verdicts(report) == {"pass"}
 
 
-def test_a_root_that_is_not_printed_fails_nobody(here: Path) -> None:
+def test_a_refused_model_root_is_no_failure(here: Path) -> None:
     command = [sys.executable, str(FAKE), "refuses_the_root", "check", "{model}"]
     ucm_cts("run", "--toolchain", describe(here / "fake.toml", command), "-k", "R-9.4.2.1-04", "--out", "out")
     report = json.loads((here / "out" / "report.json").read_text())

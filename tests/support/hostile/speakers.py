@@ -77,7 +77,7 @@ class MistakesId(Speaker):
 
 
 class StreamsUnasked(Speaker):
-    """Sends events one by one though nobody asked for it."""
+    """Sends events one by one without a request."""
 
     def misbehave(self, number: int) -> None:
         self.say(type="event", id=number, event={"kind": "call", "n": 1, "t": 1, "thread": 0, "step": 0})

@@ -82,7 +82,7 @@ class LinkElement final : public ucm_cts::PortElement {
         for (const Link::End& receiver : link_->takers()) {
             try {
                 receiver.element->call(method, arguments);
-            } catch (...) {  // nobody is there who could be told
+            } catch (...) {  // no caller could receive it
             }
         }
         return Data(1, "ok");
@@ -226,7 +226,7 @@ class Patchbay final : public ucm_cts::Adapter {
 
     void mend_link(const ucm_cts::LinkHandle& link) override { static_cast<Link*>(link.get())->broken.clear(); }
 
-    // one record more each time: whoever waits for records must ask again
+    // one record more each time: a wait for records must ask again
     std::vector<ucm_cts::LogRecord> read_log(const Handle&) override {
         read_ = std::min(read_ + 1, log_.size());
         return std::vector<ucm_cts::LogRecord>(log_.begin(), log_.begin() + static_cast<std::ptrdiff_t>(read_));

@@ -141,7 +141,7 @@ class CheckThenSet final : public Guard {
     std::atomic<bool> taken_{false};
 };
 
-// waits for a while, and then goes in whoever is there
+// waits for a while, and then goes in even if another caller is inside
 class Impatient final : public Guard {
   public:
     bool enter() override {

@@ -1,4 +1,4 @@
-"""Whatever a host says, the run ends with a report, and only what is the framework's doing fails a requirement."""
+"""A run with a dishonest host ends with a report; only behaviour of the framework fails a requirement."""
 
 from __future__ import annotations
 
