@@ -135,7 +135,7 @@ def _conduct(conduct: SelfTest, console: Output) -> bool:
 def summary(matrix: Matrix) -> Table:
     """Mutants and requirements by clause."""
     table = Table("clause", "mutants", "killed", "spills", "requirements", "with a killed mutant", title="Kill matrix")
-    for row in rows(matrix):
+    for row in (row for row in rows(matrix) if row.mutants):
         table.add_row(row.clause, *_counts(row.mutants), str(row.requirements), str(row.covered))
     all_due = [r for r in matrix.testable if matrix.killers[r]]
     table.add_section()
