@@ -6,6 +6,7 @@ for and found waiting, while the execution was held at a gate that had not been 
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal
@@ -147,25 +148,30 @@ class Execution:
 
 
 class Executions:
-    """All executions in progress in one trace, by body, and the calls that have been made and not entered a body yet."""
+    """All executions in progress in one trace, by body.
+
+    ``pending``: the calls that have not entered a body yet and not come back.
+    ``waiting``: the calls that wait for an execution, by the event that begins them.
+    ``past``: what each body has executed, in the order in which it ended.
+    """
 
     def __init__(self, runtime: Runtime) -> None:
         self._runtime = runtime
         self._inside: dict[tuple[str, int], list[Execution]] = {}
         self._runs: dict[tuple[str, int], list[Execution]] = {}
-        self._past: dict[tuple[str, int], list[Execution]] = {}
+        self.past = defaultdict[tuple[str, int], list[Execution]](list)
         self._opened: set[str] = set()
-        self._pending: list[BusinessCall] = []
+        self.pending: list[BusinessCall] = []
         self.waiting: dict[int, tuple[BusinessCall, Execution]] = {}
 
     def made(self, call: BusinessCall) -> None:
         """A call has been made."""
-        self._pending.append(call)
+        self.pending.append(call)
 
     def answered(self, call: BusinessCall) -> Execution | None:
         """A call is over; returns the execution it had waited for."""
-        if call in self._pending:
-            self._pending.remove(call)
+        if call in self.pending:
+            self.pending.remove(call)
         waited = self.waiting.pop(call.n, None)
         return waited[1] if waited is not None else None
 
@@ -175,11 +181,6 @@ class Executions:
         for n in lost:
             del self.waiting[n]
         return list(lost.values())
-
-    @property
-    def on_their_way(self) -> tuple[BusinessCall, ...]:
-        """The calls that have not entered a body yet and not come back."""
-        return tuple(self._pending)
 
     def begin(self, enter: Enter, call: BusinessCall | None) -> Execution:
         """A body is entered."""
@@ -192,8 +193,8 @@ class Executions:
         callers = {id(caller) for caller in call.callers()} if call is not None else set()
         execution.met = [other for other in inside if id(other) not in callers and other.enter.thread != enter.thread]
         inside.append(execution)
-        if call in self._pending:
-            self._pending.remove(call)
+        if call in self.pending:
+            self.pending.remove(call)
         return execution
 
     def innermost(self, thread: int) -> Execution | None:
@@ -209,7 +210,7 @@ class Executions:
                 inside.remove(execution)
                 execution.over = True
                 execution.left, execution.end = exit_.t, exit_.n
-                self._past.setdefault(exit_.body, []).append(execution)
+                self.past[exit_.body].append(execution)
                 return execution
         return None
 
@@ -218,10 +219,6 @@ class Executions:
         started = self._runtime.startups.get(body)
         runs = self._runs.get(body, ())
         return [run for run in runs if started is not None and run.enter.n > started[0]]
-
-    def past(self, body: tuple[str, int]) -> tuple[Execution, ...]:
-        """What a body has executed, in the order in which it ended."""
-        return tuple(self._past.get(body, ()))
 
     def hold(self, event: Held) -> None:
         """An execution is held at a gate."""
@@ -241,7 +238,7 @@ class Executions:
         """A worker was found: if it waits, its pending call waits for the execution that is held where the call goes."""
         if event.where not in ("blocked", "running"):
             return
-        for call in (c for c in self._pending if c.worker == event.worker):
+        for call in (c for c in self.pending if c.worker == event.worker):
             for member, _ in goals_of(self._runtime, call):
                 for execution in self._inside.get(member.body, ()):
                     if execution.gate is not None and call not in execution.waited:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Timeout
 from ucm_cts.reference_models.model.links import End
-from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
+from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member
 
@@ -77,7 +77,7 @@ def lasting(runtime: ObservedRuntime, call: MethodCall) -> list[End]:
 def of_one_phase(runtime: ObservedRuntime, call: MethodCall) -> list[End]:
     """The receivers that were operational when it was pushed and have not been started again, nor detached."""
     kept = [end for end, ready in call.targets if ready and end.until is None]
-    return [end for end in kept if end.member.operational and not _restarted(runtime, call, end.member)]
+    return [end for end in kept if end.member.operational and not was_restarted(runtime, call, end.member)]
 
 
 def is_quiet(runtime: ObservedRuntime, call: MethodCall) -> bool:
@@ -108,11 +108,6 @@ def is_disturbed(runtime: ObservedRuntime, call: MethodCall) -> bool:
     receivers = [end.member for end, _ in call.targets]
     held = [d for d in runtime.interactions.deliveries if d.was_held and d.receiver in receivers]
     return not all(map(is_well, receivers)) or any(d.exit is None or d.exit.n > call.request.n for d in held)
-
-
-def pushed_before_start(runtime: ObservedRuntime, delivery: Delivery) -> bool:
-    """Was the message pushed before the receiver was started last?"""
-    return delivery.call is not None and _restarted(runtime, delivery.call, delivery.receiver)
 
 
 def waited_for(runtime: ObservedRuntime, timeout: Timeout, since: int) -> bool:
@@ -147,7 +142,6 @@ def events_of(call: MethodCall, *further: int) -> tuple[int, ...]:
     return (call.request.n, *((call.reply.n,) if call.reply is not None else ()), *further)
 
 
-def _restarted(runtime: ObservedRuntime, call: MethodCall, receiver: Member | None) -> bool:
+def was_restarted(runtime: ObservedRuntime, call: MethodCall, receiver: Member) -> bool:
     """Has the receiver's last on_startup begun after the message was pushed?"""
-    body = receiver.body if receiver is not None else ("", 0)
-    return runtime.startups.get(body, (0, 0))[0] > call.request.n
+    return runtime.startups.get(receiver.body, (0, 0))[0] > call.request.n

@@ -18,10 +18,17 @@ _RUN_IS_CALLED = "R-10.1.3.2-01"
 _MILLISECOND = 1_000_000
 
 
+_TREATMENTS = {
+    "missing-execution-policy": ("which has no execution policy", "given a default one"),
+    "second-active-policy": ("of which two ports are active", "allowed"),
+}
+"""Of options: the components concerned, and what happens to those that are not refused."""
+
+
 @property_at("ended", "R-10.1.3-02", at=("add_component", "start"), feature="policies")
 def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """A component that says nothing of its execution is refused, or is given a policy by the framework."""
-    option, what = "missing-execution-policy", "which has no execution policy"
+    option = "missing-execution-policy"
     declarations = runtime.scenario.components
     if not any(ex.protection_of(declaration) for declaration in declarations.values()):
         return ()  # a scenario of profile container, which knows no policies
@@ -29,32 +36,25 @@ def execution_policy_given(check: Property, runtime: ObservedRuntime, ongoing: O
         declaration = declarations.get(ongoing.step.component)
         is_open = declaration is not None and not ex.protection_of(declaration) and not declaration.plan
         if is_open and isinstance(ongoing.end, Raise):
-            return _treated(
-                check, runtime, ongoing, option, "refuse", ongoing.step.component, what, "given a default one"
-            )
+            return _treated(check, runtime, ongoing, option, "refuse", ongoing.step.component)
         return ()
     without = [m for m in ongoing.container.live_members() if not ex.protection_of(m.declaration)]
     if without and ongoing.judged and isinstance(ongoing.end, Return):
-        return _treated(check, runtime, ongoing, option, "default", without[0].lane, what, "refused")
+        return _treated(check, runtime, ongoing, option, "default", without[0].lane)
     return ()
 
 
 def _treated(
-    check: Property,
-    runtime: ObservedRuntime,
-    ongoing: OperationInProgress,
-    option: str,
-    reading: str,
-    who: str,
-    what: str,
-    declared: str,
+    check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress, option: str, reading: str, who: str
 ) -> Conclusions:
-    """The framework treats ``who`` by a ``reading`` of ``option``; ``declared`` is the other way."""
+    """The framework treats component ``who`` by a ``reading`` of ``option``."""
     if not (yield from takes(runtime, option, reading)):
+        what, accepted = _TREATMENTS[option]
+        refused = reading == "refuse"
         yield check.fail(
             reading,
-            expected=f"'{who}', {what}, is {declared}, as declared",
-            observed=f"it was {'refused' if reading == 'refuse' else 'started'}",
+            expected=f"'{who}', {what}, is {accepted if refused else 'refused'}, as declared",
+            observed=f"it was {'refused' if refused else 'started'}",
             event=ongoing.end,
         )
     elif option == "missing-execution-policy":
@@ -64,16 +64,16 @@ def _treated(
 @property_at("ended", "R-10.1.3-03", at=("add_component", "start"), feature="policies")
 def active_policies(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """A component with the active policy on several ports is refused, or started, as declared."""
-    option, what = "second-active-policy", "of which two ports are active"
+    option = "second-active-policy"
     if isinstance(ongoing.step, s.AddComponent):
         declaration = runtime.scenario.components.get(ongoing.step.component)
         is_open = declaration is not None and _is_active_twice(declaration) and ongoing.container.started is False
         if is_open and isinstance(ongoing.end, Raise):
-            return _treated(check, runtime, ongoing, option, "refuse", ongoing.step.component, what, "allowed")
+            return _treated(check, runtime, ongoing, option, "refuse", ongoing.step.component)
         return ()
     twice = [m for m in ongoing.container.live_members() if _is_active_twice(m.declaration)]
     if twice and ongoing.judged and isinstance(ongoing.end, Return):
-        return _treated(check, runtime, ongoing, option, "allow", twice[0].lane, what, "refused")
+        return _treated(check, runtime, ongoing, option, "allow", twice[0].lane)
     return ()
 
 
@@ -149,7 +149,7 @@ def circle_refused(check: Property, runtime: ObservedRuntime, call: MethodCall) 
 @property_at("closed", *ex.CALL_EXCLUSIONS)
 def circle_waits(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call came back to the component whose execution waits for it, and both were still waiting in the end."""
-    for call in runtime.executions.on_their_way:
+    for call in runtime.executions.pending:
         yield from _returned(check, runtime, call, "wait", (call.n,))
 
 

@@ -79,7 +79,7 @@ def message_kept_out(check: Property, runtime: ObservedRuntime, delivery: Delive
     if call is None or receiver is None or not call.is_message:
         return
     enter = delivery.enter
-    for execution in runtime.executions.past(enter.body):
+    for execution in runtime.executions.past.get(enter.body, ()):
         was_there = execution.enter.n < call.request.n
         if was_there and _time_passed(runtime, call.request.n, execution.end) and enter.port is not None:
             requirement = ex.exclusion(receiver.declaration, runtime.ics, execution.way, enter.port)

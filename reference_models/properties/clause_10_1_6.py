@@ -62,12 +62,8 @@ def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
     for call in msg.messages(runtime):
         holding = {d.receiver for d in call.deliveries if d.receiver is not None and d.exit is None}
         own = {member.body for member in holding}
-        if (
-            not held
-            or not held <= own
-            or not msg.is_whole(runtime, call)
-            or (call.reply is not None and call.code != msg.OK)
-        ):
+        answered_otherwise = call.reply is not None and call.code != msg.OK
+        if not held or not held <= own or not msg.is_whole(runtime, call) or answered_otherwise:
             continue
         if timeout.t - call.request.t < runtime.scenario.patience * 900_000:
             continue
@@ -83,10 +79,8 @@ def slow_receivers(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
 def many_emitters(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
     """Messages of each emitter arrive, not of one only."""
     for call, missing in msg.overdue(runtime, timeout):
-        if call.code != msg.OK or call.deliveries:
-            continue
         arrived = {c.caller for c in msg.messages(runtime) if c.link is call.link and c.deliveries}
-        if arrived and call.caller not in arrived:
+        if call.code == msg.OK and not call.deliveries and arrived and call.caller not in arrived:
             yield _missing(check, _EMITTERS, call, missing, "only another emitter's came", timeout)
 
 
@@ -95,9 +89,8 @@ def message_template(check: Property, runtime: ObservedRuntime, timeout: Timeout
     """Messages of each type arrive, not of one only."""
     for call, missing in msg.overdue(runtime, timeout):
         arrived = {c.link.interface for c in msg.messages(runtime) if c.link is not None and c.deliveries}
-        if call.code != msg.OK or call.link is None or not arrived or call.link.interface in arrived:
-            continue
-        yield _missing(check, _TEMPLATE, call, missing, "only another type's came", timeout)
+        if call.code == msg.OK and call.link is not None and arrived and call.link.interface not in arrived:
+            yield _missing(check, _TEMPLATE, call, missing, "only another type's came", timeout)
 
 
 @property_at("delivered", "R-10.1.6.1-05")

@@ -43,7 +43,7 @@ def message_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery
 def later_phases(check: Property, runtime: ObservedRuntime, delivery: Delivery) -> Conclusions:
     """A message of an earlier phase comes in a later one only if the vendor has not declared that it does not."""
     call, receiver = delivery.call, delivery.receiver
-    if call is None or receiver is None or not call.is_message or not msg.pushed_before_start(runtime, delivery):
+    if call is None or receiver is None or not call.is_message or not msg.was_restarted(runtime, call, receiver):
         return
     ready = [was_ready for end, was_ready in call.targets if end.member is receiver]
     was_idle = any(end.member is receiver for end in call.idle)
@@ -66,26 +66,18 @@ def kept_for_later_phases(check: Property, runtime: ObservedRuntime, timeout: Ti
         if call.code != msg.OK or not msg.is_whole(runtime, call):
             continue
         for end, was_ready in call.targets:
-            since, _ = runtime.startups.get(end.member.body, (0, 0))
-            lost = (
-                end.member.serving and end.until is None and since > call.request.n and not msg.was_delivered(call, end)
-            )
-            if (
-                not lost
-                or msg.counts(end.member)
-                or not msg.waited_for(runtime, timeout, call.reply.t if call.reply else 0)
-            ):
+            started_again = msg.was_restarted(runtime, call, end.member) and end.member.serving and end.until is None
+            if not started_again or msg.was_delivered(call, end) or msg.counts(end.member):
                 continue
-            if not was_ready and end not in call.idle:
+            is_over = msg.waited_for(runtime, timeout, call.reply.t if call.reply else 0)
+            if not is_over or not (was_ready or end in call.idle):
                 continue
             option = "pending-at-stop" if was_ready else "receiver-not-ready"
             if not (yield from takes(runtime, option, "drop")):
-                expected = (
-                    f"{option} was declared as {runtime.ics.reading(option)}: {msg.name_of(call)} comes after the start"
-                )
+                declared = runtime.ics.reading(option)
                 yield check.fail(
                     option,
-                    expected=expected,
+                    expected=f"{option} was declared as {declared}: {msg.name_of(call)} comes after the start",
                     observed=f"it never came to {end.member.lane}",
                     at=msg.events_of(call, timeout.n),
                 )
@@ -123,10 +115,9 @@ def unready_receivers(check: Property, runtime: ObservedRuntime, call: MethodCal
     if (refused and not (yield from takes(runtime, "receiver-not-ready", "error"))) or (
         declared == "error" and call.code == msg.OK
     ):
-        expected = f"is answered as receiver-not-ready was declared: {declared}"
         yield check.fail(
             "receiver-not-ready",
-            expected=f"{msg.name_of(call)} {expected}",
+            expected=f"{msg.name_of(call)} is answered as receiver-not-ready was declared: {declared}",
             observed=f"the answer was {call.code}",
             at=msg.events_of(call),
         )
