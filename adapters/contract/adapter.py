@@ -126,4 +126,4 @@ class Adapter(ABC):
         raise NotOffered
 
     def close(self) -> None:  # noqa: B027 - optional hook
-        """Free what the adapter itself holds; called last, whatever happened."""
+        """Free the adapter's own resources. Always called, as the last method."""

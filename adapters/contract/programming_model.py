@@ -1,4 +1,4 @@
-"""Clause 11's component interfaces in Python: what a framework sees of the bodies it hosts.
+"""Clause 11's component interfaces in Python: the view that a framework has of the bodies it hosts.
 
 Names are those of 12.10. The SDK's probes implement these classes; a framework or its adapter only calls them.
 """

@@ -1,4 +1,4 @@
-"""Scenario: a plain list of steps with symbolic variables, as it travels to a host.
+"""Scenario: a plain list of steps with symbolic variables, as a host receives it.
 
 A scenario never says what to expect. Its component declarations describe the probe bodies the framework shall host;
 its steps are Container API calls (clause 12.10), stimuli through provided port elements, and gates.

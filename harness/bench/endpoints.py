@@ -260,7 +260,7 @@ def _direct_python_calls() -> None:
 
 @contextmanager
 def _pinned() -> Iterator[None]:
-    """Both ends of a pipe on one core: for ping-pong that beats two cores, and it is the same for all figures."""
+    """Both ends of a pipe on one core: faster for ping-pong than two cores, and the same for all figures."""
     before = os.sched_getaffinity(0)
     os.sched_setaffinity(0, {min(before)})
     try:
@@ -291,7 +291,7 @@ def _raw_pipe(line: bytes) -> Iterator[Callable[[], None]]:
 
 
 def _restart(name: str) -> float:
-    """Milliseconds from the moment a host is gone to the first answer of its successor."""
+    """Milliseconds from the end of a host to the first answer of the next one."""
     costs = []
     with Hosts(locate(name), Limits()) as hosts:
         hosts.welcome  # noqa: B018

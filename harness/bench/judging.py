@@ -36,7 +36,7 @@ AIM = 5
 _BLOCK = 64 * 1024
 _ROUNDS = 3
 _TIMED = ("paused", "stressed", "counted")
-"""Ends of steps that take their time, whatever the framework does."""
+"""Ends of steps that take a fixed time."""
 
 _decoder = msgspec.json.Decoder(Event)
 _monitor = Monitor(load_life_cycle())

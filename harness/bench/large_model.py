@@ -1,4 +1,4 @@
-"""A legal model as large as one likes, of the mix that architectures have: contracts, component types and implementations with
+"""A legal model of any size, with a mix of elements as in real architectures: contracts, component types and implementations with
 policies, composites with connections, over the core models.
 """
 

@@ -1,4 +1,4 @@
-"""Measuring side by side: medians of rounds taken in turn, so that a machine that slows down slows all of them down."""
+"""Measures several ways side by side: medians of rounds taken alternately, so that a slower machine slows all ways."""
 
 from __future__ import annotations
 

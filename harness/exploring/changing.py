@@ -1,4 +1,4 @@
-"""A scenario with something changed: more steps, fewer, the same once more, or another body."""
+"""Changes a scenario: adds, removes or repeats steps, or replaces a body."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _elsewhere(scenario: Scenario, choose: Choose) -> Scenario:
 
 
 def _others(scenario: Scenario, place: int, step: Step) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """What a step could name instead of what it names, by field."""
+    """Other variables that the fields of a step could name."""
     bound = [one for before in scenario.steps[:place] for one in bindings(before)]
     if not isinstance(step, s.RemoveContainer):  # the root container cannot be removed
         bound.insert(0, (s.MANAGER, "container"))

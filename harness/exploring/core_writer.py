@@ -286,7 +286,7 @@ class CoreWriter:
         self.steps.append(s.GetComponents(self.choose(tuple(self.started))))
 
     def remove_end(self) -> None:
-        """Only in a container that is not started, because a started component needs what it requires."""
+        """Only in a container that is not started, because a started component needs its connections."""
         idle = self.idle(self.ends)
         if idle:
             name = self.choose(idle)

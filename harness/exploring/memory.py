@@ -1,6 +1,6 @@
-"""Failures that are remembered: one scenario for each cause, in databases of hypothesis, the user's own and shared ones.
+"""Remembered failures: one scenario for each cause, in the user's and shared databases of hypothesis.
 
-What is kept is the scenario itself and not how it was drawn, so that it outlives versions of hypothesis and of the writer.
+The scenario itself is kept, not its draws, so that later versions of hypothesis and of the writer can read it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Novelty: which of several scenarios is worth running, and which traces show something new."""
+"""Novelty: selects the scenario with the rarest transitions, and finds traces that show something new."""
 
 from __future__ import annotations
 

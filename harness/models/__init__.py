@@ -1,1 +1,1 @@
-"""Without a host: models that a framework ships, compared with 10.1."""
+"""Compares the models that a framework ships with 10.1, without a host."""

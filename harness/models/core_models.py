@@ -108,7 +108,7 @@ def _first_values() -> dict[str, str]:
 
 @functools.cache
 def _ours() -> tuple[Element, dict[Element, Declaration]]:
-    """Our own models, and what ``declarations.yaml`` says of each element in them."""
+    """The suite's models, and the entry of ``declarations.yaml`` for each of their elements."""
     root, _ = read_models(sorted(CORE.glob("*.xml")))
     by_source = {e.source: e for e in root.walk()}
     trees = {element.where.partition(":")[0]: element.source for element in root.children}

@@ -1,4 +1,4 @@
-"""UCM models in XML as plain trees in one spelling, whichever of the printed spellings they are written in.
+"""Reads UCM models in any printed spelling as plain trees in one spelling.
 
 Models come from others and may be hostile: size is bounded, document types and so entities are refused.
 """

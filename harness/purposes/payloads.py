@@ -1,4 +1,4 @@
-"""Which payloads a scenario carries in a run: also negative ones, and those at the edges of the payload type.
+"""Draws the payloads of a scenario for a run, among them negative ones and the edges of the payload type.
 
 The numbers in scripts only say which payloads are the same. The disguise makes random long numbers of them and keeps
 their sign; the edges are too short, or too well known, to be distinguished from other numbers and are not replaced.

@@ -1,4 +1,4 @@
-"""Do the values in a plan fit the interfaces? What a script would otherwise show only when it is run."""
+"""Checks that the values in a plan fit the interfaces, before a script is run."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Is the suite itself right? Mutants must be found out, for the right reason, and conformant variants spared."""
+"""Tests of the suite: mutants must be killed for the right reason, conformant variants spared, cheats detected."""

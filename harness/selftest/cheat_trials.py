@@ -1,4 +1,4 @@
-"""Trials of adapters that cheat, in the ordinary pipeline: a cheat must be found out as its register says (docs/honesty.md)."""
+"""Trials of adapters that cheat, in the ordinary pipeline: the requirements of their register must fail (docs/honesty.md)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FEW, MANY = 30, 40
 
 
 def examine_cheat(cheat: Cheat) -> CheatResult:
-    """The trial of ``cheat``: what came out, and whether it is what its register says."""
+    """The trial of ``cheat``: the failed requirements and incidents, compared with its register."""
     began = time.monotonic()
     report = report_on(cheat)
     came_out = tuple(sorted(what_came_out(report)))
@@ -35,7 +35,7 @@ def examine_cheat(cheat: Cheat) -> CheatResult:
 
 
 def all_cheats() -> dict[str, Cheat]:
-    """Every cheat there is, also those that nothing shows, by name."""
+    """All cheats, also those that no observation can show, by name."""
     return {**CHEATS, **UNSEEN}
 
 
@@ -56,7 +56,7 @@ def report_on(cheat: Cheat) -> FrameworkReport:
 
 
 def purposes(cheat: Cheat) -> list[TestPurpose]:
-    """The purposes that exercise what the cheat must fail, or the first ones, and those of unforeseen scenarios."""
+    """The purposes that exercise the requirements that the cheat must fail, or the first ones, and unforeseen scenarios."""
     quick = [
         purpose
         for purpose in load_purposes("core")

@@ -1,4 +1,4 @@
-"""Where the trace of a mutant parts from that of the framework it was made from: what a finding has to be about.
+"""Compares the trace of a mutant with that of the original framework: a finding must name one of the differences.
 
 Both have run the same scenario. Ids in the permitted range, times and threads may differ;
 everything else is compared.
@@ -67,7 +67,7 @@ def _steps(trace: Trace) -> tuple[int, ...]:
 
 
 def _comparable(scenario: Scenario, trace: Trace) -> Sequence[bytes]:
-    """Each event without what may differ; ids by the order in which they were given out."""
+    """Each event without the fields that may differ; ids are replaced by their order."""
     ids: dict[int, int] = {}
     return [_plain(scenario, event, ids) for event in trace]
 

@@ -124,7 +124,7 @@ class Matrix(Value, frozen=True):
 
     @property
     def undetected(self) -> tuple[CheatResult, ...]:
-        """The cheats of which not that came out which must."""
+        """The cheats that were not detected."""
         return tuple(cheat for cheat in self.cheats if not cheat.is_as_it_should)
 
     @property
@@ -144,7 +144,7 @@ class Matrix(Value, frozen=True):
 
     @property
     def wrong(self) -> list[tuple[str, str]]:
-        """All that is not as it should be: the name of a subject or a requirement, and what is wrong with it."""
+        """All defects of the self-test: the name of a subject or a requirement, and the problem."""
         return [
             *((m.name, f"survives ({m.trouble or ', '.join(m.survives)}): {m.lie}") for m in self.survivors),
             *((m.name, f"also fails {kill.text}") for m in self.spilling for kill in m.spills),

@@ -1,4 +1,4 @@
-"""Mutants that ship core models with one thing wrong in them: are they found out, without running anything?"""
+"""Mutants that ship core models with one defect; they are killed without running a framework."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ _CONTRADICTING = {"is": ("Union",), "there": ("dropped", "name=")}
 
 
 def all_models() -> tuple[str, ...]:
-    """The requirements of which models can be spoilt: those that speak of one declaration, and those that speak of several."""
+    """The requirements on core models: those about one declaration, then those about several."""
     return *declarations(), *statements()
 
 
 def examine_models(requirement: str) -> MutantResult:
-    """Every way to spoil what ``requirement`` speaks of, as one mutant; it survives if one of them does."""
+    """All ways to spoil the declarations of ``requirement``, as one mutant; it survives if one way does."""
     if requirement in statements():
         places = ", ".join(declarations()[of].place for of in statements()[requirement].of)
         return _examined(requirement, f"what it says of {places}", _of_statement(requirement))

@@ -1,6 +1,6 @@
-"""How often are native mutants found out? ``python -m ucm_cts.harness.selftest.native --runs 20``
+"""Counts how often native mutants are killed: ``python -m ucm_cts.harness.selftest.native --runs 20``
 
-What depends on chance is run again and again, with another seed each time.
+Their defects depend on chance, so each is run several times, with another seed each time.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from ucm_cts.harness.selftest.matrix import MutantResult
 from ucm_cts.harness.selftest.trials import Thoroughness, examine_mutant, native_subject
 
 OFTEN_ENOUGH = 0.95
-"""In this part of the runs a mutant must be found out."""
+"""The part of the runs in which a mutant must be killed."""
 
 
 @dataclass
 class Found:
-    """In how many ``runs`` a mutant was killed, which requirements failed how often, and what else came out."""
+    """The results of a mutant's ``runs``: kills, failures by requirement, incidents and spills."""
 
     runs: int = 0
     times: int = 0

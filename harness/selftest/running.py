@@ -53,7 +53,7 @@ class SelfTest:
             self._done[spoilt.name] = spoilt
             report(spoilt)
         self._examine_all([*self.mutants, *self.variants], report)
-        self._examine_all(self.cheats, report, uses=1)  # they run beside the harness, and may leave anything behind
+        self._examine_all(self.cheats, report, uses=1)  # they run in the harness's process and may change it
 
     def _examine_all(
         self,

@@ -1,4 +1,4 @@
-"""Series: the same run many times, or once for each variant of a framework. Does any verdict flip? (``tox -e series``)
+"""Series: the same run many times, or once for each variant of a framework. Finds verdicts that flip (``tox -e series``).
 
 Each run is the command that a user gives, in a process of its own; ``--busy`` keeps that many processors busy meanwhile.
 """
@@ -28,7 +28,7 @@ WIDTH = 140
 
 @dataclass(frozen=True)
 class SeriesRun:
-    """One run of a series: what it was called, its verdict, and that of each requirement."""
+    """One run of a series: its name, its verdict, and that of each requirement."""
 
     name: str
     verdict: str

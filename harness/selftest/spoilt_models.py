@@ -1,4 +1,4 @@
-"""Mutants of core models: every way to spoil one element of our own, and whose requirement that is."""
+"""Mutants of core models: every way to spoil one element of the suite's models, and the requirement that it breaks."""
 
 from __future__ import annotations
 
@@ -150,7 +150,7 @@ def spoilt(folder: Path, file: str, place: str, change: Callable[[etree._Element
 
 @functools.cache
 def declarations() -> Mapping[str, Declaration]:
-    """The declarations of clause 10.1, by the requirements that speak of them."""
+    """The declarations of clause 10.1, by requirement."""
     return {declaration.requirement: declaration for declaration in core_catalogue().declarations}
 
 
@@ -165,13 +165,13 @@ def element_of(declaration: Declaration) -> etree._Element:
 
 
 def repeating(requirement: str) -> set[str]:
-    """The statements that say again what ``requirement`` says."""
+    """The statements that repeat ``requirement``."""
     return {statement.requirement for statement in core_catalogue().statements if requirement in statement.of}
 
 
 @functools.cache
 def spoilt_results(requirement: str) -> Sequence[tuple[Mutation, Mapping[str, ModelResult]]]:
-    """Every way to spoil the declaration of ``requirement``, and what comes of it."""
+    """Every way to spoil the declaration of ``requirement``, with its results."""
     declaration = declarations()[requirement]
     outcomes = []
     with TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-"""One tool chain derived from the reference one, in the ordinary pipeline: is a mutant killed, is a variant spared?"""
+"""One tool chain derived from the reference one, in the ordinary pipeline: mutants must be killed, variants spared."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ def declaring(readings: tuple[str, ...]) -> Statement:
 
 
 def _kill(result: RequirementResult) -> Kill:
-    """The reference tool chain fails nothing, so whatever a mutant fails is where it parts from it."""
+    """The reference tool chain fails no requirement, so each failure of a mutant is a difference from it."""
     finding = result.findings[0].finding
     difference = finding.expected, finding.observed
     return Kill(result.id, finding.cause, finding.rule, *difference, (), True, len(result.findings))

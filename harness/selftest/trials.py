@@ -132,7 +132,7 @@ def examine_mutant(subject: Subject, how: Thoroughness) -> MutantResult:
 
 
 def examine_variant(subject: Subject, how: Thoroughness) -> VariantResult:
-    """The trial of a conformant variant: what fails although nothing may."""
+    """The trial of a conformant variant: the requirements that fail, although none may."""
     ran = _run(subject, how)
     failed = tuple(ran.kill(subject, requirement) for requirement in sorted(ran.shown))
     return VariantResult(subject.name, failed, ran.incidents, ran.scenarios, ran.seconds, ran.trouble)
@@ -219,7 +219,7 @@ def _kill(finding: Finding, execution: Execution, names_the_place: bool, looked_
 
 
 def _names_the_place(subject: Subject, seed: int, finding: Finding, execution: Execution) -> bool:
-    """Whether the finding is about what the mutant does otherwise than its model.
+    """Whether the finding is about a difference between the mutant and its model.
 
     An incident always is. Where only the statement is wrong, the finding must vanish under the statement of the model.
     """

@@ -1,4 +1,4 @@
-"""The GStreamer adapter: containers, components and connections said in GStreamer's words."""
+"""The GStreamer adapter: containers, components and connections in terms of GStreamer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``Gst``: GStreamer's Python binding (PyGObject), from wherever this interpreter can take it.
+"""``Gst``: GStreamer's Python binding (PyGObject), from the first place where this interpreter finds it.
 
 It is mostly installed by the system's package manager, for the system's interpreter. A virtual environment does not see
 it there, but can use it if it is one of the same version of Python. Raises ``ImportError`` that says what to install.

@@ -1,4 +1,4 @@
-"""The iPOPO adapter: containers, components and connections said in iPOPO's words."""
+"""The iPOPO adapter: containers, components and connections in terms of iPOPO."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What probes count instead of recording: messages of a burst, and overlapping executions under stress."""
+"""Counters that replace events: messages of a burst, and overlapping executions under stress."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from dataclasses import dataclass, field
 from ucm_cts.adapters.sdk.python.seal import KeptClass
 
 _BLOCK = 2**20
-"""Messages of one emitter lie within a block of so many numbers."""
+"""The size of the block of numbers that one emitter uses."""
 
 _OFTEN = 1e-6
 """Seconds between two switches of threads, as far as the interpreter can: under its lock, overlap is rare otherwise."""
 
 _SLOTS = 100
-"""A second has so many slots. In every other one visitors stay on purpose, which finds locks that are missing now and then;
-in the others they leave again at once, which finds locks that are checked first and taken afterwards.
+"""Slots of a second. In every other one visitors stay on purpose, which detects locks that are sometimes missing; in the
+others they leave at once, which detects locks that are checked first and taken afterwards.
 """
 
 _WORK = 20

@@ -1,4 +1,4 @@
-"""Values of UCM types on their way through a probe: what was given is copied before anybody can change it."""
+"""Values of UCM types inside a probe: received values are copied before any other code can change them."""
 
 from __future__ import annotations
 

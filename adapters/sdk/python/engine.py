@@ -48,7 +48,7 @@ class Engine:
         self.adapter_class = adapter_class
 
     def answer(self, line: bytes, emit: Emit | None = None) -> bytes:
-        """The answer to one line of the wire protocol, without newline. Never raises for what the line says.
+        """The answer to one line of the wire protocol, without newline. Never raises because of the line's content.
 
         ``emit`` receives the lines that come before the answer of a streamed run, each with its newline.
         """

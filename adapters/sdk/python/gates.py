@@ -1,4 +1,4 @@
-"""Gates: where probes wait until the scenario lets them go on."""
+"""Gates: probes wait there until the scenario opens them."""
 
 from __future__ import annotations
 

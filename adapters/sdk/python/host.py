@@ -26,7 +26,7 @@ from ucm_cts.adapters.contract.messages import Traced, from_host_decoder
 from ucm_cts.adapters.sdk.python.loading import Answer, CannotLoad, load
 from ucm_cts.adapters.sdk.python.template import Template, refuse
 
-_GRACE = 30.0  # seconds a host may work on after the other end of its connection has gone
+_GRACE = 30.0  # seconds a host may continue after its connection has ended
 
 
 def main() -> None:
@@ -152,7 +152,7 @@ def _listen(listener: socket.socket, answer: Answer) -> NoReturn:
 
 
 def _watch(descriptor: int) -> None:
-    """End a host whose framework hangs after the other end has gone."""
+    """End a host whose framework hangs after the connection has ended."""
     gone = select.poll()
     gone.register(descriptor, getattr(select, "POLLRDHUP", select.POLLHUP))
     gone.poll()

@@ -1,4 +1,4 @@
-"""From the text that names a Python adapter to what answers wire messages."""
+"""Loads a Python adapter by name, as a function that answers wire messages."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _MOVED = {
 
 
 class CannotLoad(Exception):
-    """The text names no adapter; the message says what is wrong and what to do."""
+    """The text names no adapter; the message has the reason and the remedy."""
 
 
 def load(spec: str) -> Answer:

@@ -1,4 +1,4 @@
-"""Probes: component bodies that record what a framework does to them and act as their plan says."""
+"""Probes: component bodies that record each call of the framework and follow their plan."""
 
 from __future__ import annotations
 
@@ -219,7 +219,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         return list(results)
 
     def _visit(self, hook: Hook, result: int | None = None, **arguments: Any) -> int | None:
-        """Record ``enter``, carry out the plan, record ``exit``; returns what the hook returns."""
+        """Record ``enter``, carry out the plan, record ``exit``; returns the hook's result."""
         if not self.stage.recorder.recording:
             return result
         self._record(t.Enter, hook=hook, **arguments)

@@ -1,4 +1,4 @@
-"""Recorder: puts what happens during one scenario into one total order."""
+"""Recorder: puts the events of one scenario into one total order."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Template: a process that has everything loaded and forks a fresh host on request.
+"""Template: a process that has loaded the adapter and forks a new host on request.
 
 Control protocol, one line each over a Unix socket. To the template: ``fork`` together with three descriptors (the
 host's input, output and standard error), and ``kill PID SIGNAL``. From it: ``ready`` once, or ``failed`` and a JSON

@@ -1,4 +1,4 @@
-"""What the steps of a scenario bind and later steps use."""
+"""The variables of a scenario: steps bind them, later steps use them."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Variables(metaclass=KeptClass):
         self._bind(self._links, name, link)
 
     def saw(self, ids: Iterable[int]) -> None:
-        """The framework has let these ids be known, so none of them can serve as unknown."""
+        """The framework has given out these ids, so none of them can serve as unknown."""
         self._given.update(ids)
 
     def id(self, name: str) -> int:

@@ -1,4 +1,4 @@
-"""Workers: the threads that a scenario names, and where they are."""
+"""Workers: the threads that a scenario names, and their states."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Derives machines from the life-cycle table, as far as it and what the vendor declares determine the next state."""
+"""Derives machines from the life-cycle table, where it and the vendor's readings determine the next state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Wrong implementations of a machine, and whether a suite finds them out.
+"""Wrong implementations of a machine, and the check whether a suite detects them.
 
 The fault model is the usual one: output faults, transfer faults, missing states and extra states. An implementation is a
 deterministic machine that shows one observation for each input; one that is right shows what is usual. Asked for what the

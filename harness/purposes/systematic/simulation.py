@@ -1,4 +1,4 @@
-"""Traces of implementations that exist only as machines: what the judge says of them is what a suite is worth.
+"""Traces of simulated implementations: the monitor's findings show what a suite detects.
 
 A simulated framework does what its machine says, and nothing else is wrong with it: ids are new, references are right,
 on_startup gets the connections made so far. Its trace ends with the first thing that is not permitted.

@@ -1,4 +1,4 @@
-"""Words as scenarios: each input becomes the steps it stands for, with the names bound by then."""
+"""Words as scenarios: each input becomes its steps, with the names that are bound at that point."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ class CppFramework:
         return made
 
     def is_same(self, file: str, made: Path) -> bool:
-        """Has the compiler made of a mutant of ``file`` what it makes of the original?"""
+        """Does the compiler make the same object of a mutant of ``file`` as of the original?"""
         return digest(made) == digest(self._object(file))
 
     @contextmanager

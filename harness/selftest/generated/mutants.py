@@ -1,4 +1,4 @@
-"""Mutants that a tool makes of a framework's sources: one line is another one."""
+"""Mutants that a tool makes of a framework's sources: each replaces one line."""
 
 from __future__ import annotations
 

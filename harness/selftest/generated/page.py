@@ -1,4 +1,4 @@
-"""What became of generated mutants, as a page that people read: figures, survivors and why they survive."""
+"""The results of generated mutants as a page: figures, survivors and the reasons why they survive."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _ALIVE: tuple[Fate, ...] = ("survived", "not certified", "open")
 
 @dataclass(frozen=True)
 class Tally:
-    """The figures of one framework: ``drawn`` mutants of all that could be run, and what became of them."""
+    """The figures of one framework: ``drawn`` mutants of all that could be run, with their fates."""
 
     census: Mapping[str, int]
     candidates: int

@@ -1,4 +1,4 @@
-"""Mutated Python frameworks: which are other programs at all, and how one is put where a host finds it."""
+"""Mutated Python frameworks: leaves out mutants that are the same program, and puts one where a host finds it."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ CONCERNED = {
 """The sources that are mutated, and the clauses that each is about."""
 
 EQUIVALENTS = Path(__file__).parent / "equivalent-python.yaml"
-"""Those that survive rightly, and why."""
+"""Equivalent mutants, with reasons."""
 
 HOME = Path(reference_py.__file__).parent
 
@@ -85,7 +85,7 @@ def _part(lines: Sequence[str], block: tuple[int, int]) -> str:
 def meaning(source: str) -> str | None:
     """What is left of ``source`` for a run: no annotations, no comments, no docstrings, no words of messages.
 
-    None if it is not Python. Messages of exceptions do not count: no clause speaks of them.
+    None if it is not Python. Messages of exceptions do not count: no clause is about them.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -98,7 +98,7 @@ def meaning(source: str) -> str | None:
 
 
 class _Bare(ast.NodeTransformer):
-    """Takes away what makes no difference to who runs the program."""
+    """Removes the parts that make no difference when the program runs."""
 
     def visit_Module(self, node: ast.Module) -> ast.AST:
         return self._without_texts(node)

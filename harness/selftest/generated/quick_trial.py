@@ -1,4 +1,4 @@
-"""Quick trials of mutated Python frameworks, in a forked process of this one: most mutants need no more.
+"""Quick trials of mutated Python frameworks, in a forked process of this one: enough for most mutants.
 
 A quick trial reports a failure that a second run with more patience shows again, and a framework that cannot be loaded.
 The ordinary pipeline decides all other cases; the quick trial tells it which purpose to run first.
@@ -45,7 +45,7 @@ BYTES = 4 << 30
 """Address space that a forked process may take beside what it has from its parent."""
 
 FAVOURITES = 40
-"""Scenarios that found out most mutants so far are tried first."""
+"""Scenarios that killed most mutants so far are tried first."""
 
 
 class QuickTrial(Value, frozen=True):
@@ -67,7 +67,7 @@ class Prepared:
     line: bytes
 
     def patiently(self) -> Prepared:
-        """The same with more patience: what is found again stands."""
+        """The same with more patience: a failure that is found again counts."""
         scenario = msgspec.structs.replace(self.scenario, patience=MORE_PATIENCE * self.scenario.patience)
         return replace(self, scenario=scenario, line=encode(Run(0, scenario)))
 
@@ -158,7 +158,7 @@ class QuickTrials:
         return QuickTrial()
 
     def _findings(self, engine: Engine, one: Prepared) -> list[Finding] | None:
-        """What is wrong, less what a stall of the machine may have caused; None if only the pipeline can decide."""
+        """The failure, unless a clock gap may have caused it; None if only the pipeline can decide."""
         answer = engine.answer(one.line)
         if _TIME.sub(b"", answer) in self._right:
             return []
@@ -172,7 +172,7 @@ class QuickTrials:
         return [finding for finding in found if not (stalled and is_timed(finding))]
 
     def learn(self, engine: Engine) -> None:
-        """Keep what the framework without mutants answers: equal answers need no monitor."""
+        """Keep the answers of the original framework: equal answers need no monitor."""
         for one in self._prepared:
             reply = engine.answer(one.line)
             trace = from_host_decoder().decode(reply)

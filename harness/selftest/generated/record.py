@@ -1,4 +1,4 @@
-"""What is known of generated mutants: a file with a line each, written as soon as it is known, and the list of equivalents."""
+"""The record of generated mutants: a file with one line each, written at once, and the list of equivalents."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ucm_cts.harness.selftest.generated.trial import Fate, Outcome
 
 
 class Result(Value, frozen=True):
-    """One mutant and what became of it."""
+    """One mutant and its fate."""
 
     mutant: GeneratedMutant
     outcome: Outcome
@@ -54,7 +54,7 @@ def read_results(path: Path) -> dict[str, Outcome]:
 
 
 def append(path: Path, mutant: GeneratedMutant, outcome: Outcome) -> None:
-    """Add a line to the file at ``path``, so that a run that is broken off goes on after ``mutant``."""
+    """Add a line to the file at ``path``, so that an interrupted run continues after ``mutant``."""
     with path.open("ab") as file:
         file.write(msgspec.json.encode(Line(mutant.digest, outcome.fate, outcome.by)) + b"\n")
 
