@@ -1,7 +1,7 @@
 """The Python adapter: subclass ``Adapter`` to bind a framework.
 
 An adapter forwards each operation of the Container API (12.10) one to one and translates errors. It adds no state
-checks of its own: they would hide what is being measured. ``ContainerHandle`` is whatever object the framework, or the
+checks of its own: they would hide what is being measured. ``ContainerHandle`` is any object that the framework, or the
 adapter, uses for a container; references and ids go through unchanged.
 """
 

@@ -168,7 +168,7 @@ def _load(text: str) -> ExampleDatabase:
         sys.path.insert(0, os.getcwd())
     try:
         found = getattr(importlib.import_module(module), name)
-    except Exception as error:  # noqa: BLE001 - whatever a user's module does when it is imported
+    except Exception as error:  # noqa: BLE001 - a user's module may raise anything
         raise WrongUse(f"the database '{text}' cannot be loaded: {type(error).__name__}: {error}") from None
     if not isinstance(found, ExampleDatabase):
         raise WrongUse(f"'{text}' is a {type(found).__name__} and no hypothesis ExampleDatabase; a database is {FORMS}")

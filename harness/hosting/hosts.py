@@ -1,4 +1,4 @@
-"""Hosts: give scenarios to the host behind an endpoint and get an answer to each, whatever happens to the host.
+"""Hosts: give scenarios to the host behind an endpoint and get an answer to each, even if the host crashes or hangs.
 
     with Hosts(locate("reference-py")) as hosts:
         print(hosts.welcome.product)

@@ -1,7 +1,7 @@
 """A template for executable adapters: ``python -m ucm_cts.harness.hosting.spawner PATH --control DESCRIPTOR``.
 
 The harness itself starts nothing: this small process forks quickly, reports how hosts end, and takes them along when
-it or the harness ends, whatever happens.
+it or the harness ends, in every case.
 """
 
 from __future__ import annotations

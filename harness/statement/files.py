@@ -55,7 +55,7 @@ def check_subject(statement: Statement, identity: Identity, profile: str) -> Non
 
 
 def read_statement(path: Path) -> Statement:
-    """The statement in the file at ``path``. Raises ``DocumentError`` for whatever is wrong with it."""
+    """The statement in the file at ``path``. Raises ``DocumentError`` if the file is wrong."""
     return _Reader(path).statement()
 
 

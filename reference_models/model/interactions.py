@@ -357,7 +357,7 @@ def _is_idle(runtime: Runtime, member: Member) -> bool:
 
 
 def _has_come(call: MethodCall) -> bool:
-    """Is a message answered, and not on its way any more, whatever happens?"""
+    """Is a message answered, and certainly not in transit any more?"""
     if call.reply is None:
         return False
     if call.broken or call.code != "ok":

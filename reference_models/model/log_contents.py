@@ -77,7 +77,7 @@ class Message:
 
     @property
     def is_narrow(self) -> bool:
-        """Can it be written whatever a message is: ASCII, up to 255 characters, not empty?"""
+        """Can it be written under every reading of messages: ASCII, up to 255 characters, not empty?"""
         return self.text.isascii() and 0 < len(self.text) <= _NARROW
 
 
@@ -99,7 +99,7 @@ class Tracing:
 
     @property
     def most(self) -> int:
-        """So many traced calls there may be, whatever the threshold is."""
+        """The largest number of traced calls under any threshold."""
         return self.due + self.possible + self.barred
 
     @property

@@ -116,7 +116,7 @@ class Member:
 
     @property
     def serving(self) -> bool:
-        """Is it certain that it is operational at this moment, whatever operation is in progress?"""
+        """Is it certain that it is operational at this moment, during any operation in progress?"""
         return self.operational and not self.closing and not self.suspended
 
     @property

@@ -37,7 +37,7 @@ def port_traces(declaration: Declaration | None, port: str, method: str) -> list
 
 
 def methods_named(policy: Policy) -> set[str]:
-    """The methods that methods_to_trace names, whatever stands between them."""
+    """The methods that methods_to_trace names, with any separators."""
     return set(re.findall(r"\w+", policy.parameters.get(s.METHODS_TO_TRACE, "")))
 
 

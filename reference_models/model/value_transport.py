@@ -158,7 +158,7 @@ def differences(part: Part, got: object) -> Iterator[Difference]:
 
 
 def distance(one: object, other: object) -> float:
-    """How far two data are apart, whatever their types: from 0 to 1; each part of a list has the same weight."""
+    """The distance of two data of any types, from 0 to 1; each part of a list has the same weight."""
     if one == other:
         return 0
     if isinstance(one, list | tuple) and isinstance(other, list | tuple):
@@ -189,7 +189,7 @@ def _shape(value: object, dimensions: int) -> object:
 
 
 def _is_another_order(sent: list[d.Datum], got: list[d.Datum]) -> bool:
-    """Are the same values at other places, whatever their own order is?"""
+    """Are the same values at other places, in any order?"""
     if got == sent:
         return False
     before, after = list(map(_unordered, sent)), list(map(_unordered, got))

@@ -79,7 +79,7 @@ def _altered_types(carried: Sequence[Carried]) -> list[AnyType]:
 
 
 def _lost_ways(carried: Sequence[Carried]) -> set[str]:
-    """Ways on which nothing arrives, whatever it is, although values do on others."""
+    """Ways on which no value arrives, although values arrive on others."""
     well = {one.way for one in carried if not one.differences}
     wrong = {one.way for one in carried if one.differences and one.way != MESSAGE}
     return wrong - well if well else set()

@@ -19,7 +19,7 @@ __attribute__((noinline)) void operator delete(void* freed) noexcept {
     if (overwriting && freed != nullptr) {
         volatile unsigned char* const bytes = static_cast<unsigned char*>(freed);
         for (std::size_t n = malloc_usable_size(freed); n > 0; --n) {
-            bytes[n - 1] = 0x5a;  // volatile: compilers know that nobody reads what is freed
+            bytes[n - 1] = 0x5a;  // volatile: compilers leave out writes to memory that is freed next
         }
     }
     std::free(freed);

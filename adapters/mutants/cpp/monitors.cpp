@@ -164,7 +164,7 @@ class StaysLockedAfterExceptions final : public Monitor {
             try {
                 code();
             } catch (...) {
-                Monitor::enter();  // once more, and nobody leaves
+                Monitor::enter();  // once more, and never left
                 throw;
             }
         });

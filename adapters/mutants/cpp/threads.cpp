@@ -86,7 +86,7 @@ class LosesMessages final : public Inbox {
 const bool c = breaks<LosesMessages>("loses_one_message_in_10000", {"R-10.1.2-10"},
                                      "One message in 10,000 is lost on its way, and its emitter is told ok.");
 
-/// What is on its way lies in a buffer that the next message is written to, whoever reads it meanwhile.
+/// A message in transit lies in a buffer that the next message overwrites, even while it is read.
 class OneBuffer final : public Inbox {
   public:
     using Inbox::Inbox;

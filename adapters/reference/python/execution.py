@@ -52,7 +52,7 @@ class Executor:
         def call() -> None:
             try:
                 outcome.set_result(work())
-            except BaseException as error:  # noqa: BLE001 - whatever it is, the caller gets it
+            except BaseException as error:  # noqa: BLE001 - the caller gets any exception
                 outcome.set_exception(error)
 
         with self._lock:

@@ -134,7 +134,7 @@ class Storm(metaclass=KeptClass):
             try:
                 visit()
                 calls += 1
-            except Exception:  # noqa: BLE001 - whatever the framework raised
+            except Exception:  # noqa: BLE001 - the framework may raise anything
                 failed += 1
         with self._lock:
             self.calls += calls

@@ -255,7 +255,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self._record(t.Request, port=port, value=value)
         try:
             result = reference.exchange(value)
-        except Exception:  # noqa: BLE001 - whatever the callee raised
+        except Exception:  # noqa: BLE001 - the callee may raise anything
             self._record(t.Reply, port=port, raised=True)
             return
         if not is_integer(result):
@@ -270,7 +270,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             results = reference.call(action.method, arguments)
         except pm.DeclaredException as error:
             self._reply(action, error.fields, error.name)
-        except Exception:  # noqa: BLE001 - whatever the callee raised
+        except Exception:  # noqa: BLE001 - the callee may raise anything
             self._record(t.Reply, port=action.port, raised=True)
         else:
             self._reply(action, results)
@@ -288,7 +288,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             try:
                 results = reference.call(s.PUSH, [value])
                 code = str(results[0]) if results else ""
-            except Exception:  # noqa: BLE001 - whatever the callee raised
+            except Exception:  # noqa: BLE001 - the callee may raise anything
                 code = "raised"
             answers[code] = answers.get(code, 0) + 1
         self._record(t.Pushed, port=action.port, first=action.first, count=action.count, answers=answers)
@@ -298,7 +298,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             if self._container is None:
                 raise LookupError("no container interface was given")
             members = tuple(self._container.get_components())
-        except Exception:  # noqa: BLE001 - whatever the framework raised
+        except Exception:  # noqa: BLE001 - the framework may raise anything
             self._record(t.Siblings, raised=True)
             return
         if not all(map(is_integer, members)):

@@ -140,7 +140,7 @@ class QuickTrials:
         sys.dont_write_bytecode = True
         try:
             engine = Engine(getattr(importlib.import_module(module), name))
-        except BaseException as error:  # noqa: BLE001 - whatever a mutant does
+        except BaseException as error:  # noqa: BLE001 - a mutant may raise anything
             return QuickTrial(Outcome("not loaded", type(error).__name__, detail=str(error)))
         favourites = {name for name, _ in self._killers.most_common(FAVOURITES)}
 

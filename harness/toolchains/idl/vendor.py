@@ -42,7 +42,7 @@ class Vendor:
         self.unreadable = unreadable
         self.missing = missing
         self.met: dict[str, set[str]] = {}
-        """Values of options that the IDL shows, whatever is declared."""
+        """Values of options that the IDL shows, independent of the declared ones."""
 
     def reading(self, option: str) -> str:
         """What the vendor declares for ``option``, empty for nothing."""

@@ -225,7 +225,7 @@ def does_not_wait_long(self: Services, method: str, arguments: Sequence[Datum]) 
     def ask() -> None:
         try:
             outcome.append(Link._request(self, method, arguments))
-        except Exception as error:  # noqa: BLE001 - whatever it is, the caller gets it
+        except Exception as error:  # noqa: BLE001 - the caller gets any exception
             raised.append(error)
 
     asking = threading.Thread(target=ask, daemon=True)

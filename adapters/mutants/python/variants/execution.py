@@ -136,7 +136,7 @@ class lets_the_last_in_first(lets_the_first_in_first):
 
 @replaces("_execute_alone", clauses=POLICIES, readings={"self-exec-mutex": "run-only"})
 def keeps_runs_apart_only(self: Base, member: Member, port: str | None, work: Callable[[], T]) -> T:
-    """Ports of a self-executing component are open, whatever it executes."""
+    """Ports of a self-executing component are always open."""
     if member.execution.definition == SELF_EXECUTING and port is not None:
         return work()
     return Base._execute_alone(self, member, port, work)

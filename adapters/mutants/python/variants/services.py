@@ -64,7 +64,7 @@ def _elsewhere(work: Callable[[], T]) -> Future[T]:
     def do() -> None:
         try:
             outcome.set_result(work())
-        except BaseException as error:  # noqa: BLE001 - whatever it is, the caller gets it
+        except BaseException as error:  # noqa: BLE001 - the caller gets any exception
             outcome.set_exception(error)
 
     threading.Thread(target=do, daemon=True).start()

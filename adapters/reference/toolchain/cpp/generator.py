@@ -34,7 +34,7 @@ from ucm_cts.adapters.reference.toolchain.cpp.types import (
 )
 
 LANGUAGES = ("c++", "cpp")
-"""What the names of languages that these generators serve begin with, whatever their case."""
+"""The beginnings of the language names that these generators serve, in any case."""
 
 
 def generate_cpp11(model: Model) -> Mapping[str, str]:

@@ -34,7 +34,7 @@ def prelude(modern: bool, names: Iterable[str] = ()) -> str:
 
 
 _NOT_OURS = {"ref", "PortConnection", "PortElementObject", "Abstract_PortElementObject", "FILE"}
-"""What the headers declare, in whatever way, and what may be a macro of the standard library."""
+"""Names that the headers declare, in any way, and names that may be macros of the standard library."""
 
 
 _WIDTHS = {f"{u}int{w}_t": f"__{u.upper()}INT{w}_TYPE__" for u in ("", "u") for w in (8, 16, 32, 64)}

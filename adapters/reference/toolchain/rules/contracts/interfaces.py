@@ -52,7 +52,7 @@ def parents(declared: Declared) -> Iterator[Declared]:
 
 
 def ancestors(declared: Declared) -> Iterator[Declared]:
-    """All interfaces that an interface inherits from, at whatever distance, each once and itself never."""
+    """All interfaces that an interface inherits from, directly or not, each once, without itself."""
     seen = {id(declared.element)}
     waiting = [declared]
     while waiting:

@@ -114,7 +114,7 @@ inline void serve(int in, int out, const Product& product, const AdapterFactory&
     }
 }
 
-/// Keeps the protocol's stream for the host alone: whatever the framework prints goes to standard error.
+/// Keeps the protocol's stream for the host alone: the framework's output goes to standard error.
 inline int private_stdout() {
     std::fflush(stdout);
     const int fd = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);

@@ -44,7 +44,7 @@ Properties properties(const std::string& name, const std::string& implementation
 ///     throws in the framework's way. Its class also derives from `ProbesOwn(own)`, so that the SDK recognises it. Asked
 ///     for once a port element. The null pointer stands for a port element without interface.
 ///   - `static Data call(PortElementObject&, const std::string& method, const Data& arguments)`: calls a method of
-///     whatever the framework handed over: what `typed` made, what stands before it, or the framework's own port element
+///     any object that the framework handed over: what `typed` made, what stands before it, or the framework's own port element
 ///     for a policy. A declared exception leaves it as DeclaredException, any other as it is.
 /// Connectors and the rest of profile core are operations of Adapter: derive from ShapedAdapter and override `link`,
 /// `attach`, ..., with `of`, `manager_` and `translate` at hand.

@@ -292,7 +292,7 @@ class FragmentBase : public Traits::FragmentObject {};
 template <class Traits>
 class FragmentBase<Traits, false> : public Traits::ComponentObject, public Traits::FragmentObject {};
 
-/// What a fragment does with its container, on whatever kind of pointer the framework gives.
+/// What a fragment does with its container, for any kind of pointer.
 template <class Pointer>
 class ShapedContainer final : public ContainerInterface {
   public:

@@ -241,7 +241,7 @@ void ContainerImpl::check_removable(const Instance& member) const {
     }
 }
 
-/// Removes it after whatever has to come before that.
+/// Removes it after all that must come first.
 void ContainerImpl::take_out(const std::shared_ptr<Instance>& member, Attempts& attempts) {
     const auto started = std::find(startup_order_.begin(), startup_order_.end(), member);
     if (started != startup_order_.end()) {

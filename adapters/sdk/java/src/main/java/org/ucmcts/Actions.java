@@ -46,7 +46,7 @@ final class Actions {
         int result;
         try {
             result = reference.exchange((int) value);
-        } catch (Throwable error) { // whatever the callee threw
+        } catch (Throwable error) { // the callee may throw anything
             probe.record("reply", "port", port, "raised", true);
             return;
         }
@@ -62,7 +62,7 @@ final class Actions {
             reply(action, reference.call(method, arguments), null);
         } catch (DeclaredException error) {
             reply(action, error.fields(), error.name());
-        } catch (Throwable error) { // whatever the callee threw
+        } catch (Throwable error) { // the callee may throw anything
             probe.record("reply", "port", port, "raised", true);
         }
         Data.overwrite(arguments); // they are the caller's own
@@ -85,7 +85,7 @@ final class Actions {
             try {
                 List<Object> results = reference.call("push", new ArrayList<>(List.of(value)));
                 code = results.isEmpty() ? "" : String.valueOf(results.get(0));
-            } catch (Throwable error) { // whatever the callee threw
+            } catch (Throwable error) { // the callee may throw anything
                 code = "raised";
             }
             answers.merge(code, 1L, Long::sum);

@@ -43,7 +43,7 @@ public final class Host {
 
     private static void answer(Engine engine) throws IOException {
         OutputStream target = new FileOutputStream(FileDescriptor.out);
-        System.setOut(System.err); // whatever the framework prints
+        System.setOut(System.err); // for the framework's output
         Stacks.showOnRequest();
         InputStream source = new FileInputStream(FileDescriptor.in);
         System.setIn(InputStream.nullInputStream());

@@ -50,7 +50,7 @@ final class RepeatedCalls {
             try {
                 visit.run();
                 calls.incrementAndGet();
-            } catch (Throwable error) { // whatever the framework threw
+            } catch (Throwable error) { // the framework may throw anything
                 failed.incrementAndGet();
             }
         }

@@ -91,7 +91,7 @@ public final class JuliaAdapter extends Adapter<Component> {
 
     @Override
     public void disconnect(Component container, int number) throws Exception {
-        Connection connection = connections.getOrDefault(number, new Connection(0, "")); // nobody has number 0
+        Connection connection = connections.getOrDefault(number, new Connection(0, "")); // number 0 is unused
         BindingController client = Fractal.getBindingController(member(container, connection.client()));
         fractal(() -> client.unbindFc(connection.port()));
         connections.remove(number);
