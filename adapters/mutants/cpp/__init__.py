@@ -1,6 +1,6 @@
 """Native mutants: frameworks derived from the C++ reference framework that are wrong in one point each.
 
-They are one executable, which becomes the mutant that the environment variable ``UCM_CTS_MUTANT`` names. The framework itself
+They are one executable; the environment variable ``UCM_CTS_MUTANT`` names the mutant. The framework itself
 has no wrong code: the executable is the framework's adapter as it is, linked with other ``Parts``.
 """
 
@@ -25,8 +25,8 @@ VARIABLE = "UCM_CTS_MUTANT"
 
 
 class NativeMutant(Value, frozen=True):
-    """A native mutant as the executable tells of it: which ``requirements`` it must fail (of a rare defect, one of them),
-    which it may fail ``also``, the ``clauses`` whose test purposes are to find it out, and what its vendor declares.
+    """A native mutant as the executable describes it: which ``requirements`` it must fail (of a rare defect, one of them),
+    which it may fail ``also``, the ``clauses`` whose test purposes must detect it, and what its vendor declares.
     """
 
     name: Annotated[str, msgspec.Meta(min_length=1)]
@@ -40,8 +40,8 @@ class NativeMutant(Value, frozen=True):
 
 def native_mutants(command: Path = COMMAND) -> dict[str, NativeMutant]:
     """All native mutants by name. Raises ``OSError`` if the executable is not there."""
-    told = subprocess.run([command], env={**os.environ, VARIABLE: "list"}, capture_output=True, text=True, check=True)
-    found = (msgspec.convert(json.loads(line), NativeMutant) for line in told.stdout.splitlines())
+    listed = subprocess.run([command], env={**os.environ, VARIABLE: "list"}, capture_output=True, text=True, check=True)
+    found = (msgspec.convert(json.loads(line), NativeMutant) for line in listed.stdout.splitlines())
     return {mutant.name: mutant for mutant in found}
 
 

@@ -10,7 +10,7 @@
 
 namespace {
 
-/// Whether freed memory is overwritten, as some allocators do: its use is found out sooner then.
+/// Whether freed memory is overwritten, as some allocators do: its use is detected sooner then.
 std::atomic<bool> overwriting{false};
 
 }  // namespace
@@ -70,7 +70,7 @@ class HangsInStop final : public ManagerImpl {
   private:
     std::atomic<int> stops_{0};
 };
-const bool b = breaks<HangsInStop>("hangs_in_second_stop", {"R-12.10-10"}, "The second stop never comes back.");
+const bool b = breaks<HangsInStop>("hangs_in_second_stop", {"R-12.10-10"}, "The second stop never returns.");
 
 class UsesFreedMember final : public ManagerImpl {
   public:
@@ -85,8 +85,7 @@ class UsesFreedMember final : public ManagerImpl {
     }
 };
 const bool c = breaks<UsesFreedMember>("uses_freed_member", {"R-12.10-05"},
-                                       "remove_component asks the body of what it has removed once more, which has been "
-                                       "freed.");
+                                       "remove_component calls the body of the removed component after it has been freed.");
 
 class UsesFreedConnection final : public ManagerImpl {
   public:
@@ -101,7 +100,7 @@ class UsesFreedConnection final : public ManagerImpl {
     }
 };
 const bool d = breaks<UsesFreedConnection>("uses_freed_connection", {"R-12.10-08"},
-                                           "disconnect looks at the connection again after it has freed it.");
+                                           "disconnect reads the connection after it has freed it.");
 
 }  // namespace
 

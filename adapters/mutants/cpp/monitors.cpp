@@ -18,7 +18,7 @@ using lwucm::Monitor;
 
 typedef std::function<void()> Code;
 
-// what overlap breaks, by who meets whom
+// the requirements that an overlap breaks, by the executions that meet
 const char* const RUN = "R-10.1.3.2-06";
 const char* const ACTIVE_AND_OTHER = "R-10.1.3.2-10";
 const char* const ONE_PORT = "R-10.1.3.2-13";
@@ -43,7 +43,7 @@ class LockLeftOut final : public Monitor {
 const bool a = breaks_rarely<LockLeftOut>("lock_left_out_once_in_1000", OVERLAPS,
                                           "Leaves the lock of a protected component out on one call in 1,000.");
 
-/// Looks whether somebody is inside, then marks itself as inside: two who look at once both go in.
+/// Tests whether a thread is inside, then marks itself as inside: two threads that test at once both enter.
 class LooksThenMarks : public Monitor {
   public:
     void call(const Code& code) override {
@@ -93,8 +93,8 @@ class LooksThenMarks : public Monitor {
     std::atomic<Chain::Id> inside_{nullptr};
 };
 const bool b = breaks<LooksThenMarks>("looks_then_marks", {RUN, ONE_PORT, TWO_PORTS},
-                                      "Looks whether somebody is inside a protected component, then marks itself as "
-                                      "inside, with nothing in between.",
+                                      "Tests whether a thread is inside a protected component, then marks itself as "
+                                      "inside, without a lock.",
                                       {ACTIVE_AND_OTHER});
 
 class LooksThenMarksLater final : public LooksThenMarks {
@@ -105,8 +105,8 @@ class LooksThenMarksLater final : public LooksThenMarks {
     }
 };
 const bool c = breaks<LooksThenMarksLater>("looks_then_marks_a_microsecond_later", OVERLAPS,
-                                           "Looks whether somebody is inside a protected component, and marks itself "
-                                           "as inside a microsecond later.");
+                                           "Tests whether a thread is inside a protected component, and marks itself as "
+                                           "inside a microsecond later.");
 
 class UnlocksTooEarly final : public Monitor {
   public:
@@ -117,9 +117,9 @@ class UnlocksTooEarly final : public Monitor {
     }
 };
 const bool d = breaks<UnlocksTooEarly>("unlocks_too_early", OVERLAPS,
-                                       "Waits for its turn and unlocks before the body is entered, not after it is left.");
+                                       "Unlocks before the body is entered, not after it is left.");
 
-/// Goes in when it has waited for 10 ms.
+/// A call enters when it has waited for 10 ms.
 class GivesUpWaiting final : public Monitor {
   public:
     void call(const Code& code) override {
@@ -175,7 +175,7 @@ const bool g = breaks<StaysLockedAfterExceptions>("stays_locked_after_exceptions
                                                   "exception.",
                                                   {SERVED});
 
-/// Does not know that it waits for itself.
+/// Waits also for the thread that is inside already.
 class WaitsForItself final : public Monitor {
   public:
     void call(const Code& code) override {
@@ -205,8 +205,8 @@ class WaitsForItself final : public Monitor {
     bool busy_ = false;
 };
 const bool h = breaks<WaitsForItself>("waits_for_itself", {TWO_PORTS},
-                                      "A protected component that a call comes back to waits for itself for ever, while "
-                                      "its vendor declares that it is let in.",
+                                      "A call that comes back to a protected component waits for ever; the vendor "
+                                      "declares that it enters.",
                                       {ACTIVE_AND_OTHER}, {{"protected-recursion", "enter"}});
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Makes the parts of the mutant that the environment variable UCM_CTS_MUTANT names; "list" has all told and nothing run.
+// Makes the parts of the mutant that the environment variable UCM_CTS_MUTANT names; with "list" it lists all and runs none.
 #include "platform/parts.hpp"
 
 #include <cstdlib>

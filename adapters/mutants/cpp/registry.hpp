@@ -14,14 +14,14 @@
 
 namespace derived {
 
-/// What a mutant is made of; a part that it does not name is the framework's own.
+/// The parts of a mutant; a part that it does not name is the framework's own.
 struct Mutant {
     std::vector<std::string> requirements;  // each must fail; of a rare defect, one of them
     std::vector<std::string> also;          // broken by the same defect, but perhaps not seen in each run
     bool is_rare = false;                   // so rare that a run shows it in one place or another
-    std::vector<std::string> clauses;       // whose test purposes are to find it out
+    std::vector<std::string> clauses;       // whose test purposes must detect it
     std::string lie;                        // what it does wrong
-    std::map<std::string, std::string> readings;  // what its vendor declares beside what is stated of the framework
+    std::map<std::string, std::string> readings;  // options that its vendor declares beside those of the framework
     std::function<std::shared_ptr<lwucm::Runtime>(std::shared_ptr<lwucm::Shared>)> runtime;
     std::function<std::shared_ptr<lwucm::Monitor>()> monitor;
     std::function<std::unique_ptr<lwucm::SelfExecution>(std::shared_ptr<lwucm::component_execution_intf>,
@@ -75,7 +75,7 @@ bool breaks(const std::string& name, std::vector<std::string> requirements, cons
     return true;
 }
 
-/// The same of one whose defect a run is to show in one of several places.
+/// The same for a rare defect, which a run shows in one of several places.
 template <class Own>
 bool breaks_rarely(const std::string& name, std::vector<std::string> requirements, const std::string& lie) {
     mutants()[name].is_rare = true;

@@ -1,4 +1,4 @@
-// Mutants whose own threads do what they must not: those that call run (10.1.3.2), and those that deliver messages (10.1.6).
+// Mutants with a defect in their own threads: those that call run (10.1.3.2), and those that deliver messages (10.1.6).
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -17,7 +17,7 @@ using lwucm::Inbox;
 using lwucm::Message;
 using lwucm::SelfExecution;
 
-/// Leaves its thread behind when it ends; that goes on until the component is removed.
+/// Its thread goes on after the end, until the component is removed.
 class RunsOnAfterStop final : public SelfExecution {
   public:
     RunsOnAfterStop(std::shared_ptr<lwucm::component_execution_intf> component, std::shared_ptr<Guard> guard)
@@ -51,7 +51,7 @@ class RunsOnAfterStop final : public SelfExecution {
     bool is_running_ = false;
 };
 const bool a = breaks<RunsOnAfterStop>("thread_runs_on_after_stop", {"R-10.1.3.2-02"},
-                                       "The thread that calls run is left behind by stop, and goes on.");
+                                       "The thread that calls run goes on after stop.");
 
 class StopWaitsForEver final : public SelfExecution {
   public:
@@ -72,7 +72,7 @@ class StopWaitsForEver final : public SelfExecution {
     bool begun_ = false;
 };
 const bool b = breaks<StopWaitsForEver>("stop_waits_for_the_thread_for_ever", {"R-12.10-10"},
-                                        "stop waits for the thread that calls run without telling it to end.");
+                                        "stop waits for ever for the thread that calls run.");
 
 class LosesMessages final : public Inbox {
   public:
@@ -84,7 +84,7 @@ class LosesMessages final : public Inbox {
     }
 };
 const bool c = breaks<LosesMessages>("loses_one_message_in_10000", {"R-10.1.2-10"},
-                                     "One message in 10,000 is lost on its way, and its emitter is told ok.");
+                                     "One message in 10,000 is lost on its way, and push returns ok.");
 
 /// A message in transit lies in a buffer that the next message overwrites, even while it is read.
 class OneBuffer final : public Inbox {
