@@ -44,8 +44,16 @@ _monitor = Monitor(load_life_cycle())
 
 @dataclass(frozen=True)
 class Costs:
-    """Nanoseconds an event: ``reading`` the bytes, decoding them (``plain`` by the standard library), judging and asking
-    whether the trace can be true, both without the decoding. ``grown`` is by how many MB memory grew, None if unknown.
+    """Costs of judging, in nanoseconds for each event.
+
+    ``what``: the traces.
+    ``events``: how many.
+    ``reading``: reading the bytes.
+    ``decoding``: decoding them.
+    ``plain``: decoding by the standard library.
+    ``believing``: the integrity checks, without decoding.
+    ``judging``: the monitor, without decoding.
+    ``grown``: growth of memory in MB; None if unknown.
     """
 
     what: str

@@ -19,7 +19,18 @@ SCENARIOS = Path(__file__).parents[2] / "suite" / "scenarios"
 
 
 class Part(Value, frozen=True):
-    """A component of a script: a ``probe`` of the models with a plan, or, in saved scenarios, its ports spelled out."""
+    """A component of a script.
+
+    ``probe``: its type in the probe models; saved scenarios spell out the ports instead.
+    ``provides``: provided port elements.
+    ``requires``: required port elements.
+    ``attributes``: configured values by attribute name.
+    ``connectable``: the body implements Connectable.
+    ``fragment``: the body implements FragmentObject.
+    ``plan``: the actions of the body in each hook.
+    ``policies``: technical policies.
+    ``ports``: the interface of each port element that has one, by name.
+    """
 
     probe: str = ""
     provides: tuple[str, ...] = ()
@@ -33,10 +44,18 @@ class Part(Value, frozen=True):
 
 
 class Script(Value, frozen=True):
-    """One scenario as a person writes it: its name, its test purpose, the requirements it means to exercise.
+    """One scenario as a person writes it.
 
-    ``messages`` are further interfaces: message_intf (10.1.6.2), bound to these types. ``under`` are conditions on the
-    vendor's readings, as in ``TestPurpose``.
+    ``scenario``: its name.
+    ``components``: by name.
+    ``steps``: in order.
+    ``purpose``: its test purpose, one sentence.
+    ``exercises``: the requirements that it is meant to exercise.
+    ``patience``: how long a wait step may wait, in milliseconds.
+    ``interfaces``: by name.
+    ``messages``: types by name, for further interfaces: message_intf (10.1.6.2), bound to the type.
+    ``may_stay``: workers that need not return.
+    ``under``: conditions on the vendor's readings, as in ``TestPurpose``.
     """
 
     scenario: str
@@ -53,11 +72,15 @@ class Script(Value, frozen=True):
 
 @dataclass(frozen=True)
 class TestPurpose:
-    """What one test node checks: scenarios that provoke the situation ``text`` describes.
+    """A test purpose: scenarios that provoke one situation. One node of the test run.
 
-    ``clause`` groups purposes; ``requirements`` are those the scenarios mean to exercise. Rules of others watch too.
-    ``draw`` gives the same scenarios with values that are drawn from a run's seed, within the vendor's readings. It is only
-    for vendors under whose readings all of ``under`` hold: ``option=value``, or several values with ``|`` between them.
+    ``id``: its name.
+    ``clause``: groups purposes.
+    ``text``: the situation, one sentence.
+    ``requirements``: those that the scenarios are meant to exercise; properties of others are checked too.
+    ``scenarios``: with their names.
+    ``draw``: the same scenarios with values drawn from a seed, within the vendor's readings.
+    ``under``: only for vendors with these readings: ``option=value``, or several values with ``|`` between them.
     """
 
     __test__ = False

@@ -17,7 +17,9 @@ from ucm_cts.harness.selftest.matrix import Matrix
 class SelfTest(Value, frozen=True, tag="self-test", tag_field="kind"):
     """The self-test itself.
 
-    ``testable`` is the number of requirements that can be broken, ``unproved`` are those that no killed mutant breaks.
+    ``suite_version``: version of the suite.
+    ``testable``: how many requirements can be broken.
+    ``unproved``: those that no killed mutant breaks.
     """
 
     suite_version: str
@@ -26,9 +28,13 @@ class SelfTest(Value, frozen=True, tag="self-test", tag_field="kind"):
 
 
 class Mutant(Value, frozen=True, tag="mutant", tag_field="kind"):
-    """One mutant. ``requirements`` are those that it breaks, ``missed`` those of them that it does not fail as it must.
+    """One mutant.
 
-    ``spills`` are requirements that it fails although it does not break them.
+    ``name``: its name.
+    ``killed``: it was killed.
+    ``requirements``: those that it breaks.
+    ``missed``: those of them that it did not fail as it must.
+    ``spills``: requirements that it fails although it does not break them.
     """
 
     name: str

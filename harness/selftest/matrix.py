@@ -33,10 +33,17 @@ class Kill(Value, frozen=True):
 class MutantResult(Value, frozen=True):
     """The result of one mutant.
 
-    ``lie`` describes its defect. ``breaks`` are the requirements that it must fail, ``also`` those that the same defect breaks, too.
-    ``scenarios`` is the number of scenarios, ``seconds`` the time they took.
-    ``trouble`` says why it could not be judged (for example a host that did not start), empty if it was.
-    ``is_rare``: the defect shows rarely, so one failed requirement is enough.
+    ``name``: its name.
+    ``lie``: its defect, one sentence.
+    ``clause``: that of the requirement that it breaks first.
+    ``breaks``: the requirements that it must fail.
+    ``also``: the requirements that the same defect breaks too.
+    ``kills``: the requirements that failed.
+    ``incidents``: kind and detail of each.
+    ``scenarios``: how many were run.
+    ``seconds``: duration.
+    ``trouble``: why it could not be judged, such as a host that did not start; empty if it was.
+    ``is_rare``: its defect shows rarely, so one failed requirement is enough.
     """
 
     name: str
@@ -101,9 +108,16 @@ class VariantResult(Value, frozen=True):
 class Matrix(Value, frozen=True):
     """The result of one self-test.
 
-    ``testable`` are the requirements that a property checks and that can be broken. ``seconds`` is its duration.
-    ``whole``: all scenarios were run on each subject. ``left_out`` is the number of subjects that were to be run and were not.
-    ``is_all``: all subjects were to be run, not a selection.
+    ``suite_version``: version of the suite.
+    ``seed``: of the run.
+    ``seconds``: duration.
+    ``testable``: the requirements that a property checks and that can be broken.
+    ``mutants``: by name.
+    ``variants``: by name.
+    ``whole``: all scenarios were run on each subject.
+    ``cheats``: by name.
+    ``left_out``: how many subjects were not run, although they were selected.
+    ``is_all``: all subjects were selected.
     """
 
     suite_version: str

@@ -51,9 +51,17 @@ Shown = tuple[Finding, Execution]
 class Subject:
     """A framework whose verdicts are known.
 
-    ``adapter`` is its endpoint, ``model`` that of the framework it was made from. It has the statement of ``reference``, the
-    reference framework below both, but for its own ``readings``. It must fail the requirements ``breaks``, none for a
-    conformant variant, and may fail those of ``also``.
+    ``name``: its name.
+    ``lie``: its defect, one sentence; empty for a variant.
+    ``adapter``: its endpoint.
+    ``reference``: the reference framework, whose statement it has, but for ``readings``.
+    ``model``: endpoint of the framework that it was made from.
+    ``clauses``: beginnings of the clauses whose purposes are run.
+    ``breaks``: the requirements that it must fail; none for a conformant variant.
+    ``also``: the requirements that it may fail too.
+    ``readings``: its own readings.
+    ``is_native``: it is part of the executable with the native mutants.
+    ``is_rare``: its defect shows rarely.
     """
 
     name: str
@@ -71,8 +79,12 @@ class Subject:
 
 @dataclass(frozen=True)
 class Thoroughness:
-    """How much is run: ``whole`` profiles instead of the subject's own clauses; ``quick`` ends when a mutant is killed; only
-    purposes whose names have this ``beginning``.
+    """How much is run.
+
+    ``seed``: of the run.
+    ``whole``: the whole profile instead of the subject's own clauses.
+    ``quick``: end when a mutant is killed.
+    ``beginning``: only purposes whose names begin so.
     """
 
     seed: int = 1

@@ -19,10 +19,14 @@ DUPLICATE = "the same program as another mutant"
 
 
 class GeneratedMutant(Value, frozen=True):
-    """``file`` with ``line`` (as it is written, stripped) turned into ``becomes``.
+    """One line of a file, replaced.
 
-    ``nth`` counts the lines of the file that are written alike, from 1, so that a mutant keeps its identity while the
-    file grows elsewhere; ``number`` is where the line is today. ``rule`` is the tool's.
+    ``file``: its name.
+    ``line``: the original line, stripped.
+    ``becomes``: what replaces it.
+    ``nth``: its number among equal lines of the file, from 1, so that a key stays valid when other parts of the file change.
+    ``number``: its present line number.
+    ``rule``: that of the tool.
     """
 
     file: str

@@ -44,7 +44,14 @@ did not decide, and the pipeline has not run yet. By the compiler: it is no prog
 
 
 class Outcome(Value, frozen=True):
-    """``fate`` of a mutant; ``by`` is the requirement or kind of incident, ``scenario`` where, ``detail`` what was observed."""
+    """The result of one generated mutant.
+
+    ``fate``: what happened.
+    ``by``: the failed requirement, or the kind of incident.
+    ``scenario``: the scenario that showed it.
+    ``detail``: what was observed.
+    ``seconds``: duration.
+    """
 
     fate: Fate
     by: str = ""
