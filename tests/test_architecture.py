@@ -10,7 +10,7 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
-from folders import ROOT
+from files import ROOT
 
 import ucm_cts
 

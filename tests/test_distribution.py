@@ -8,7 +8,7 @@ import tarfile
 from pathlib import Path, PurePosixPath
 
 import pytest
-from folders import ROOT
+from files import ROOT
 
 
 @pytest.fixture(scope="module")

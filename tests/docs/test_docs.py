@@ -21,8 +21,7 @@ import jsonschema
 import msgspec
 import pytest
 from command_line import report_of, ucm_cts, within
-from folders import ROOT
-from guides import guide_files
+from files import ROOT, guide_files
 
 import ucm_cts as package
 from ucm_cts.adapters.contract import messages as m

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import msgspec
 import pytest
-from cpp_subjects import PROFILES, expectations, model
+from mapping_subjects import PROFILES, expectations, model
 
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.reference.toolchain.program import reference

@@ -12,7 +12,7 @@ from typing import Any
 from unittest import mock
 
 import pytest
-from folders import SUPPORT
+from files import SUPPORT
 
 from ucm_cts.__main__ import main
 

@@ -13,9 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from folders import ROOT, SUPPORT
-from guides import guide_files
-from once import once, shared_folder
+from files import ROOT, SUPPORT, guide_files, once, shared_folder
 
 import ucm_cts
 from ucm_cts.adapters.contract import data_types as d

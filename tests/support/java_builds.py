@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 from cpp_builds import run
-from folders import ROOT, SUPPORT
-from guides import guide_files
+from files import ROOT, SUPPORT, guide_files
 
 GUIDE = ROOT / "docs" / "adapter-java.md"
 SOURCES = SUPPORT / "java"

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from folders import ROOT
+from files import ROOT
 
 from ucm_cts.adapters.reference.toolchain.cpp.generator import generate_cpp11
 from ucm_cts.adapters.reference.toolchain.cpp.lwucm_glue import generate_lwucm

@@ -8,8 +8,8 @@ from pathlib import Path
 import msgspec
 import pytest
 from cpp_builds import SDK, STRICT, run
-from folders import ROOT, SUPPORT
-from protocol_samples import Samples
+from files import ROOT, SUPPORT
+from protocol_messages import Samples
 
 from ucm_cts.adapters.contract import generating
 from ucm_cts.adapters.contract import messages as m

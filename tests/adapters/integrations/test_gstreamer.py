@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from gstreamer_here import gstreamer_adapter
+from real_frameworks import gstreamer_adapter
 
 from ucm_cts.adapters.contract import programming_model as ucm
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 
 import pytest
-from folders import ROOT
-from gstreamer_here import gstreamer_adapter
-from habits import HABITS, PAGE, check, results
+from files import ROOT
 from pipeline import Product
+from real_frameworks import HABITS, PAGE, check, gstreamer_adapter, results
 
 from ucm_cts.adapters.contract.adapter import Adapter
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
-from folders import ROOT
+from files import ROOT
 
 from ucm_cts.adapters.mutants.python import CHEATS, UNSEEN, Cheat
 from ucm_cts.harness.selftest.cheat_trials import examine_cheat

@@ -11,7 +11,7 @@ from pathlib import Path
 import msgspec
 import pytest
 from cpp_builds import FRAMEWORK, FRAMEWORK_SOURCES, NATIVE, STRICT, Builds, concurrent_scenarios, run, talk
-from folders import ROOT
+from files import ROOT
 from typed_files import COMMAND, GENERATED, generated
 
 from ucm_cts.adapters.contract import messages as m

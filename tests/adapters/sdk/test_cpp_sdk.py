@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from cpp_builds import LIFE, PAIR, Builds, Host, concurrent_scenarios, connect, events, talk
-from wrong_messages import check_refusals, mutated_lines
+from protocol_messages import check_refusals, mutated_lines
 
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import scenario as s

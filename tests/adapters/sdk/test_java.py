@@ -16,11 +16,10 @@ import pytest
 from command_line import report_of, ucm_cts
 from cpp_builds import PAIR, Host, connect, events, found, talk
 from cpp_builds import run as run_program
-from folders import ROOT, SUPPORT
-from habits import HABITS, check
+from files import ROOT, SUPPORT
 from java_builds import GUIDE, JavaBuilds, java
-from protocol_samples import Samples
-from wrong_messages import check_refusals, mutated_lines
+from protocol_messages import Samples, check_refusals, mutated_lines
+from real_frameworks import HABITS, check
 
 from ucm_cts.adapters.contract import data_types as d
 from ucm_cts.adapters.contract import generating

@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from folders import ROOT
-from guides import guide_files
+from files import ROOT, guide_files
 from performing import SINK, SOURCE, answer, play, scenario, told
 
 from ucm_cts.adapters.contract.messages import (

@@ -14,7 +14,7 @@ from xml.etree import ElementTree
 
 import pytest
 from command_line import report_of, within
-from folders import ROOT
+from files import ROOT
 
 from ucm_cts.adapters.contract.adapter import Adapter
 from ucm_cts.adapters.contract.messages import Run, Traced, encode, from_host_decoder

@@ -7,7 +7,7 @@ from pathlib import Path
 import msgspec
 import pytest
 from command_line import ucm_cts
-from folders import ROOT
+from files import ROOT
 from made_up_run import CATALOGUE, HOSTILE, sample
 
 from ucm_cts.harness.cli.results_command import pages

@@ -10,7 +10,7 @@ from typing import Any
 
 import msgspec
 import pytest
-import unsteady
+import subjects
 from command_line import within
 
 from ucm_cts.adapters.contract.scenario import Scenario
@@ -170,8 +170,8 @@ READABLE = msgspec.structs.replace(default_statement(), readings=default_stateme
 
 def report_of(forgotten: int) -> Report:
     (purpose,) = (p for p in load_purposes("core") if p.id == "log-of-several-components")
-    unsteady.Forgets.left = forgotten
-    with Driver(locate("unsteady:Forgetful", True), seed=5) as driver:
+    subjects.Forgets.left = forgotten
+    with Driver(locate("subjects:Forgetful", True), seed=5) as driver:
         run = Campaign(driver, "core", (), READABLE)
         for _ in run.check([_impatient(purpose)]):
             pass
@@ -210,7 +210,7 @@ def looked_at_again(
     adapter: str, purpose_id: str, in_process: bool, requirement: str, times: int = 1
 ) -> RequirementResult:
     (purpose,) = (p for p in load_purposes("core") if p.id == purpose_id)
-    with Driver(locate(f"unsteady:{adapter}", in_process), seed=5) as driver:
+    with Driver(locate(f"subjects:{adapter}", in_process), seed=5) as driver:
         run = Campaign(driver, "core", (), READABLE)
         for _ in run.check([_impatient(purpose)] * times):
             pass
@@ -223,7 +223,7 @@ def looked_at_again(
 
 @pytest.mark.parametrize(("slips", "verdict"), [(1, "inconclusive"), (1000, "fail")])
 def test_failure_that_is_not_shown_again_is_unstable_and_both_traces_are_kept(slips: int, verdict: str) -> None:
-    unsteady.Slips.left = slips
+    subjects.Slips.left = slips
     result = looked_at_again("Slipping", "same-connection-twice", True, "R-11.2.1.2-06")
     assert result.verdict == verdict
     (failed, *_) = result.findings
@@ -236,7 +236,7 @@ def test_failure_that_is_not_shown_again_is_unstable_and_both_traces_are_kept(sl
 
 @pytest.mark.parametrize(("slips", "verdict"), [(4, "inconclusive"), (1000, "fail")])
 def test_failure_that_was_seen_more_than_once_is_confirmed_too(slips: int, verdict: str) -> None:
-    unsteady.Slips.left = slips
+    subjects.Slips.left = slips
     result = looked_at_again("Slipping", "same-connection-twice", True, "R-11.2.1.2-06", times=2)
     assert result.verdict == verdict
     assert result.findings[0].occurrences == 2
@@ -245,9 +245,9 @@ def test_failure_that_was_seen_more_than_once_is_confirmed_too(slips: int, verdi
 
 def test_failures_without_time_for_confirmation_stand_and_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(campaign, "SECONDS_FOR_CONFIRMATION", -1)
-    unsteady.Slips.left = 1
+    subjects.Slips.left = 1
     (purpose,) = (p for p in load_purposes("core") if p.id == "same-connection-twice")
-    with Driver(locate("unsteady:Slipping", True), seed=5) as driver:
+    with Driver(locate("subjects:Slipping", True), seed=5) as driver:
         run = Campaign(driver, "core", (), READABLE)
         for _ in run.check([_impatient(purpose)]):
             pass

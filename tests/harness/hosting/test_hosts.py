@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from folders import SUPPORT
+from files import SUPPORT
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.messages import Refused, Run, Traced

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from command_line import report_of, ucm_cts
-from folders import ROOT
+from files import ROOT
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.adapter import Adapter

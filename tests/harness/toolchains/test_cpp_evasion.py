@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from cpp_subjects import model
+from mapping_subjects import model
 
 from ucm_cts.adapters.mutants.toolchain.registry import mutants
 from ucm_cts.adapters.mutants.toolchain.rewriting import SHOWN_BY

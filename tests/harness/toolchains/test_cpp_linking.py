@@ -7,7 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from cpp_subjects import NO_HEADERS, model
+from mapping_subjects import NO_HEADERS, model
 
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.hosting.locate import WrongUse

@@ -7,7 +7,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from cpp_subjects import expectations, model
+from mapping_subjects import expectations, model
 
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.toolchains.cpp.compiling import Compiler, Headers

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 
 import pytest
-from cpp_subjects import PROFILES, model
+from mapping_subjects import PROFILES, model
 
 from ucm_cts.adapters.mutants.toolchain.registry import Mutant, Variant, mutants, variants
 from ucm_cts.adapters.mutants.toolchain.rewriting import SHOWN_BY

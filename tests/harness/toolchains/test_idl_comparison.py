@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from idl_subjects import TELLER, TELLER_IDL, model_of
+from mapping_subjects import TELLER, TELLER_IDL, model_of
 
 from ucm_cts.harness.toolchains.differences import Difference
 from ucm_cts.harness.toolchains.idl.comparing import CHECKS, compare

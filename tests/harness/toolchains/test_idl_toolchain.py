@@ -6,7 +6,7 @@ import functools
 
 import pytest
 from hypothesis import HealthCheck, given, settings
-from idl_subjects import Subject, subjects
+from mapping_subjects import Subject, subjects
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.mutants.toolchain.registry import Mutant, Variant, mutants, variants

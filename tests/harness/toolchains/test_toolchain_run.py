@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 from command_line import Outcome, ucm_cts, within
-from folders import SUPPORT
+from files import SUPPORT
 
 from ucm_cts.harness.toolchains.acceptance import Answer, judge
 from ucm_cts.harness.toolchains.corpus.selection import Question, differing_lines

@@ -1,13 +1,25 @@
-"""Makes a shared file once for all test workers."""
+"""Files of the tests: the folders, the files that a guide shows, and files that one worker makes for all."""
 
 from __future__ import annotations
 
 import fcntl
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+
+SUPPORT = Path(__file__).parent
+ROOT = SUPPORT.parents[1]
+
+
+def guide_files(page: Path) -> dict[str, str]:
+    """By name: blocks marked ``<!-- file: NAME -->``, and files of a folder ``example`` that ``page`` links to."""
+    text = page.read_text()
+    linked = {name.rpartition("/")[2]: page.parent / name for name in re.findall(r"\]\((\S+/example/[^)]+)\)", text)}
+    shown = re.findall(r"(?ms)^<!-- file: (\S+) -->\n```\w+\n(.*?)^```$", text)
+    return {name: path.read_text() for name, path in linked.items()} | dict(shown)
 
 
 def shared_folder(factory: pytest.TempPathFactory) -> Path:

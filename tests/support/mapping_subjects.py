@@ -1,15 +1,19 @@
-"""Shared by the tests of profile idl: the suite's models with expected IDL, and one small model with IDL by hand."""
+"""Models of the suite with the IDL and C++ that is expected of them, and one small model with IDL by hand."""
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Mapping
+from pathlib import Path
 from typing import NamedTuple
 
 from ucm_cts.adapters.contract.metamodel.modules import Model
 from ucm_cts.adapters.contract.metamodel.reading import read_model
 from ucm_cts.adapters.reference.toolchain.program import reference
 from ucm_cts.harness.catalogue.requirements import SUITE
+from ucm_cts.harness.toolchains.cpp.compiling import Headers
+from ucm_cts.reference_models.mapping.cpp.expected import ExpectedCpp, Standard
+from ucm_cts.reference_models.mapping.cpp.mapping import expected_cpp
 from ucm_cts.reference_models.mapping.idl.expectations import ExpectedIdl
 from ucm_cts.reference_models.mapping.idl.mapping import expected_idl
 
@@ -148,3 +152,20 @@ module bank {
 };
 """
 """Their IDL by hand, after the examples of 12.7 and 12.8."""
+
+
+NO_HEADERS = Headers(Path("/nowhere"), ())
+PROFILES: Mapping[Standard, tuple[str, ...]] = {"cpp11": ("cpp", "cpp11"), "cpp03": ("cpp", "cpp03")}
+
+
+@functools.cache
+def model(name: str) -> Model:
+    path = SUITE / "models" / "mapping" / f"{name}.xml"
+    reading = read_model(path.read_bytes(), path.name)
+    assert reading.problems == ()
+    return reading.model
+
+
+def expectations(name: str, standard: Standard = "cpp11", **readings: str) -> ExpectedCpp:
+    declared = {option.replace("_", "-"): value for option, value in readings.items()}
+    return expected_cpp(model(name), standard, declared)
