@@ -11,25 +11,21 @@ import functools
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import msgspec
-
-from ucm_cts.harness.catalogue.requirements import SUITE
-from ucm_cts.harness.toolchains.idl.language.reading import read_idl
 from ucm_cts.harness.toolchains.idl.language.scopes import Entry, build, every, resolve
 from ucm_cts.harness.toolchains.idl.language.showing import show_declaration
-from ucm_cts.harness.toolchains.idl.language.values import worth
 from ucm_cts.harness.toolchains.idl.results import Wrong
 from ucm_cts.harness.toolchains.idl.vendor import Meaning, Vendor
 from ucm_cts.reference_models.mapping.idl import declarations as idl
 from ucm_cts.reference_models.mapping.idl.expectations import ExpectedIdl
+from ucm_cts.reference_models.mapping.idl.standard import STANDARD
 
 
 @functools.cache
 def printed() -> tuple[tuple[str, Entry], ...]:
-    """The printed declarations, each with its requirement, which an annotation in ``suite/standard.idl`` gives."""
-    root = build({"": read_idl((SUITE / "standard.idl").read_text("utf-8"))})
-    annotated = ((entry, entry.declaration.annotations) for entry in every(root))
-    return tuple((str(worth(a.arguments[0].value, root)), entry) for entry, given in annotated for a in given)
+    """The printed declarations, each with its requirement."""
+    root = build({"": [standard.wrapped for standard in STANDARD]})
+    requirements = {(*standard.modules, standard.declaration.name): standard.requirement for standard in STANDARD}
+    return tuple((requirements[entry.path], entry) for entry in every(root) if entry.path in requirements)
 
 
 def standard_differences(vendor: Vendor) -> Iterator[tuple[str, list[Wrong]]]:
@@ -128,18 +124,11 @@ def _other_operations(alike: _Alike, expected: idl.Interface, found: idl.Interfa
         if not any(alike.operations(one, other) for other in namesakes):
             observed = show_declaration(namesakes[0]) if namesakes else "no such operation"
             place = namesakes[0].place if namesakes else found.place
-            yield Wrong(f"{_without_names(one)} in interface {expected.name}", observed, place)
+            yield Wrong(f"{show_declaration(one)} in interface {expected.name}", observed, place)
     for other in there:
         if all(other.name != one.name for one in due):
             observed = show_declaration(other)
             yield Wrong(f"no {idl.kind_of(other)} {other.name} in interface {expected.name}", observed, other.place)
-
-
-def _without_names(printed: idl.Declaration) -> str:
-    """A printed operation for a message: the names of its parameters are free."""
-    assert isinstance(printed, idl.Operation)
-    parameters = tuple(msgspec.structs.replace(one, name="") for one in printed.parameters)
-    return show_declaration(msgspec.structs.replace(printed, parameters=parameters))
 
 
 def _exported(declaration: idl.Declaration) -> bool:
@@ -163,7 +152,7 @@ class _Alike:
         name = _last(found)
         if name and name == _last(expected):
             return True
-        if name in _names():
+        if name in _NAMES:
             return False
         wanted = self.ours.meaning(expected, self.mine.scope)
         return _without_scopes(wanted) == _without_scopes(self.theirs.meaning(found, self.entry.scope))
@@ -192,11 +181,7 @@ class _Alike:
 
 
 _PORT_ELEMENT = "PortElementObject"
-
-
-@functools.cache
-def _names() -> frozenset[str]:
-    return frozenset(entry.declaration.name for _, entry in printed())
+_NAMES = frozenset(standard.declaration.name for standard in STANDARD)
 
 
 def _last(type_: idl.Type) -> str:

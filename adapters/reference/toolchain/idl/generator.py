@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from ucm_cts.adapters.contract.metamodel import components as mc
 from ucm_cts.adapters.contract.metamodel.aspects import TechnicalPolicyDefinition
@@ -20,13 +19,11 @@ from ucm_cts.adapters.contract.metamodel.modules import MODULES, Model, Module
 from ucm_cts.adapters.contract.metamodel.names import Declared, Names, Scope, lineage
 from ucm_cts.adapters.reference.toolchain.idl.components import PORT_ELEMENT_OBJECT, Components, port_element_interfaces
 from ucm_cts.adapters.reference.toolchain.idl.names import Templates, identifier, parameter
+from ucm_cts.adapters.reference.toolchain.idl.standard import STANDARD
 from ucm_cts.adapters.reference.toolchain.idl.types import Lines, constant, data_type, exception, interface
 
 DECLARED = (DataType, Constant, Exception_, Interface, mc.ComponentType, mc.AtomicComponentImplementation)
 """What becomes a declaration."""
-
-STANDARD = (Path(__file__).parent / "ucm.idl").read_text("utf-8")
-"""The declarations that clause 12 prints: annotations (14), the container programming model (12.10), standard policies (12.11)."""
 
 HEAD = ["#ifndef MODEL_IDL", "#define MODEL_IDL", '#include "ucm.idl"', ""]
 
