@@ -12,7 +12,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
 from ucm_cts.reference_models.model.callback_history import Callback, CallbackHistory
 from ucm_cts.reference_models.model.executions import BusinessCall
-from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks, Fit
+from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks
 from ucm_cts.reference_models.model.ics import Ics
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
 from ucm_cts.reference_models.model.log_contents import contents_read
@@ -150,15 +150,7 @@ class _TraceReader:
         self.interactions.operated(event)
         if ongoing is not None and ongoing.step_number == event.step:
             conclude(runtime, ongoing, event, self.monitor.expected)
-            exercises, fits = verdicts.exercises, verdicts.fits
-            for evaluate, one in self.table.ended[ongoing.operation]:
-                concluded = evaluate(one, runtime, ongoing)
-                if type(concluded) is str:  # most are
-                    exercises[concluded] = exercises.get(concluded, 0) + 1
-                elif type(concluded) is Fit:
-                    fits[concluded] = fits.get(concluded, 0) + 1
-                elif concluded:
-                    verdicts.add(concluded)
+            self.evaluate(self.table.ended[ongoing.operation], ongoing)
             if verdicts.suspended:
                 self.suspend()
             apply(runtime, ongoing, event)
