@@ -57,7 +57,7 @@ def is_in(module: str, folder: str) -> bool:
 
 
 @pytest.mark.parametrize("room", ALLOWED)
-def test_rooms_import_only_what_they_may(room: str) -> None:
+def test_rooms_import_only_permitted_rooms(room: str) -> None:
     own = {module: names for module, names in imports().items() if is_in(module, room)}
     assert own
     for module, names in own.items():

@@ -133,7 +133,7 @@ def test_excerpts_are_from_their_files(page: Path) -> None:
 
 
 @each_page
-def test_what_is_named_exists(page: Path) -> None:
+def test_named_things_exist(page: Path) -> None:
     for span in spans(page):
         if re.fullmatch(r"[\w.*-]+(/[\w.*-]*)+", span) and span.split("/")[0] in ROOMS:
             assert any(ROOT.glob(span.rstrip("/"))) or any(page.parent.glob(span)), span
@@ -142,7 +142,7 @@ def test_what_is_named_exists(page: Path) -> None:
         assert f"[testenv:{name}]" in TOX, name
 
 
-def test_every_module_says_what_it_is_for() -> None:
+def test_every_module_has_a_purpose() -> None:
     lines = shell(f"{shlex.quote(sys.executable)} {ROOT}/docs/modules.py").splitlines()
     assert [line for line in lines if len(line.split()) < 2] == []
     assert any(line.startswith("harness/results/tally.py ") for line in lines)
@@ -156,7 +156,7 @@ def test_former_module_of_the_python_host_still_serves() -> None:
     assert Path("warning").read_text().endswith("is deprecated: use ucm_cts.adapters.sdk.python.host\n")
 
 
-def test_tables_name_what_there_is() -> None:
+def test_tables_name_existing_things() -> None:
     for folder, _, holds in column("docs/design.md", r"`(\w+/)` \| (.+) \| (.+)"):
         for span in re.findall(r"`([^`]+)`", holds):
             assert any((ROOT / folder).glob(span.rstrip("/"))), f"{folder}{span}"
@@ -193,7 +193,7 @@ def test_options_are_documented_exactly() -> None:
 
 
 @pytest.mark.native
-def test_certify_command_leaves_what_the_readme_says(here: Path) -> None:
+def test_certify_command_leaves_the_files_of_the_readme(here: Path) -> None:
     (command,) = re.findall(r"(?ms)^\[testenv:certify\]$[^\[]*?^commands = (.+?)$", TOX)
     assert marked("README.md", "certify command").rstrip().endswith(" && pipx run tox -e certify")
     for hole, value in {"{tox_root}": str(here), "{/}": "/", "{posargs}": ""}.items():

@@ -97,7 +97,7 @@ def judged(scenario: Scenario, adapter: Adapter, readings: Mapping[str, str] = {
 
 
 @pytest.mark.parametrize("name", DECLARED)
-def test_what_is_declared_is_tried_and_kept(name: str) -> None:
+def test_declared_readings_are_tried_and_kept(name: str) -> None:
     mixin, readings = DECLARED[name]
     adapter, disguise = bind(mixin.__name__, mixin), Disguise(3, "{port}.{element}")
     for purpose, requirements, scenarios in purposes(readings):

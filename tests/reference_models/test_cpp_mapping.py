@@ -28,7 +28,7 @@ def contract(text: str) -> ExpectedCpp:
     return expected_cpp(reading.model, "cpp11", {})
 
 
-def test_each_rule_stands_for_what_the_catalogue_says() -> None:
+def test_each_rule_stands_for_the_requirements_of_the_catalogue() -> None:
     catalogued = {(r.id, rule) for r in load_requirements() if r.id.startswith("R-13") for rule in r.rules}
     assert {(requirement, rule) for rule, stood in stand_for().items() for requirement in stood} == catalogued
     assert set(stand_for()) == set(CHECKS)
@@ -97,7 +97,7 @@ def test_inherited_members_come_first() -> None:
     assert sorted(m.name for m in abstract.methods) == ["at_joined", "at_left", "at_right", "at_root"]
 
 
-def test_getters_are_for_what_is_provided() -> None:
+def test_getters_are_for_provided_port_elements() -> None:
     getters = {c.method for c in of(expectations("ports"), "R-13.7-14")}
     assert getters == {"get_left_back", "get_right_back", "get_left_in"}
     inherited = {c.method for c in of(expectations("refinement"), "R-13.7-14")}
@@ -113,7 +113,7 @@ def test_getters_are_for_what_is_provided() -> None:
         '<AbstractDataType name="t"/><Sequence name="s" type="t" indexType="LONG" maxSize="-1"/>',
     ],
 )
-def test_nothing_is_asked_of_what_the_text_does_not_spell(text: str) -> None:
+def test_names_without_a_specified_spelling_are_not_checked(text: str) -> None:
     kinds = {type(e.claim) for e in contract(text).expected}
     assert kinds <= {claims.Namespace, claims.Declares}
 
@@ -150,7 +150,7 @@ def test_constants_in_headers_make_source_requirements_not_applicable() -> None:
     assert list(not_applicable(other)) == ["R-13.10-05"]
 
 
-def test_what_is_too_large_for_a_program_is_not_made() -> None:
+def test_too_large_values_are_not_made() -> None:
     array = '<PrimitiveFloat name="t" kind="DOUBLE"/><Array name="a" type="t"><ArrayDimension indexType="LONG" size="{}"/></Array>'
     structure = '<Structure name="s"><StructureField name="f" type="a"/></Structure>'
     small, large = (contract(array.format(size) + structure) for size in (10, 1_000_000))

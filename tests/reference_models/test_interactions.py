@@ -31,11 +31,11 @@ RECEIVER = Declaration(("in.api", "aux.api"), ports={"in.api": "numbers", "aux.a
 
 
 class Story:
-    """Two connections; what happens is told step by step."""
+    """Two connections; events are added step by step."""
 
     def __init__(self) -> None:
         self.runtime = Runtime(Scenario({}, ()))
-        self.told = Interactions(self.runtime)
+        self.reported = Interactions(self.runtime)
         self._numbers: Iterator[int] = itertools.count(1)
         for link in ("left", "right"):
             self._link(s.Link("simple_message_connector", "numbers", link))
@@ -50,7 +50,7 @@ class Story:
 
     def _link(self, step: s.ConnectorCall) -> None:
         begin, end = Call(next(self._numbers), 0, 0, 0), Return(next(self._numbers), 0, 0, 0)
-        self.told.linked(step, begin, end)
+        self.reported.linked(step, begin, end)
 
     def attach(self, link: str, receiver: str, port: str) -> None:
         self._link(s.Attach(link, "receiver", receiver, port))
@@ -61,21 +61,21 @@ class Story:
     def push(self, link: str, value: int, code: str = "ok", answered: bool = True) -> MethodCall:
         number = next(self._numbers)
         event = Request(number, number, number, f"{link} emitter", 1, "out.api", 0, s.PUSH, (value,))
-        self.told.request(event, BusinessCall(0, number, event))
+        self.reported.request(event, BusinessCall(0, number, event))
         if answered:
-            self.answer(self.told.calls[-1], code)
-        return self.told.calls[-1]
+            self.answer(self.reported.calls[-1], code)
+        return self.reported.calls[-1]
 
     def answer(self, call: MethodCall, code: str = "ok") -> None:
         event = call.request
-        self.told.reply(
+        self.reported.reply(
             Reply(next(self._numbers), 0, event.thread, event.component, 1, event.port, results=(code,)),
         )
 
     def deliver(self, link: str, value: int, port: str = "in.api") -> Delivery:
         number, name = next(self._numbers), f"{link} receiver"
-        delivery = self.told.enter(Enter(number, 0, 0, name, 1, "method", port, method=s.PUSH, arguments=(value,)))
-        self.told.exit(Exit(next(self._numbers), 0, 0, name, 1, "method", results=("ok",)))
+        delivery = self.reported.enter(Enter(number, 0, 0, name, 1, "method", port, method=s.PUSH, arguments=(value,)))
+        self.reported.exit(Exit(next(self._numbers), 0, 0, name, 1, "method", results=("ok",)))
         return delivery
 
 
@@ -160,7 +160,7 @@ def test_mending_without_a_break_is_no_failure() -> None:
     (purpose,) = select(load_purposes("core"), "transport-breaks")
     statement = read_statement(HOME / "ics.toml")
     for _, asked in purpose.scenarios:
-        told = answer(Payloads(1).deal(asked), CannotBreak)
-        assert isinstance(told, Traced)
-        verdicts = Monitor(load_life_cycle(), statement.ics).judge(asked, told.events)
+        reported = answer(Payloads(1).deal(asked), CannotBreak)
+        assert isinstance(reported, Traced)
+        verdicts = Monitor(load_life_cycle(), statement.ics).judge(asked, reported.events)
         assert not [finding for finding in verdicts.findings if finding.rule == "ok_after_mending"]

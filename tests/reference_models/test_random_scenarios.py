@@ -104,7 +104,7 @@ def test_no_conformant_variant_is_ever_failed(scenario: Scenario) -> None:
 
 
 @pytest.mark.parametrize("name", CORE_VARIANTS)
-def test_no_variant_of_core_is_failed_for_what_joins_components(name: str) -> None:
+def test_variants_of_core_do_not_fail_for_connectors(name: str) -> None:
     """What depends on time is left out here: who runs a scenario looks at that twice."""
     variant = CORE_VARIANTS[name]
     usual = default_statement()
@@ -126,7 +126,7 @@ def test_conformant_variants_once_failed_are_failed_no_more(name: str) -> None:
 
 @examples(200)
 @given(scenarios(), st.integers(0, SOME - 1))
-def test_findings_about_wrong_subjects_name_what_is_there(scenario: Scenario, first: int) -> None:
+def test_findings_about_wrong_subjects_name_existing_events(scenario: Scenario, first: int) -> None:
     for trace, _ in traces_of_wrong_subjects(scenario, first):
         for finding in judge().judge(scenario, trace).findings:
             assert finding.requirement in TESTABLE

@@ -102,8 +102,8 @@ def stressed() -> tuple[Scenario, Trace]:
 )
 def test_stress_without_overlaps_of_the_unprotected_body_is_undecided(counted: dict[str, int], exercised: bool) -> None:
     asked, trace = stressed()
-    told = tuple(msgspec.structs.replace(e, **counted) if isinstance(e, Stressed) else e for e in trace)
-    verdicts = Monitor(load_life_cycle()).judge(asked, told)
+    reported = tuple(msgspec.structs.replace(e, **counted) if isinstance(e, Stressed) else e for e in trace)
+    verdicts = Monitor(load_life_cycle()).judge(asked, reported)
     assert ("R-10.1.3.2-13" in verdicts.exercises) == exercised
     assert not verdicts.findings
 

@@ -234,15 +234,15 @@ def events(program: Path, scenario: s.Scenario) -> tuple[t.Event, ...]:
 
 def story(program: Path, scenario: s.Scenario) -> list[str]:
     """The trace in short: callbacks as ``on_init A``, ends of steps as ``start: UCM_ERROR`` or ``start: None``."""
-    told = []
+    reported = []
     for event in events(program, scenario):
         if isinstance(event, t.Enter):
-            told.append(f"{event.hook} {event.component}{'' if event.instance == 1 else event.instance}")
+            reported.append(f"{event.hook} {event.component}{'' if event.instance == 1 else event.instance}")
         elif isinstance(event, t.Return):
-            told.append(f"{s.operation(scenario.steps[event.step])}: ok")
+            reported.append(f"{s.operation(scenario.steps[event.step])}: ok")
         elif isinstance(event, t.Raise):
-            told.append(f"{s.operation(scenario.steps[event.step])}: {event.error}")
-    return told
+            reported.append(f"{s.operation(scenario.steps[event.step])}: {event.error}")
+    return reported
 
 
 PROVIDER = s.Declaration(provides=("p_e",))

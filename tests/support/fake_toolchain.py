@@ -59,10 +59,10 @@ def tells_the_time(text: str) -> int:
 
 def points_to_ends(text: str) -> int:
     """It tells what is missing where the element ends, as validators do."""
-    told = reference().check(text.encode(), "model.xml")[1]
-    if told:
+    reported = reference().check(text.encode(), "model.xml")[1]
+    if reported:
         print(f"model.xml:{text.rstrip().count(chr(10)) + 1}: content is not complete")
-    return 1 if told else 0
+    return 1 if reported else 0
 
 
 def refuses_the_root(text: str) -> int:

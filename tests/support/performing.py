@@ -41,10 +41,10 @@ def play(
     traced = answer(asked, adapter)
     assert isinstance(traced, Traced), traced
     assert contradiction(asked, traced.events, bool(traced.stuck)) is None
-    return [told(event) for event in traced.events] + [f"stuck {name}" for name in traced.stuck]
+    return [line_of(event) for event in traced.events] + [f"stuck {name}" for name in traced.stuck]
 
 
-def told(event: Event) -> str:
+def line_of(event: Event) -> str:
     fields = msgspec.to_builtins(event)
     kind = fields.pop("kind")
     thread = fields.pop("thread")
@@ -53,14 +53,14 @@ def told(event: Event) -> str:
     words = [kind if not thread else f"{thread}:{kind}"]
     if "component" in fields:
         words.append(f"{fields.pop('component')}#{fields.pop('instance')}")
-    return " ".join([*words, *(f"{name}={_told(value)}" for name, value in fields.items())])
+    return " ".join([*words, *(f"{name}={_text_of(value)}" for name, value in fields.items())])
 
 
-def _told(value: Any) -> str:
+def _text_of(value: Any) -> str:
     if isinstance(value, dict) and "component" in value:
         return f"{value['component']}#{value['instance']}.{value['port']}"
     if isinstance(value, list | tuple):
-        return "[" + ", ".join(_told(v["references"]) + "@" + v["port"] if isinstance(v, dict) and "references" in v else _told(v) for v in value) + "]"  # fmt: skip
+        return "[" + ", ".join(_text_of(v["references"]) + "@" + v["port"] if isinstance(v, dict) and "references" in v else _text_of(v) for v in value) + "]"  # fmt: skip
     return str(value)
 
 

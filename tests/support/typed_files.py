@@ -22,8 +22,8 @@ COMMAND = "PYTHONPATH=dev python tests/support/typed_files.py"
 
 def generated() -> dict[Path, str]:
     """The files by their paths. What they take from the platform is the framework's."""
-    model, told = reference().check(PROBE_MODEL.read_bytes(), PROBE_MODEL.name)
-    assert model is not None, told
+    model, reported = reference().check(PROBE_MODEL.read_bytes(), PROBE_MODEL.name)
+    assert model is not None, reported
     made = {GENERATED / name: text for name, text in {**generate_cpp11(model), **generate_lwucm(model)}.items()}
     return {REFERENCE_CPP / "framework" / "include" / SUPPORT_FILE: made.pop(GENERATED / SUPPORT_FILE), **made}
 

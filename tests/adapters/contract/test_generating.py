@@ -23,7 +23,7 @@ def test_schema_is_that_of_the_types() -> None:
 
 
 @pytest.mark.parametrize("path", generating.FILES, ids=lambda path: path.name)
-def test_committed_files_are_what_the_generator_makes(path: Path) -> None:
+def test_committed_files_equal_generated_ones(path: Path) -> None:
     committed = ROOT / "adapters" / "sdk" / path.relative_to(generating.SDK)  # an installed package leaves them out
     assert committed.read_text() == generating.rendered(generating.FILES[path])
 

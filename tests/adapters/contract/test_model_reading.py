@@ -48,7 +48,7 @@ def test_every_class_can_be_reached() -> None:
     assert {inner for outer in SPELLINGS for inner in contained(outer)} | {Model} == set(SPELLINGS)
 
 
-def test_what_stands_in_an_element_goes_to_one_field() -> None:
+def test_each_part_of_an_element_goes_to_one_field() -> None:
     for spelling in SPELLINGS.values():
         fields = {cls: {f for f, held in spelling.contained.items() if issubclass(cls, held)} for cls in SPELLINGS}
         assert all(len(found) <= 1 for found in fields.values()), spelling.tag
@@ -316,11 +316,11 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize(("inside", "kind", "told"), WRONG.values(), ids=WRONG.keys())
-def test_each_problem_is_reported(inside: str, kind: str, told: str) -> None:
+@pytest.mark.parametrize(("inside", "kind", "reported"), WRONG.values(), ids=WRONG.keys())
+def test_each_problem_is_reported(inside: str, kind: str, reported: str) -> None:
     problem = only(f'<ContractModule name="m">\n{inside}\n</ContractModule>')
     assert (problem.kind, problem.line) == (kind, 2)
-    assert told in problem.message
+    assert reported in problem.message
     assert "\n" not in problem.message
     assert len(problem.message) < 500
 
@@ -353,16 +353,16 @@ def test_all_problems_are_reported() -> None:
     ]
 
 
-def test_what_fits_is_read_although_something_does_not() -> None:
+def test_correct_parts_are_read_beside_problems() -> None:
     reading = read_model(b'<ContractModule name="m"><Zork/><Structure name="s" kind="LONG"/></ContractModule>', "m.xml")
     assert len(reading.problems) == 2
     assert without_lines(reading.model).modules[0].data_types == (contracts.Structure(name="s"),)  # type: ignore[union-attr]
 
 
 def test_problems_are_counted() -> None:
-    told = problems(f'<ContractModule name="m">{"<Zork/>" * 10 * MOST_PROBLEMS}</ContractModule>')
-    assert len(told) == MOST_PROBLEMS + 1
-    assert told[-1][0] == "refused"
+    reported = problems(f'<ContractModule name="m">{"<Zork/>" * 10 * MOST_PROBLEMS}</ContractModule>')
+    assert len(reported) == MOST_PROBLEMS + 1
+    assert reported[-1][0] == "refused"
 
 
 def test_words_are_known_in_their_canonical_form() -> None:

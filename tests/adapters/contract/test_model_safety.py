@@ -146,27 +146,29 @@ def test_giants_are_refused(xml: bytes) -> None:
 
 
 def test_much_text_is_refused() -> None:
-    told = read_model(b"<ContractModule name='m'>%s</ContractModule>" % LONG, "m.xml").problems
-    assert [problem.kind for problem in told] == ["text", "refused"]
+    reported = read_model(b"<ContractModule name='m'>%s</ContractModule>" % LONG, "m.xml").problems
+    assert [problem.kind for problem in reported] == ["text", "refused"]
 
 
 def test_giants_below_the_limit_are_read() -> None:
     name = "a" * (LONGEST // 2)
     assert names(f'<ContractModule name="{name}"/>'.encode()) == [name]
-    told = read_model(f'<ContractModule name="{name}" {name}=""><{name}/></ContractModule>'.encode(), "m.xml").problems
-    assert [problem.kind for problem in told] == ["unknown element", "unknown attribute"]
-    assert all(len(problem.message) < 1000 for problem in told)
+    reported = read_model(
+        f'<ContractModule name="{name}" {name}=""><{name}/></ContractModule>'.encode(), "m.xml"
+    ).problems
+    assert [problem.kind for problem in reported] == ["unknown element", "unknown attribute"]
+    assert all(len(problem.message) < 1000 for problem in reported)
 
 
-def test_memory_is_bounded_by_what_is_read() -> None:
+def test_memory_is_bounded_by_the_size_of_the_file() -> None:
     xml = b'<ContractModule name="m">%s</ContractModule>' % (b"<Zork><a/><b/></Zork>" * 100_000)
     tracemalloc.start()
     try:
-        told = read_model(xml, "m.xml").problems
+        reported = read_model(xml, "m.xml").problems
         _, most = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
-    assert told[-1].kind == "refused"
+    assert reported[-1].kind == "refused"
     assert most < 8 * MEGABYTE
 
 

@@ -83,7 +83,7 @@ def test_the_schema_has_every_attribute(spelling: Spelling) -> None:
 
 
 @pytest.mark.parametrize("spelling", SPELLINGS.values(), ids=lambda spelling: spelling.tag)
-def test_the_schema_says_what_stands_where(spelling: Spelling) -> None:
+def test_the_schema_places_elements(spelling: Spelling) -> None:
     root, place = inside(spelling.cls)
     for inner in SPELLINGS.values():
         child = etree.SubElement(place, inner.tag)

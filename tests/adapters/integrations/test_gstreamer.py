@@ -80,7 +80,7 @@ class Failing(Body):
 
 
 class Runtime:
-    """A runtime with some implementations; ``told`` gives what has happened since."""
+    """A runtime with some implementations; ``reported`` gives what has happened since."""
 
     def __init__(self, adapter: Any) -> None:
         self.story: list[str] = []
@@ -106,9 +106,9 @@ class Runtime:
         element: ucm.PortElementObject = self.adapter.get_port_element(container or self.root, number, "in_api")
         return element
 
-    def told(self) -> list[str]:
-        told, self.story[:] = self.story[:], []
-        return told
+    def reported(self) -> list[str]:
+        reported, self.story[:] = self.story[:], []
+        return reported
 
 
 _FAILING = ("failing in init", "failing in startup", "failing")
@@ -128,16 +128,16 @@ def test_version_is_asked_of_gstreamer(module: Any) -> None:
 def test_pads_serve_while_they_play(runtime: Runtime) -> None:
     adapter, root = runtime.adapter, runtime.root
     client, server = runtime.add("client"), runtime.add("server", attributes={"size": "7"})
-    assert runtime.told() == ["client init", "server size 7", "server init"]
+    assert runtime.reported() == ["client init", "server size 7", "server init"]
     adapter.connect(root, client, "out_api", runtime.entry(server))
-    assert runtime.told() == ["client connect out_api"]
+    assert runtime.reported() == ["client connect out_api"]
     with pytest.raises(RuntimeError, match="flushing"):
         runtime.entry(client).exchange(1)
     adapter.start(root)
-    assert runtime.told() == ["server startup", "client startup out_api:1"]
+    assert runtime.reported() == ["server startup", "client startup out_api:1"]
     assert runtime.entry(client).exchange(-(2**31)) == -(2**31) + 1
     adapter.stop(root)
-    assert runtime.told() == ["server shutdown", "client shutdown"]
+    assert runtime.reported() == ["server shutdown", "client shutdown"]
     with pytest.raises(RuntimeError, match="flushing"):
         runtime.entry(server).exchange(1)
 
@@ -147,12 +147,12 @@ def test_each_connection_has_pads_of_its_own(runtime: Runtime) -> None:
     client, one, two = runtime.add("client"), runtime.add("server"), runtime.add("server")
     links = [adapter.connect(root, client, "out_api", runtime.entry(number)) for number in (one, two)]
     adapter.start(root)
-    assert "client startup out_api:2" in runtime.told()
+    assert "client startup out_api:2" in runtime.reported()
     assert runtime.entry(client).exchange(1) == 4
     adapter.disconnect(root, links[0])
     adapter.stop(root)
     adapter.start(root)
-    assert {"client disconnect out_api", "client startup out_api:1"} <= set(runtime.told())
+    assert {"client disconnect out_api", "client startup out_api:1"} <= set(runtime.reported())
     for link in (links[0], links[1] + 1):
         with pytest.raises(ucm.NotFound):
             adapter.disconnect(root, link)
@@ -180,9 +180,9 @@ def test_a_provider_that_goes_takes_its_links_along(runtime: Runtime) -> None:
     entry = runtime.entry(server)
     link = adapter.connect(root, client, "out_api", entry)
     adapter.start(root)
-    runtime.told()
+    runtime.reported()
     adapter.remove_component(root, server)
-    assert runtime.told() == ["server shutdown", "client disconnect out_api", "server remove"]
+    assert runtime.reported() == ["server shutdown", "client disconnect out_api", "server remove"]
     with pytest.raises(RuntimeError, match="not-linked"):
         entry.exchange(1)
     with pytest.raises(ucm.BadParameter):
@@ -202,28 +202,31 @@ def test_containers_are_bins(runtime: Runtime) -> None:
         adapter.remove_component(root, server)
     link = adapter.connect(root, client, "out_api", runtime.entry(server, box))
     adapter.start(box)
-    runtime.told()
+    runtime.reported()
     adapter.start(root)
-    assert runtime.told() == ["client startup out_api:1"]
+    assert runtime.reported() == ["client startup out_api:1"]
     assert runtime.entry(client).exchange(1) == 2
     adapter.remove_component(box, server)
-    assert runtime.told() == ["server shutdown", "server remove"]  # what is linked to the client is the bin's ghost pad
+    assert runtime.reported() == [
+        "server shutdown",
+        "server remove",
+    ]  # what is linked to the client is the bin's ghost pad
     adapter.disconnect(root, link)
-    assert runtime.told() == ["client disconnect out_api"]
+    assert runtime.reported() == ["client disconnect out_api"]
     runtime.add("server", box)
     adapter.remove_container(root, box)
-    assert runtime.told() == ["server init", "server remove"]
+    assert runtime.reported() == ["server init", "server remove"]
     for unknown in (box, None):
         with pytest.raises(ucm.NotFound):
             adapter.remove_container(root, unknown)
 
 
-def test_what_fails_on_the_way_up_is_refused(runtime: Runtime) -> None:
+def test_failure_on_the_way_up_is_refused(runtime: Runtime) -> None:
     adapter, root = runtime.adapter, runtime.root
     for name in ("failing in init", "nobody"):
         with pytest.raises(ucm.UcmError):
             runtime.add(name)
-    assert runtime.told() == ["failing in init init"]
+    assert runtime.reported() == ["failing in init init"]
     failing = runtime.add("failing in startup")
     with pytest.raises(ucm.UcmError):
         adapter.start(root)
@@ -235,7 +238,7 @@ def test_what_fails_on_the_way_up_is_refused(runtime: Runtime) -> None:
             adapter.connect(root, runtime.add("client"), port, runtime.entry(runtime.add("server")))
 
 
-def test_what_fails_on_the_way_down_goes_down(runtime: Runtime) -> None:
+def test_failed_component_can_be_removed(runtime: Runtime) -> None:
     failing = runtime.add("failing")
     runtime.adapter.start(runtime.root)
     with pytest.raises(RuntimeError, match="error"):
@@ -251,18 +254,18 @@ def test_nothing_is_left_over(module: Any) -> None:
         box = runtime.adapter.create_container(runtime.root)
         client, server = runtime.add("client"), runtime.add("server", box)
         runtime.adapter.connect(runtime.root, client, "out_api", runtime.entry(server, box))
-        runtime.told()
+        runtime.reported()
         for bin_ in (runtime.root, box):
             for element in bin_.children:
                 element.weak_ref(lambda: gone.append("element"))
         del element, bin_
         runtime.adapter.destroy(runtime.root)
-        assert sorted(runtime.told()) == ["client disconnect out_api", "client remove", "server remove"]
+        assert sorted(runtime.reported()) == ["client disconnect out_api", "client remove", "server remove"]
         del runtime, box
     assert gone.count("element") == 9
 
 
-def test_one_line_says_what_is_missing(tmp_path: Path) -> None:
+def test_one_line_names_the_missing_package(tmp_path: Path) -> None:
     """In an interpreter that sees no packages of the system, at a place where there are none."""
     (tmp_path / "gi.py").write_text("raise ImportError('no such thing')")
     done = subprocess.run(

@@ -71,7 +71,7 @@ class Failing(Body):
 
 
 class Runtime:
-    """A runtime with the implementations server, client and failing; ``told`` gives what has happened since."""
+    """A runtime with the implementations server, client and failing; ``reported`` gives what has happened since."""
 
     def __init__(self) -> None:
         self.story: list[str] = []
@@ -89,9 +89,9 @@ class Runtime:
         model = {**empty, "connectable": False, "fragment": False, **model}
         return ucm.Implementation(name, create=lambda: body(name, self.story), **model)
 
-    def told(self) -> list[str]:
-        told, self.story[:] = self.story[:], []
-        return told
+    def reported(self) -> list[str]:
+        reported, self.story[:] = self.story[:], []
+        return reported
 
 
 @pytest.fixture
@@ -105,33 +105,33 @@ def test_connecting_makes_valid_and_removing_the_provider_invalid(runtime: Runti
     adapter, root = runtime.adapter, runtime.root
     server = adapter.add_component(root, "server", {"size": "7"})
     client = adapter.add_component(root, "client", {})
-    assert runtime.told() == ["server size 7", "server init", "server startup", "client init"]
+    assert runtime.reported() == ["server size 7", "server init", "server startup", "client init"]
     element = adapter.get_port_element(root, server, "in_api")
     assert element.exchange(1) == 2
     link = adapter.connect(root, client, "out_api", element)
-    assert runtime.told() == ["client connect out_api server", "client startup out_api=server"]
+    assert runtime.reported() == ["client connect out_api server", "client startup out_api=server"]
     adapter.remove_component(root, server)
-    assert runtime.told() == ["client shutdown", "client disconnect out_api", "server shutdown", "server remove"]
+    assert runtime.reported() == ["client shutdown", "client disconnect out_api", "server shutdown", "server remove"]
     assert adapter.get_components(root) == [client]
     adapter.disconnect(root, link)
     with pytest.raises(ucm.NotFound):
         adapter.disconnect(root, link)
-    assert runtime.told() == []
+    assert runtime.reported() == []
 
 
 def test_start_and_stop_are_the_nearest_things_ipopo_has(runtime: Runtime) -> None:
     adapter, root = runtime.adapter, runtime.root
     server, client = adapter.add_component(root, "server", {}), adapter.add_component(root, "client", {})
     adapter.connect(root, client, "out_api", adapter.get_port_element(root, server, "in_api"))
-    runtime.told()
+    runtime.reported()
     adapter.start(root)
-    assert runtime.told() == []
+    assert runtime.reported() == []
     adapter.stop(root)
-    assert runtime.told() == ["client shutdown", "client disconnect out_api", "server shutdown"]
+    assert runtime.reported() == ["client shutdown", "client disconnect out_api", "server shutdown"]
     with pytest.raises(ucm.NotFound):
         adapter.get_port_element(root, server, "in_api")
     adapter.start(root)
-    assert runtime.told() == ["server startup", "client connect out_api server", "client startup out_api=server"]
+    assert runtime.reported() == ["server startup", "client connect out_api server", "client startup out_api=server"]
 
 
 def test_containers_are_bundles(runtime: Runtime) -> None:
@@ -141,16 +141,16 @@ def test_containers_are_bundles(runtime: Runtime) -> None:
     assert (adapter.get_components(root), adapter.get_components(box)) == ([outside], [inside])
     with pytest.raises(ucm.NotFound):
         adapter.remove_component(root, inside)
-    runtime.told()
+    runtime.reported()
     adapter.remove_container(root, box)
-    assert runtime.told() == ["server shutdown", "server remove"]
+    assert runtime.reported() == ["server shutdown", "server remove"]
     with pytest.raises(ucm.NotFound):
         adapter.remove_container(root, box)
     with pytest.raises(ucm.UcmError):
         adapter.add_component(box, "server", {})
 
 
-def test_what_ipopo_refuses_is_refused(runtime: Runtime) -> None:
+def test_refusals_of_ipopo_are_passed_on(runtime: Runtime) -> None:
     adapter, root = runtime.adapter, runtime.root
     for unknown in ("failing", "nobody"):
         with pytest.raises(ucm.UcmError):
@@ -170,9 +170,9 @@ def test_nothing_is_left_over() -> None:
         box = runtime.adapter.create_container(runtime.root)
         runtime.adapter.add_component(box, "server", {})
         runtime.adapter.add_component(runtime.root, "server", {})
-        runtime.told()
+        runtime.reported()
         runtime.adapter.destroy(runtime.root)
-        assert runtime.told() == ["server shutdown", "server remove"] * 2
+        assert runtime.reported() == ["server shutdown", "server remove"] * 2
         assert not FrameworkFactory.is_framework_running()
         assert not [name for name in sys.modules if name.startswith("container-")]
         runtime.adapter.close()

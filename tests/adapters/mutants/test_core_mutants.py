@@ -49,7 +49,7 @@ def failing(
         problem = contradiction(asked, reply.events, bool(reply.stuck))
         assert problem is None, (name, problem)
         for finding in monitor.judge(asked, reply.events).findings:
-            found.setdefault(finding.requirement, _told(name, finding))
+            found.setdefault(finding.requirement, _reported(name, finding))
         if enough and enough <= found.keys():
             break
     return found
@@ -60,7 +60,7 @@ def _has_burst(scenario: Scenario) -> bool:
     return any(isinstance(action, Burst) for actions in plans for action in actions)
 
 
-def _told(name: str, finding: Finding) -> str:
+def _reported(name: str, finding: Finding) -> str:
     return f"{name}: expected {finding.expected}; observed {finding.observed}"
 
 

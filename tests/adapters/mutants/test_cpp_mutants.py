@@ -37,7 +37,7 @@ def known(command: Path) -> dict[str, NativeMutant]:
     return native_mutants(command)
 
 
-def test_each_says_what_it_breaks(known: dict[str, NativeMutant]) -> None:
+def test_each_mutant_names_its_requirements(known: dict[str, NativeMutant]) -> None:
     requirements = {requirement.id for requirement in load_requirements()}
     assert len(known) >= 10
     for mutant in known.values():

@@ -127,7 +127,7 @@ def test_values_that_types_do_not_have(type_: str, values: list[str]) -> None:
         "1_0",
     ],
 )
-def test_what_idl_does_not_write(text: str) -> None:
+def test_values_that_are_no_idl(text: str) -> None:
     with pytest.raises(NotAConstant):
         parsed(text)
 

@@ -119,8 +119,8 @@ READINGS: dict[str, tuple[dict[str, s.Declaration], tuple[s.Step, ...], str]] = 
 @pytest.mark.parametrize("reading", READINGS)
 def test_readings_of_the_reference_framework(builds: Builds, reading: str) -> None:
     components, steps, expected = READINGS[reading]
-    told = ", ".join(story(builds.reference, s.Scenario(components, steps)))
-    assert told.endswith(expected), told
+    reported = ", ".join(story(builds.reference, s.Scenario(components, steps)))
+    assert reported.endswith(expected), reported
 
 
 # execution policies

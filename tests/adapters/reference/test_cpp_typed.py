@@ -52,10 +52,10 @@ def test_each_probe_of_the_models_has_a_typed_body() -> None:
 
 
 @pytest.mark.parametrize("wrong", ["", "UCM_CTS_NOTHING"])
-def test_the_task_refuses_what_is_no_model(wrong: str) -> None:
-    files, told = reference().generate("lwucm", f"<Model>{wrong}<X/></Model>".encode(), "x.xml")
+def test_the_task_refuses_wrong_models(wrong: str) -> None:
+    files, reported = reference().generate("lwucm", f"<Model>{wrong}<X/></Model>".encode(), "x.xml")
     assert not files
-    assert told
+    assert reported
 
 
 # what the framework makes of it
@@ -79,8 +79,8 @@ _INCLUDED: list[str | Path] = ["-I", FRAMEWORK / "include", "-I", FRAMEWORK / "s
 def generate(model: Path, folder: Path) -> None:
     folder.mkdir(exist_ok=True)
     for task in ("cpp11", "lwucm"):
-        files, told = reference().generate(task, model.read_bytes(), model.name)
-        assert not told
+        files, reported = reference().generate(task, model.read_bytes(), model.name)
+        assert not reported
         for name, text in files.items():
             (folder / name).write_text(text)
 
@@ -155,7 +155,7 @@ def scenarios(profile: str) -> dict[str, s.Scenario]:
     return {name: case for purpose in load_purposes(profile) for name, case in purpose.scenarios}
 
 
-def told(answer: Answer) -> list[object]:
+def reported(answer: Answer) -> list[object]:
     """The trace without times."""
     return [{**msgspec.to_builtins(event), "t": 0} for event in answer.trace]
 
@@ -169,15 +169,15 @@ def test_profile_container_needs_no_generic_body(typed: str, builds: Builds, mon
     for answer in answers(typed, every.items()):
         assert monitor.judge(answer.disguised, answer.trace).findings == [], answer.name
         if not any(step.thread for step in answer.scenario.steps):
-            compared[answer.name] = told(answer)
+            compared[answer.name] = reported(answer)
     assert len(compared) > len(every) * 0.9
     monkeypatch.setenv(BODIES, "generic")
     for answer in answers(typed, every.items()):
         if answer.name in compared:
-            assert told(answer) == compared[answer.name], answer.name
+            assert reported(answer) == compared[answer.name], answer.name
 
 
-def test_what_is_in_no_model_has_generic_bodies(typed: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_components_outside_models_have_generic_bodies(typed: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monitor = Monitor(load_life_cycle(), Ics(read_statement(TYPED_STATEMENT).readings))
     every = {name: case for name, case in scenarios("core").items() if any(c.ports for c in case.components.values())}
     meeting = dict(list(every.items())[::16])

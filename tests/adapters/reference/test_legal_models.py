@@ -26,8 +26,8 @@ def test_legal_models_are_legal(model: Model) -> None:
     reading = read_model(written, "m.xml")
     assert (reading.problems, without_lines(reading.model)) == ((), model)
     assert violations(written) == []
-    _, told = reference().check(written, "m.xml")
-    assert [str(diagnostic) for diagnostic in told] == []
+    _, reported = reference().check(written, "m.xml")
+    assert [str(diagnostic) for diagnostic in reported] == []
 
 
 @settings(some, max_examples=10)
@@ -35,8 +35,8 @@ def test_legal_models_are_legal(model: Model) -> None:
 def test_legal_models_can_be_mapped(model: Model) -> None:
     program = reference()
     for task in program.generators:
-        files, told = program.generate(task, write_model(model), "m.xml")
-        assert told == []
+        files, reported = program.generate(task, write_model(model), "m.xml")
+        assert reported == []
         assert files
         if task == "idl":
             expected = expected_idl(read_model(write_model(model), "m.xml").model)
@@ -63,5 +63,5 @@ def test_the_large_model_is_legal_and_as_large_as_wanted() -> None:
     assert 9_000 < sum(1 for _ in walk(model)) < 15_000
     written = write_model(model)
     assert violations(written) == []
-    _, told = reference().check(written, "m.xml")
-    assert told == []
+    _, reported = reference().check(written, "m.xml")
+    assert reported == []

@@ -9,7 +9,7 @@ from ucm_cts.adapters.reference.toolchain.program import reference
 PROGRAM = reference()
 
 
-def told(model: str) -> set[str]:
+def reported(model: str) -> set[str]:
     """The requirements that ``model`` breaks."""
     return {diagnostic.requirement for diagnostic in PROGRAM.check(model.encode(), "model.xml")[1]}
 
@@ -49,8 +49,8 @@ def test_long_chains_are_followed_to_their_end(
     def around(inside: str) -> str:
         return f'<{module} name="m">{inside}</{module}>'
 
-    assert told(around(chain(300, open_end, parent))) == set()
-    assert told(around(chain(300, closed_end, parent))) == {requirement}
+    assert reported(around(chain(300, open_end, parent))) == set()
+    assert reported(around(chain(300, closed_end, parent))) == {requirement}
 
 
 HANDLING = """
@@ -82,9 +82,9 @@ HANDLING = """
 """
 
 
-def test_a_port_handles_what_its_types_are_made_of() -> None:
-    assert told(HANDLING.format(inner="sent_t")) == set()
-    assert told(HANDLING.format(inner="other_t")) == {"R-9.3.3.4-07"}
+def test_a_port_handles_the_parts_of_its_types() -> None:
+    assert reported(HANDLING.format(inner="sent_t")) == set()
+    assert reported(HANDLING.format(inner="other_t")) == {"R-9.3.3.4-07"}
 
 
 def test_values_of_parameters_are_read_where_the_parameter_is_declared() -> None:
@@ -101,5 +101,5 @@ def test_values_of_parameters_are_read_where_the_parameter_is_declared() -> None
       </Interface>
     </ContractModule>
     """
-    assert told(model.format(value="red")) == set()
-    assert told(model.format(value="green")) == {"R-9.2.9.2-03"}
+    assert reported(model.format(value="red")) == set()
+    assert reported(model.format(value="green")) == {"R-9.2.9.2-03"}

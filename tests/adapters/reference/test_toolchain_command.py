@@ -20,7 +20,7 @@ def models(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def told(where: Path, *arguments: str, module: str = "reference.toolchain") -> tuple[int, str, str]:
+def reported(where: Path, *arguments: str, module: str = "reference.toolchain") -> tuple[int, str, str]:
     command = [sys.executable, "-m", f"ucm_cts.adapters.{module}", *arguments]
     done = subprocess.run(command, cwd=where, capture_output=True, text=True, check=False)
     assert "Traceback" not in done.stderr
@@ -28,11 +28,11 @@ def told(where: Path, *arguments: str, module: str = "reference.toolchain") -> t
 
 
 def test_a_legal_model_is_accepted_without_a_word(models: Path) -> None:
-    assert told(models, "check", "legal.xml") == (0, "", "")
+    assert reported(models, "check", "legal.xml") == (0, "", "")
 
 
 def test_diagnostics_name_file_line_remedy_requirement_and_clause(models: Path) -> None:
-    status, out, err = told(models, "check", "legal.xml", "broken.xml", "no.xml")
+    status, out, err = reported(models, "check", "legal.xml", "broken.xml", "no.xml")
     assert (status, err) == (1, "")
     first, second = out.splitlines()
     assert first.startswith("broken.xml:2: error: ")
@@ -42,9 +42,9 @@ def test_diagnostics_name_file_line_remedy_requirement_and_clause(models: Path) 
 
 @pytest.mark.parametrize("task", ["idl", "cpp11", "cpp03"])
 def test_files_are_made_of_legal_models_only(models: Path, task: str) -> None:
-    assert told(models, task, "legal.xml", "--out", "made/here") == (0, "", "")
+    assert reported(models, task, "legal.xml", "--out", "made/here") == (0, "", "")
     assert any("int32_t" in p.read_text() or "long" in p.read_text() for p in (models / "made" / "here").rglob("*.*"))
-    status, out, _ = told(models, task, "broken.xml", "--out", "other")
+    status, out, _ = reported(models, task, "broken.xml", "--out", "other")
     assert status == 1
     assert "broken.xml:2: error: " in out
     assert not (models / "other").exists()
@@ -61,14 +61,14 @@ def test_files_are_made_of_legal_models_only(models: Path, task: str) -> None:
     ],
 )
 def test_wrong_use_gives_a_message(models: Path, arguments: list[str], problem: str) -> None:
-    status, _, err = told(models, *arguments)
+    status, _, err = reported(models, *arguments)
     assert status == 2
     assert problem in err
 
 
 def test_a_mutant_is_a_program_like_the_reference(models: Path) -> None:
     name = "without_structures_have_fields"
-    assert told(models, name, "check", "broken.xml", module="mutants.toolchain") == (0, "", "")
-    status, _, err = told(models, "no_such_mutant", "check", "broken.xml", module="mutants.toolchain")
+    assert reported(models, name, "check", "broken.xml", module="mutants.toolchain") == (0, "", "")
+    status, _, err = reported(models, "no_such_mutant", "check", "broken.xml", module="mutants.toolchain")
     assert status == 2
     assert err.startswith("no tool chain is called 'no_such_mutant'")

@@ -135,7 +135,7 @@ def test_every_reference_of_a_port_is_called_and_a_port_without_reference_calls_
     assert not entered(same_as_in_python(builds, asked(components, linked(s.Invoke("go", 1)))))
 
 
-def test_what_the_caller_gave_is_its_own_to_overwrite(builds: Builds) -> None:
+def test_arguments_belong_to_the_caller(builds: Builds) -> None:
     calls = (s.CallMethod("out", "fail", (5,)), s.CallMethod("out", "fail", (6,)))
     components = {"C": client(*calls), "S": server(port="keeps")}
     trace = events(builds.program("patchbay"), asked(components, linked(s.Invoke("go", 1), port="keeps")))
@@ -152,7 +152,7 @@ def test_results_that_are_no_values_are_the_adapters_fault(builds: Builds) -> No
 
 
 @pytest.mark.parametrize("value", [[1.5], [[None]], [{"a": 1}], [2**64]])
-def test_what_is_no_value_does_not_get_through(builds: Builds, value: object) -> None:
+def test_wrong_values_are_refused(builds: Builds, value: object) -> None:
     line = m.encode(
         m.Run(4, asked({"C": client(s.CallMethod("out", "fail", ("@",))), "S": server()}, linked(s.Invoke("go", 1))))
     )
@@ -199,12 +199,18 @@ def test_breaking_mending_and_ends(builds: Builds) -> None:
     assert [e.variable for e in trace if isinstance(e, t.Skip)] == ["nolink", "nowhere", "nobody", *["gone"] * 3]
 
 
-def test_what_an_adapter_does_not_offer_is_skipped_after_its_call(builds: Builds) -> None:
+def test_operation_that_is_not_offered_is_skipped_after_its_call(builds: Builds) -> None:
     scenario = asked(PAIR, (s.Link("simple_service_connector", "service", "l"), s.Break("l"), s.ReadLog()))
     trace = events(builds.program("rude"), scenario)
     assert contradiction(scenario, trace) is None
-    told = [(type(e).__name__, e.step, getattr(e, "variable", "")) for e in trace if isinstance(e, t.Call | t.Skip)]
-    assert told == [("Call", 0, ""), ("Skip", 0, "link"), ("Skip", 1, "l"), ("Call", 2, ""), ("Skip", 2, "read_log")]
+    reported = [(type(e).__name__, e.step, getattr(e, "variable", "")) for e in trace if isinstance(e, t.Call | t.Skip)]
+    assert reported == [
+        ("Call", 0, ""),
+        ("Skip", 0, "link"),
+        ("Skip", 1, "l"),
+        ("Call", 2, ""),
+        ("Skip", 2, "read_log"),
+    ]
 
 
 def test_port_elements_of_policies_are_called_like_any_other(builds: Builds) -> None:

@@ -119,8 +119,8 @@ def test_guide_for_profile_core(builds: Builds) -> None:
         s.ReadLog(),
     )
     trace = events(builds.program("beans"), s.Scenario(components, steps, interfaces={"service": service}))
-    told = [(e.results, e.exception, e.raised) for e in trace if isinstance(e, t.Reply)]
+    reported = [(e.results, e.exception, e.raised) for e in trace if isinstance(e, t.Reply)]
     served = [((2**64 - 1, ["ä"]), None, False), (("why",), "problem", False)]
-    assert told == [*served, (None, None, True), (None, None, True), *served]
+    assert reported == [*served, (None, None, True), (None, None, True), *served]
     assert [e.variable for e in trace if isinstance(e, t.Skip)] == ["link", "read_log"]
     assert [(e.step, e.error) for e in trace if isinstance(e, t.Raise)] == [(6, "UCM_ERROR")]

@@ -35,7 +35,7 @@ def test_welcome_and_trace(builds: Builds) -> None:
     assert ~7 in results
 
 
-def test_host_and_harness_agree_on_what_is_a_message(builds: Builds) -> None:
+def test_host_and_harness_accept_the_same_messages(builds: Builds) -> None:
     lines = mutated_lines()
     answers, _, status = talk(builds.program("patchbay"), b"".join(line + b"\n" for line in lines), m.Hello(m.PROTOCOL))
     assert status == 0
@@ -86,7 +86,7 @@ def test_listening(builds: Builds, kind: str, tmp_path: Path) -> None:
 # frameworks that misbehave
 
 
-def test_what_leaves_an_operation(builds: Builds) -> None:
+def test_exceptions_of_operations(builds: Builds) -> None:
     steps: tuple[s.Step, ...] = (
         *(s.AddComponent(f"throw {what}") for what in ("int", "long", "text")),
         s.AddComponent("fine"),
@@ -170,7 +170,7 @@ def test_backtraces_on_request(builds: Builds) -> None:
 # threads and gates
 
 
-def test_gates_order_what_threads_do(builds: Builds) -> None:
+def test_gates_order_threads(builds: Builds) -> None:
     trace = events(builds.reference, concurrent_scenarios()[0])
     kinds = [(type(e).__name__, getattr(e, "gate", getattr(e, "step", None)), e.thread) for e in trace]
     held = kinds.index(("Held", "startup", 1))

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 from cpp_builds import Builds, talk
 from java_builds import JavaBuilds, java
-from performing import told
+from performing import line_of
 
 from ucm_cts.adapters.contract import messages as m
 from ucm_cts.adapters.contract import trace as t
@@ -119,7 +119,7 @@ def check(case: Case, answer: m.FromHost) -> None:
     """``answer`` is a trace that can be true, with the events of ``case``."""
     assert isinstance(answer, m.Traced), answer
     assert contradiction(case.scenario, answer.events, bool(answer.stuck)) is None
-    lines = [told(event) for event in answer.events] + [f"stuck {name}" for name in answer.stuck]
+    lines = [line_of(event) for event in answer.events] + [f"stuck {name}" for name in answer.stuck]
     expected = list(case.trace)
     if expected[0] == "*":  # what comes first is the matter of another case
         expected = expected[1:]

@@ -101,16 +101,16 @@ def test_same_scenarios_make_the_same_traces_behind_both_sdks(java: JavaBuilds) 
     answers, _, status = talk(java.program("StrictAdapter"), *runs)
     assert (status, len(answers)) == (0, len(runs))
     for run, answer in zip(runs[:-1], answers, strict=False):
-        stuck, told = without_times(answer)
-        assert contradiction(run.scenario, told) is None, run
+        stuck, reported = without_times(answer)
+        assert contradiction(run.scenario, reported) is None, run
         if not any(step.thread for step in run.scenario.steps):  # else the order may be another
-            assert (stuck, told) == without_times(by_python(run)), run
-    _, told = without_times(answers[-1])
+            assert (stuck, reported) == without_times(by_python(run)), run
+    _, reported = without_times(answers[-1])
     _, expected = without_times(by_python(runs[-1]))
-    end = next(n for n, event in enumerate(told) if isinstance(event, t.Paused))
-    assert told[: end + 1] == expected[: end + 1]
-    assert [event.variable for event in told if isinstance(event, t.Skip)] == ["link", "read_log", "l"]
-    assert contradiction(runs[-1].scenario, told) is None
+    end = next(n for n, event in enumerate(reported) if isinstance(event, t.Paused))
+    assert reported[: end + 1] == expected[: end + 1]
+    assert [event.variable for event in reported if isinstance(event, t.Skip)] == ["link", "read_log", "l"]
+    assert contradiction(runs[-1].scenario, reported) is None
 
 
 def test_stress_counts_overlaps(java: JavaBuilds) -> None:
@@ -125,7 +125,7 @@ def test_stress_counts_overlaps(java: JavaBuilds) -> None:
 # the wire
 
 
-def test_host_and_harness_agree_on_what_is_a_message(java: JavaBuilds) -> None:
+def test_host_and_harness_accept_the_same_messages(java: JavaBuilds) -> None:
     lines = mutated_lines()
     answers, _, status = talk(java.program("StrictAdapter"), b"\n".join([*lines, b""]), m.Hello(m.PROTOCOL))
     assert status == 0
@@ -184,7 +184,7 @@ def test_wrong_use_gives_one_line(java: JavaBuilds, wrong: list[str]) -> None:
 # frameworks that misbehave
 
 
-def test_what_leaves_an_operation(java: JavaBuilds) -> None:
+def test_exceptions_of_operations(java: JavaBuilds) -> None:
     steps: tuple[s.Step, ...] = (
         *(s.AddComponent(f"throw {what}") for what in ("error", "long", "text")),
         s.AddComponent("interrupt"),
@@ -232,7 +232,7 @@ def test_printing_does_not_reach_the_protocol(java: JavaBuilds) -> None:
     assert '{"type":"welcome"}' in err
 
 
-def test_exit_of_the_framework_is_seen_with_what_led_to_it(java: JavaBuilds) -> None:
+def test_exit_of_the_framework_is_reported_with_the_events_before(java: JavaBuilds) -> None:
     run = m.Run(1, s.Scenario({}, (s.AddComponent("exit"),)), stream=True)
     answers, _, status = talk(java.program("RudeAdapter"), run)
     assert (status, [type(answer) for answer in answers]) == (3, [m.Happened])
@@ -301,8 +301,10 @@ def test_julia_shows_its_habits(java: JavaBuilds, monkeypatch: pytest.MonkeyPatc
     """As far as its table goes; the published report goes through all."""
     monkeypatch.chdir(java.folder)
     habits = HABITS["Fractal Julia 2.5.2"]
-    told = " or ".join(sorted({habit.requirement for habit in habits} | {"R-12.10-17"}))  # where a container is null
-    outcome = ucm_cts("run", "adapters/integrations/julia/julia-adapter", "-k", told, "--out", "julia")
+    reported = " or ".join(
+        sorted({habit.requirement for habit in habits} | {"R-12.10-17"})
+    )  # where a container is null
+    outcome = ucm_cts("run", "adapters/integrations/julia/julia-adapter", "-k", reported, "--out", "julia")
     assert (outcome.status, outcome.err) == (1, "")
     report = report_of(java.folder / "julia")
     failing = {one["id"] for one in report["requirements"] if one["verdict"] == "fail"}
@@ -314,7 +316,7 @@ def test_julia_shows_its_habits(java: JavaBuilds, monkeypatch: pytest.MonkeyPatc
     assert "error" not in {one["verdict"] for one in report["requirements"]}
 
 
-def test_julia_adapter_says_what_it_lacks(tmp_path: Path) -> None:
+def test_julia_adapter_names_missing_files(tmp_path: Path) -> None:
     tools = tmp_path / "bin"
     tools.mkdir()
     for name in ("sh", "dirname", "readlink"):

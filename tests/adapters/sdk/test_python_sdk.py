@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from files import ROOT, guide_files
-from performing import SINK, SOURCE, answer, play, scenario, told
+from performing import SINK, SOURCE, answer, line_of, play, scenario
 
 from ucm_cts.adapters.contract.messages import (
     PROTOCOL,
@@ -120,7 +120,7 @@ def test_unbound_variables_are_skipped_and_reserved_ones_passed_on() -> None:
     ]  # fmt: skip
 
 
-def test_variables_outlive_what_they_name_and_traces_start_anew() -> None:
+def test_variables_keep_removed_ids_and_traces_start_anew() -> None:
     steps = ["add_component component=sink", "get_port_element id=sink port=in bind=api", "remove_component id=sink",
              "invoke ref=api value=1", "remove_component id=sink", "destroy"]  # fmt: skip
     engine = Engine(Spy)
@@ -128,7 +128,7 @@ def test_variables_outlive_what_they_name_and_traces_start_anew() -> None:
         reply = from_host_decoder().decode(engine.answer(encode(Run(1, scenario({"sink": SINK}, steps)))))
         assert isinstance(reply, Traced)
         assert [event.n for event in reply.events] == list(range(1, len(reply.events) + 1))
-        trace = [told(event) for event in reply.events]
+        trace = [line_of(event) for event in reply.events]
         assert "return step=3 value=-2" in trace
         assert "raise step=4 error=NOT_FOUND" in trace
         assert Spy.seen.count(("destroy",)) == 1  # not once more after the scenario has done so
@@ -311,7 +311,7 @@ def test_the_guide_for_adapter_authors_works(tmp_path: Path, monkeypatch: pytest
         assert hosts.welcome.product == "Beans"
         (reply,) = hosts.run([Run(1, asked)])
     assert isinstance(reply.reply, Traced)
-    ends = [line for line in map(told, reply.reply.events) if re.match(r"return|raise", line)]
+    ends = [line for line in map(line_of, reply.reply.events) if re.match(r"return|raise", line)]
     assert [line for line in ends if line.startswith("raise")] == [
         "raise step=5 error=NOT_FOUND",
         "raise step=11 error=NOT_FOUND",
@@ -345,4 +345,4 @@ def test_frameworks_may_mark_bodies_and_not_change_them() -> None:
         refused = answer(scenario(connectable, steps), adapter)
         assert isinstance(refused, Refused), refused
         assert refused.reason.endswith(what)
-    assert play(connectable, steps, Marks)[-1] == "return step=1"  # what one adapter does is not told of the next
+    assert play(connectable, steps, Marks)[-1] == "return step=1"  # what one adapter does is unknown to the next

@@ -154,7 +154,7 @@ WRONG_USES: dict[str, tuple[str, str]] = {
 
 
 @pytest.mark.parametrize(("command", "message"), WRONG_USES.values(), ids=WRONG_USES.keys())
-def test_wrong_use_is_status_2_and_says_what_is_wrong(here: Path, command: str, message: str) -> None:
+def test_wrong_use_has_status_2_and_a_message(here: Path, command: str, message: str) -> None:
     (here / "script.yaml").write_text(SCRIPT)
     (here / "bad.yaml").write_text(BAD_SCRIPT)
     (here / "empty.json").write_text("[]")
@@ -174,7 +174,7 @@ def test_harness_that_fails_is_status_3_in_one_line(here: Path, monkeypatch: pyt
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_interrupted_run_reports_what_it_has_and_is_no_success(
+def test_interrupted_run_reports_its_results_and_is_no_success(
     here: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
 ) -> None:
     heard = here / "heard"
@@ -258,9 +258,7 @@ Path("loaded").touch()
         ("Later.product = 'Another'", "run 2 of 3 was of another product, 'Another 1'"),
     ],
 )
-def test_series_that_cannot_go_on_keeps_what_it_has(
-    here: Path, monkeypatch: pytest.MonkeyPatch, what: str, why: str
-) -> None:
+def test_aborted_series_keeps_its_results(here: Path, monkeypatch: pytest.MonkeyPatch, what: str, why: str) -> None:
     monkeypatch.setenv("PYTHONPATH", str(here))
     Path("otherwise.py").write_text(OTHERWISE_LATER.format(what=what))
     outcome = ucm_cts("run", "otherwise:Later", "-k", "self-connection", "--repeat", "3", "--out", "out")
@@ -271,7 +269,7 @@ def test_series_that_cannot_go_on_keeps_what_it_has(
     assert report["scenarios"] > 0
 
 
-def test_selection_checks_only_what_matches(here: Path) -> None:
+def test_selection_checks_only_matching_purposes(here: Path) -> None:
     outcome = ucm_cts("run", "reference-py", "-k", f"{REQUIREMENT} or stop-during-a-call", "--out", "out")
     assert outcome.status == 1, "what was not exercised is inconclusive"
     report = report_of(here / "out")
@@ -320,7 +318,7 @@ def test_entry_that_matches_nothing_is_an_error_and_named(entry: dict[str, str])
     assert "no longer occurs" not in partly.out, "a run of a part cannot tell"
 
 
-def test_only_a_star_is_special_in_what_was_observed() -> None:
+def test_only_a_star_is_special_in_an_observed_text() -> None:
     subject, observed = "subjects:lists_a_stranger", "get_components returned *: holds [987654], not members"
     Path("known.json").write_text(json.dumps([{**KNOWN[0], "requirement": "R-11.2.2.1-14", "observed": observed}]))
     outcome = ucm_cts("run", subject, "--known-failures", "known.json", "--out", "out")
@@ -408,7 +406,7 @@ def test_scripts_are_replayed_one_by_one_in_their_own_names(here: Path, adapter:
     assert outcome.out.count("no findings") == 2
 
 
-def test_replay_of_a_crash_shows_what_led_to_it(here: Path) -> None:
+def test_replay_of_a_crash_shows_the_events_before(here: Path) -> None:
     (here / "script.yaml").write_text(SCRIPT.replace("op: stop", "op: start"))
     outcome = ucm_cts("replay", "script.yaml", "subjects:Crashing")
     assert (outcome.status, outcome.err) == (1, "")

@@ -82,7 +82,7 @@ def test_no_name_and_no_payload_is_the_same_in_two_runs(spelling: str) -> None:
 
 
 @pytest.mark.parametrize("spelling", [SPELLING, '{element}"::"{port}', "{port}-{element}\\"])
-def test_what_people_read_is_the_scenario_and_its_trace_in_their_own_names(spelling: str) -> None:
+def test_reports_show_scenario_and_trace_in_original_names(spelling: str) -> None:
     disguise = Disguise(5, spelling)
     disguised = disguise.scenario(SCENARIO)
     assert disguise.reveal(disguised) == msgspec.structs.replace(SCENARIO, steps=disguise.reveal(disguised).steps)

@@ -74,7 +74,7 @@ def test_a_source_without_end_is_answered_even_if_nothing_of_it_can_be_tried() -
     assert found == ["", "", "hang", *["untried"] * 197]
 
 
-def test_time_for_incidents_is_an_option_and_what_it_costs_is_inconclusive() -> None:
+def test_requirements_without_time_for_incidents_are_inconclusive() -> None:
     options = ["-k", "stop", "--incident-time", "0", "--timeout", "2", "--out", "out"]
     outcome = ucm_cts("run", "hostile.failing:HangsInStop", *options)
     assert outcome.status == 1

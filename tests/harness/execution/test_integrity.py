@@ -268,7 +268,7 @@ def test_waits_end_when_patience_has_run_out() -> None:
         assert problem in (contradiction(WAITING, hurried) or "")
 
 
-def test_plans_are_checked_by_what_bodies_really_got() -> None:
+def test_plans_are_checked_against_received_references() -> None:
     """A client that was given no reference at on_startup has no reference to call."""
     client = {"provides": ["in"], "requires": ["out"], "plan": {"exchange": [CALL]}}
     steps = [

@@ -78,14 +78,14 @@ def exploration(folder: Path) -> Any:
 
 
 def test_a_failure_is_reported_once_with_its_shortest_scenario(found: Path) -> None:
-    told = exploration(found)
-    (failure,) = told["failures"]
+    reported = exploration(found)
+    (failure,) = reported["failures"]
     assert (failure["requirement"], failure["clause"]) == (REQUIREMENT, "11.2.2.1")
     assert failure["steps"] == ["add_component", "add_component", "start", "stop"]
     assert failure["expected"] != failure["observed"]
-    assert told["incidents"] == []
-    assert told["known"] == []
-    assert 0 < told["rows_visited"] <= told["rows"] == len(load_life_cycle().rows)
+    assert reported["incidents"] == []
+    assert reported["known"] == []
+    assert 0 < reported["rows_visited"] <= reported["rows"] == len(load_life_cycle().rows)
     assert [path.name for path in (found / "failures").iterdir()] == [f"{REQUIREMENT}.json"]
 
 
@@ -121,9 +121,9 @@ def test_conformant_frameworks_are_not_failed(here: Path) -> None:
         outcome = ucm_cts("explore", *arguments)
         assert (outcome.status, outcome.err) == (0, "")
         assert "✓ nothing found" in outcome.out
-        told = exploration(here / profile)
-        assert told["scenarios"] == 60
-        assert told["failures"] == told["incidents"] == []
+        reported = exploration(here / profile)
+        assert reported["scenarios"] == 60
+        assert reported["failures"] == reported["incidents"] == []
 
 
 def test_calls_may_wait_for_a_start_that_never_comes(here: Path) -> None:
@@ -165,9 +165,9 @@ def test_traces_that_may_wait(trace: t.Trace, may: bool) -> None:
 def test_crashes_are_failures_and_do_not_end_it(here: Path) -> None:
     outcome = ucm_cts("explore", "subjects:Crashing", "--budget", "40scenarios", "--seed", "2", "--out", "out")
     assert (outcome.status, outcome.err) == (1, "")
-    told = exploration(here / "out")
-    assert {mishap["kind"] for mishap in told["incidents"]} <= {"crash", "untried"}
-    (crash,) = (failure for failure in told["failures"] if failure["cause"] == "start crash")
+    reported = exploration(here / "out")
+    assert {mishap["kind"] for mishap in reported["incidents"]} <= {"crash", "untried"}
+    (crash,) = (failure for failure in reported["failures"] if failure["cause"] == "start crash")
     assert crash["steps"] == ["add_component", "start", "start"]
     assert ucm_cts("replay", here / "out" / crash["file"], "subjects:Crashing").status == 1
 
@@ -185,9 +185,9 @@ def test_it_ends_when_nothing_can_be_tried_any_more(adapter: str) -> None:
     assert met.incident.kind == ("hang" if adapter == "HangsInAdd" else "exit")
     assert far.scenarios == report.scenarios + left_out.occurrences
     console = Console(file=io.StringIO(), width=200)
-    with console.capture() as told:
+    with console.capture() as reported:
         console.print(found_text(report, far, Path("out")))
-    assert f"in {far.scenarios} scenarios ({left_out.occurrences} not tried)" in told.get()
+    assert f"in {far.scenarios} scenarios ({left_out.occurrences} not tried)" in reported.get()
     assert left_out.incident.kind == "untried"
     assert left_out.occurrences >= IN_VAIN
 
@@ -304,7 +304,7 @@ def test_calls_that_may_wait_are_another_cause() -> None:
 # how it ends
 
 
-def test_an_interrupt_ends_it_with_what_was_found(here: Path) -> None:
+def test_an_interrupt_keeps_the_failures_found(here: Path) -> None:
     os.mkfifo(here / "heard")
     heard = os.open(here / "heard", os.O_RDWR)
     environment = {**os.environ, "HEARD": str(here / "heard")}
@@ -396,7 +396,7 @@ def test_unreadable_remembered_failures_are_reported_and_kept(here: Path) -> Non
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "reported"),
     [
         (
             ("--budget", "soon"),
@@ -415,11 +415,11 @@ def test_unreadable_remembered_failures_are_reported_and_kept(here: Path) -> Non
         (("--profile", "nonsense"), "'nonsense' is not one of"),
     ],
 )
-def test_wrong_use_gives_one_line(here: Path, arguments: tuple[str, str], told: str) -> None:
+def test_wrong_use_gives_one_line(here: Path, arguments: tuple[str, str], reported: str) -> None:
     (here / "file").write_text("")
     outcome = ucm_cts("explore", REFERENCE, *arguments)
     assert outcome.status == 2
-    assert told in outcome.err.replace("\n", " ")
+    assert reported in outcome.err.replace("\n", " ")
 
 
 # what it draws
@@ -452,7 +452,7 @@ def test_what_is_drawn_can_be_saved_read_back_and_foreseen() -> None:
     assert max(len(scenario.steps) for scenario in scenarios) > LONGEST // 2
 
 
-def test_transitions_tell_what_the_model_does() -> None:
+def test_transitions_follow_the_model() -> None:
     one = s.AddComponent("one"), s.Start(), s.Stop()
     scenario = Scenario({"one": s.Declaration()}, one)
     found = transitions(load_life_cycle(), scenario)

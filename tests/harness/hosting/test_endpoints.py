@@ -109,7 +109,7 @@ def test_hosts_refuse_the_same_and_say_which_message() -> None:
         assert all("twice" in answers[n].reason for n in (7, 8))  # type: ignore[union-attr]
 
 
-def test_the_reference_frameworks_agree_in_verdicts_and_in_what_they_exercised() -> None:
+def test_the_reference_frameworks_agree_in_verdicts_and_exercised_requirements() -> None:
     python = through("reference-py")
     assert python.broken == {}
     assert len(python.exercised) > 70, "the sample reaches nearly every requirement"

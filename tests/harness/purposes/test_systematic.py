@@ -96,7 +96,7 @@ def test_a_component_lives_as_the_table_says() -> None:
     ]
 
 
-def test_what_is_not_declared_is_permitted_both_ways_and_left_out_where_it_leads_elsewhere() -> None:
+def test_undeclared_choices_are_permitted_and_left_out_where_states_differ() -> None:
     free, bound = (machine_of(two, readings) for readings in DECLARATIONS)
     assert free.transitions < bound.transitions
     started = free.after([free.inputs.index(i) for i in ("add server", "start")])
@@ -186,9 +186,9 @@ def test_states_that_nothing_distinguishes_are_said_to_be_so() -> None:
 
 
 def test_every_declaration_has_a_suite() -> None:
-    told = {outcome.reading.partition("=")[0] for row in load_life_cycle().rows for outcome in row.outcomes} - {""}
-    assert len(told) > 12
-    for option in sorted(told):
+    reported = {outcome.reading.partition("=")[0] for row in load_life_cycle().rows for outcome in row.outcomes} - {""}
+    assert len(reported) > 12
+    for option in sorted(reported):
         for value in load_options()[option]:
             assert len(systematic_purposes({option: value})) == len(IDENTIFIED), (option, value)
 
@@ -323,13 +323,13 @@ def test_a_broken_promise_is_noticed() -> None:
 
 def test_the_published_tables_are_those_of_the_comparison() -> None:
     """But for times, and for what hypothesis does, which depends on its version."""
-    told = [_without_times(line) for line in TABLES.read_text().splitlines()]
+    reported = [_without_times(line) for line in TABLES.read_text().splitlines()]
     for name, extra in (("two", 0),):
         assert (name, extra) in CASES
         lines = [_without_times(line) for line in table_of(compare(setting(name), READINGS, extra, seed=1, most=3_000))]
         assert len(lines) > 8
         for line in lines:
-            assert "hypothesis" in line or line in told, line
+            assert "hypothesis" in line or line in reported, line
 
 
 def _without_times(line: str) -> str:

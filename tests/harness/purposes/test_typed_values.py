@@ -103,7 +103,7 @@ def test_corners_and_drawn_values_fit_their_type(of: AnyType) -> None:
 
 
 @EVERY_TYPE
-def test_readings_narrow_what_is_drawn(of: AnyType) -> None:
+def test_readings_limit_drawn_values(of: AnyType) -> None:
     for value in corners(of, NARROW) + draw(of, 40, "any seed", NARROW):
         assert misfit(of, value) == ""
         for part, one in parts(of, value):
@@ -214,7 +214,7 @@ def test_the_case_of_a_union_is_distinguished_from_its_value() -> None:
     assert blame(union, ["green", "a"], ["blue", "a"]) == ["R-10.1.1-14"]
 
 
-def test_values_exercise_what_they_are_made_of() -> None:
+def test_values_exercise_their_parts() -> None:
     assert requirements_of(POINT, [1, 2, 3]) == {"R-10.1.1-13", "R-10.1.1-07"}
     assert requirements_of(Sequence(POINT), []) == {"R-10.1.1-16"}
     assert requirements_of(Sequence(POINT), [[1, 2, 3]]) == {"R-10.1.1-16", "R-10.1.1-18", "R-10.1.1-13", "R-10.1.1-07"}

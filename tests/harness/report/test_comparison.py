@@ -72,10 +72,10 @@ RIGHT = report(
 )
 
 
-def test_rows_are_in_the_order_of_clauses_and_know_what_was_not_asked(tmp_path: Path) -> None:
+def test_rows_are_in_the_order_of_clauses_and_mark_requirements_not_asked(tmp_path: Path) -> None:
     both = compare(save(tmp_path, LEFT, RIGHT))
-    told = [(row.id, *(cell and cell.verdict for cell in row.cells)) for row in both.rows]
-    assert told == [
+    reported = [(row.id, *(cell and cell.verdict for cell in row.cells)) for row in both.rows]
+    assert reported == [
         ("R-11.2.3-01", "fail", "inconclusive"),
         ("R-11.2.3-02", "fail", "fail"),
         ("R-11.10-01", "pass", None),
@@ -115,7 +115,7 @@ def test_the_page_shows_verdicts_and_differences(tmp_path: Path) -> None:
     ]
 
 
-def test_links_lead_only_to_what_is_there(tmp_path: Path) -> None:
+def test_links_have_targets(tmp_path: Path) -> None:
     files = save(tmp_path, LEFT, RIGHT)
     files[0].with_name("report.html").unlink()
     links = html.document_fromstring(to_html(compare(files), tmp_path)).xpath("//@href")
@@ -205,10 +205,10 @@ def test_what_is_no_report_is_refused_in_one_line(kind: str, tmp_path: Path) -> 
     content, problem = BROKEN[kind]
     good, bad = save(tmp_path, RIGHT, LEFT)
     bad.write_bytes(content)
-    told = refused(ucm_cts("compare", good, bad, "--out", tmp_path / "page.html"))
-    assert told.startswith(f"ucm-cts: {bad}:")
-    assert re.search(problem, told), told
-    assert len(told) < 900
+    reported = refused(ucm_cts("compare", good, bad, "--out", tmp_path / "page.html"))
+    assert reported.startswith(f"ucm-cts: {bad}:")
+    assert re.search(problem, reported), reported
+    assert len(reported) < 900
     assert not (tmp_path / "page.html").exists()
 
 

@@ -73,7 +73,7 @@ def test_hostile_text_stays_text(source: str, page: Any) -> None:
     assert not re.search("[\x00-\x08\x0b-\x1f\x7f\u202e\ud800-\udfff]", source)
 
 
-def test_the_verdict_comes_first_and_then_what_to_fix(page: Any) -> None:
+def test_the_verdict_comes_before_the_fixes(page: Any) -> None:
     text = page.text_content()
     marks = [
         "Not conformant",
@@ -197,7 +197,7 @@ def test_transitions_get_the_verdict_of_their_rows(page: Any) -> None:
     assert words["#lc-stop-ready"].startswith("✗ stop")
 
 
-def test_choices_name_what_was_observed() -> None:
+def test_choices_name_observed_readings() -> None:
     found = {choice.option: choice for choice in transitions.choices(transitions.rows_seen(TABLE, TRANSITIONS))}
     assert found["remove-while-ready"].permitted == ("cascade", "refuse")
     assert found["remove-while-ready"].observed == ("refuse",)
@@ -220,8 +220,8 @@ JUNIT = """
       <oneOrMore><element name="testcase">
         <attribute name="classname"/><attribute name="name"/><attribute name="time"/>
         <optional><choice>
-          <element name="failure"><ref name="told"/></element>
-          <element name="error"><ref name="told"/></element>
+          <element name="failure"><ref name="reported"/></element>
+          <element name="error"><ref name="reported"/></element>
           <element name="skipped"><attribute name="message"/></element>
           <element name="system-out"><text/></element>
         </choice></optional>
@@ -234,7 +234,7 @@ JUNIT = """
     <attribute name="errors"><data type="integer"/></attribute>
     <attribute name="skipped"><data type="integer"/></attribute>
   </define>
-  <define name="told"><attribute name="message"/><attribute name="type"/><text/></define>
+  <define name="reported"><attribute name="message"/><attribute name="type"/><text/></define>
 </grammar>
 """
 

@@ -182,10 +182,10 @@ def test_figures_of_a_page() -> None:
     assert (len(tally.killed), len(tally.equivalent), len(tally.open)) == (2, 1, 1)
     assert tally.rate == pytest.approx(100 * 2 / 3)
     assert tally.wrongly_listed == [results[0]]
-    told = page("Title", "Why.", tally)
-    assert "**nobody can tell**\n\n- `framework.py: a ==> 2`" in told
-    assert "## Survivors that are open\n\n- `framework.py: a ==> 3`" in told
-    assert "66.7 %" in told
+    reported = page("Title", "Why.", tally)
+    assert "**nobody can tell**\n\n- `framework.py: a ==> 2`" in reported
+    assert "## Survivors that are open\n\n- `framework.py: a ==> 3`" in reported
+    assert "66.7 %" in reported
 
 
 @pytest.mark.parametrize(

@@ -154,7 +154,7 @@ def test_command_writes_the_matrix(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     assert json.loads(Path("out/matrix.json").read_text())["testable"]
 
 
-def test_interrupted_self_test_has_what_was_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_interrupted_self_test_keeps_its_results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     within(tmp_path, monkeypatch)
     named = ["initialises_at_stop", "attributes_after_init", "delivers_twice", "notes_every_call"]
     command = [sys.executable, "-u", "-m", "ucm_cts", "selftest", *named, "--jobs", "1", "--out", "out"]
@@ -180,14 +180,14 @@ def test_whole_matrix_needs_a_killed_mutant_for_each_requirement() -> None:
     assert msgspec.structs.replace(matrix, is_all=True).unproved == ("R-11.2.1.2-01",)
 
 
-def test_models_are_spoilt_in_what_each_requirement_speaks_of() -> None:
+def test_models_are_spoilt_for_each_requirement() -> None:
     for requirement in all_models():
         result = examine_models(requirement)
         assert result.is_killed, requirement
         assert not result.spills, requirement
 
 
-def test_page_names_what_is_not_as_it_should_be() -> None:
+def test_page_names_survivors_and_spills() -> None:
     mutant = replace(all_mutants()["initialises_at_stop"], breaks=("R-11.2.1.2-01",), clauses=("11.2.1.2",))
     result = examine_mutant(mutant, QUICK)
     wronged = examine_variant(replace(mutant, breaks=(), name="<b>"), QUICK)

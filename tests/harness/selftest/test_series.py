@@ -11,7 +11,7 @@ from ucm_cts.harness.selftest import series
 from ucm_cts.harness.selftest.series import SeriesRun, markdown
 
 
-def told(name: str, verdict: str = "conformant", **verdicts: str) -> SeriesRun:
+def report_on(name: str, verdict: str = "conformant", **verdicts: str) -> SeriesRun:
     return SeriesRun(name, verdict, {"R-1": "pass", "R-2": "pass"} | verdicts, 0, 1.5, {})
 
 
@@ -23,26 +23,26 @@ def run(monkeypatch: pytest.MonkeyPatch, runs: list[SeriesRun], *options: str) -
 
 
 def test_steady_series_succeeds(monkeypatch: pytest.MonkeyPatch) -> None:
-    status, output = run(monkeypatch, [told("1"), told("2")])
+    status, output = run(monkeypatch, [report_on("1"), report_on("2")])
     assert status == 0
     assert output.count("none") == 2
 
 
 def test_changed_verdict_is_reported_and_fails(monkeypatch: pytest.MonkeyPatch) -> None:
     flipped = {"R-2": "inconclusive"}
-    status, output = run(monkeypatch, [told("1"), told("2", "inconclusive", **flipped)])
+    status, output = run(monkeypatch, [report_on("1"), report_on("2", "inconclusive", **flipped)])
     assert status == 1
     assert "R-2" in output
 
 
 def test_same_failure_each_time_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    status, _ = run(monkeypatch, [told(name, "not conformant", **{"R-1": "fail"}) for name in "12"])
+    status, _ = run(monkeypatch, [report_on(name, "not conformant", **{"R-1": "fail"}) for name in "12"])
     assert status == 1
 
 
 def test_page_has_a_row_for_runs_that_came_out_alike(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     page = tmp_path / "series.md"
-    runs = [told("1"), told("2"), told("3", **{"R-2": "fail"})]
+    runs = [report_on("1"), report_on("2"), report_on("3", **{"R-2": "fail"})]
     run(monkeypatch, runs, "--out", str(page))
     assert page.read_text() == markdown("reference-py, profile core, 3 runs", runs)
     assert page.read_text().splitlines()[-2:] == [

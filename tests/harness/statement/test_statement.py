@@ -62,11 +62,11 @@ def written(statement: Statement | None = None) -> Path:
     return Path("ics.toml")
 
 
-def test_what_is_written_says_what_holds_without_it() -> None:
+def test_written_statement_holds_the_defaults() -> None:
     assert msgspec.structs.replace(read_statement(written()), source="") == default_statement()
 
 
-def test_what_is_written_has_every_value_with_its_permitted_ones_its_meaning_and_its_clauses() -> None:
+def test_written_statement_has_every_value_with_permitted_ones_meaning_and_clauses() -> None:
     text = written().read_text()
     for option, values in load_options().items():
         assert f'\n# {option}: {", ".join(values)}\n{option} = "{values[0]}"\n' in text
@@ -187,7 +187,7 @@ def test_statement_about_something_else_is_refused(product: str, version: str, p
 # what applies
 
 
-def test_needs_name_what_there_is() -> None:
+def test_needs_name_existing_capabilities_and_readings() -> None:
     known = {f"{option}={value}" for option, values in load_options().items() for value in values} | set(PARTS)
     for need in load_capabilities().needs:
         assert {*need.needs, *need.one_of} <= known
@@ -200,7 +200,7 @@ def test_needs_name_what_there_is() -> None:
     }
 
 
-def test_everything_applies_and_is_run_where_everything_is_claimed() -> None:
+def test_everything_applies_if_everything_is_claimed() -> None:
     everything = stating()
     assert [r.id for r in load_requirements() if why_not(r, everything)] == []
     assert lacking_claims(everything, "core") == {}
@@ -210,7 +210,7 @@ def test_everything_applies_and_is_run_where_everything_is_claimed() -> None:
     assert [(p.id, p.scenarios) for p in reduced] == [(p.id, p.scenarios) for p in whole]
 
 
-def test_without_means_of_tests_only_what_needs_them_is_left() -> None:
+def test_without_test_operations_only_their_requirements_are_left() -> None:
     default = default_statement()
     unmet = {r.id: why_not(r, default) for r in CORE_REQUIREMENTS if why_not(r, default)}
     assert {verdict for verdict, _ in filter(None, unmet.values())} == {"inconclusive"}
@@ -311,9 +311,9 @@ def test_a_part_left_out_is_a_failure_of_the_core_and_the_rest_of_it_does_not_ap
     page = etree.HTML((here / "out" / "report.html").read_text())
     cells = {row[0][0].text: row[1].text for row in page.xpath("//section[@id='statement']//tr") if len(row[0])}
     assert (cells["clock"], cells["port_trace"], cells["trace-sink"]) == ("no", "yes", "hook")
-    (told,) = page.xpath("//tbody[@id='R-10.1-01']//section")
-    assert not told.xpath(".//svg")
-    assert "Replay" not in "".join(told.itertext())
+    (reported,) = page.xpath("//tbody[@id='R-10.1-01']//section")
+    assert not reported.xpath(".//svg")
+    assert "Replay" not in "".join(reported.itertext())
     junit = etree.parse(here / "out" / "junit.xml")
     assert junit.xpath("//testcase[starts-with(@name, 'R-10.1-01')]/failure/@message") == [failed.finding.observed]
     assert junit.xpath("//testcase[starts-with(@name, 'R-10.1.4.1-08')]/skipped/@message") == [
@@ -323,7 +323,7 @@ def test_a_part_left_out_is_a_failure_of_the_core_and_the_rest_of_it_does_not_ap
     assert again.capabilities == report.statement.capabilities
 
 
-def test_what_no_scenario_shows_is_not_green_for_pytest() -> None:
+def test_requirement_without_scenario_is_not_green_in_pytest() -> None:
     without = stating({"clock": False})
     everything = SimpleNamespace(checked=purposes_for(without, "core"), statement=without, known=())
     (line,) = [line for line in _undecided(everything, run(without)) if line.startswith("fail ")]  # type: ignore[arg-type]
@@ -336,7 +336,7 @@ def test_core_is_claimed_and_there() -> None:
     assert verdicts(run(stating(), "R-10.1.5.1-09"), ["R-10.1-01"]) == {"R-10.1-01": "pass"}
 
 
-def test_what_is_claimed_and_not_offered_is_a_false_claim() -> None:
+def test_claimed_operation_that_is_not_offered_is_a_false_claim() -> None:
     report = run(stating(), "R-10.1.5.1-09", adapter="subjects:has_no_services")
     assert verdicts(report, ["R-10.1-01"]) == {"R-10.1-01": "fail"}
     honest = run(stating({s.SERVICE_CONNECTOR: False}), "R-10.1.5.1-09", adapter="subjects:has_no_services")
@@ -370,7 +370,7 @@ def test_unusable_models_are_reported_before_the_run(here: Path) -> None:
             run(stating(models=models, folder=str(here)))
 
 
-def test_what_may_be_missing_from_models_does_not_apply(here: Path) -> None:
+def test_optional_parts_of_models_do_not_apply(here: Path) -> None:
     for path in CORE.glob("*.xml"):
         text = re.sub(r'<PrimitiveInteger name="log_severity_enumerator_t"[^>]*>', "", path.read_text())
         (here / path.name).write_text(text)
@@ -379,7 +379,7 @@ def test_what_may_be_missing_from_models_does_not_apply(here: Path) -> None:
     assert "it may be missing, and it is" in result.reason
 
 
-def test_without_models_what_only_they_show_is_open(here: Path) -> None:
+def test_without_models_their_requirements_are_open(here: Path) -> None:
     (result,) = [r for r in run(stating()).requirements if r.id == "R-10.1.2-05"]
     assert (result.verdict, result.reason) == ("inconclusive", "models: there is no model to look at")
 
@@ -454,7 +454,7 @@ def test_wrong_statements_are_wrong_use(here: Path) -> None:
 
 
 @pytest.mark.native
-def test_ics_writes_what_is_published_with_a_short_name(here: Path) -> None:
+def test_ics_writes_the_published_statement_of_a_short_name(here: Path) -> None:
     assert ucm_cts("ics", "reference-cpp", "--out", "own.toml").status == 0
     own, published = read_statement(here / "own.toml"), stated_by(None, "reference-cpp")
     assert (own.readings, own.product) == (published.readings, published.product)
@@ -462,7 +462,7 @@ def test_ics_writes_what_is_published_with_a_short_name(here: Path) -> None:
 
 
 @pytest.mark.native
-def test_reference_frameworks_state_what_they_are(here: Path) -> None:
+def test_reference_frameworks_publish_statements(here: Path) -> None:
     for name in ("reference-py", "reference-cpp"):
         assert ucm_cts("run", name, "-k", "R-11.2.2.1-13", "--out", name).err == ""
         stated = report_of(here / name)["statement"]

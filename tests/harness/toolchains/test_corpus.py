@@ -33,13 +33,13 @@ def test_the_reference_tool_chain_answers_as_it_must(asked: list[Question]) -> N
 
 def _problem(question: Question) -> str:
     """What is wrong with the answer to ``question``, or with why it is given; nothing if it is fine."""
-    _, told = PROGRAM.check(question.text.encode(), "model.xml")
-    all_told = "\n".join(map(str, told))
+    _, reported = PROGRAM.check(question.text.encode(), "model.xml")
+    all_told = "\n".join(map(str, reported))
     if question.due == "accept":
         return all_told
-    if not told:
+    if not reported:
         return f"accepted, though {question.because}"
-    reasons = {reason for d in told if d.requirement for reason in (d.requirement, *ALSO[d.requirement])}
+    reasons = {reason for d in reported if d.requirement for reason in (d.requirement, *ALSO[d.requirement])}
     return "" if not reasons or question.requirement in reasons else f"refused for something else:\n{all_told}"
 
 
@@ -71,9 +71,9 @@ def test_the_suite_s_own_models_are_legal() -> None:
         core.append(etree.parse(path).getroot())
     probes = (SUITE / "models" / "probes" / "probes.xml").read_bytes()
     for text in (probes, etree.tostring(core)):
-        model, told = PROGRAM.check(text, "model.xml")
+        model, reported = PROGRAM.check(text, "model.xml")
         assert model is not None
-        assert not told, "\n".join(map(str, told))
+        assert not reported, "\n".join(map(str, reported))
 
 
 ASKED = [q for asked in DEFAULT.values() for q in asked]

@@ -18,18 +18,18 @@ pytestmark = pytest.mark.native
 
 
 def test_errors_are_read_as_json() -> None:
-    told = (
+    reported = (
         '[{"kind": "error", "message": "no", "children": [{"kind": "note", "message": "here",'
         ' "locations": [{"caret": {"file": "/a.hpp", "line": 3}}]}],'
         ' "locations": [{"caret": {"file": "R-13.1-01#4", "line": 1}}]},'
         ' {"kind": "warning", "message": "w", "children": [], "locations": []}]'
     )
-    assert compiling._read_json(told) == [Error("R-13.1-01#4", 1, "no", False, (("/a.hpp", 3),))]
+    assert compiling._read_json(reported) == [Error("R-13.1-01#4", 1, "no", False, (("/a.hpp", 3),))]
     assert compiling._read_json("no json") is None
 
 
 @pytest.mark.parametrize(
-    ("told", "error"),
+    ("reported", "error"),
     [
         ("R-13.1-01#4:1:2: error: no such type", Error("R-13.1-01#4", 1, "no such type")),
         ("R-13.1-01#4(1): error C2039: no such type", Error("R-13.1-01#4", 1, "no such type")),
@@ -48,8 +48,8 @@ def test_errors_are_read_as_json() -> None:
         ("a.o: undefined reference to `x'", Error("", 0, "undefined reference to `x'")),
     ],
 )
-def test_errors_are_read_as_text(told: str, error: Error) -> None:
-    assert compiling.read_errors(told) == [error]
+def test_errors_are_read_as_text(reported: str, error: Error) -> None:
+    assert compiling.read_errors(reported) == [error]
 
 
 def test_a_template_s_error_counts_for_the_probe_that_uses_it(tmp_path: Path) -> None:

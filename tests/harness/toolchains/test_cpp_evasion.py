@@ -131,7 +131,7 @@ def test_what_headers_print_is_no_result() -> None:
         (EXTENSION, "#pragma GCC system_header\n", "R-13-04"),
     ],
 )
-def test_headers_do_not_excuse_what_they_declare(
+def test_headers_do_not_excuse_their_declarations(
     edits: tuple[tuple[str, str, str], ...], lie: str, requirement: str
 ) -> None:
     ((name, pattern, becomes),) = edits

@@ -63,7 +63,7 @@ def test_the_reference_is_conformant(name: str, standard: Standard) -> None:
 
 
 @pytest.mark.parametrize("name", TRIED)
-def test_mutants_break_what_they_say(name: str) -> None:
+def test_mutants_break_their_requirements(name: str) -> None:
     mutant = KNOWN[name]
     failed = {difference.requirement for difference in compared(mutant, SHOWN_BY[name]).differences}
     assert set(mutant.breaks) <= failed <= {*mutant.breaks, *mutant.also}

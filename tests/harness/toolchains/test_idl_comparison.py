@@ -139,8 +139,8 @@ def test_circles_of_names_end() -> None:
         "typedef b a; typedef a b; interface i : j { }; interface j : i { a f(); }; const long c = d; const long d = c;"
     )
     template = "module t<typename T> { typedef T u; }; module t<x::u> x; module y::z<long> y; typedef y::u v;"
-    told = differences(TELLER_IDL + text + template)
-    assert {d.observed.split("'")[1] for d in told} == {"y::z", "y::u"}
+    reported = differences(TELLER_IDL + text + template)
+    assert {d.observed.split("'")[1] for d in reported} == {"y::z", "y::u"}
 
 
 def test_all_that_clause_12_prints_belongs_to_a_requirement() -> None:
@@ -199,8 +199,8 @@ CALLS = """<ContractModule name="m"><PrimitiveInteger name="t" kind="LONG"/><Int
 )
 def test_names_of_parameters_count_only_if_the_vendor_says_so(taken: str, reading: str, broken: set[str]) -> None:
     text = f"module m {{ typedef long t; interface i {{ void f({taken}); }}; }};"
-    told = compare(expected_idl(model_of(CALLS)), {"m.idl": text}, {"idl-parameter-names": reading}).differences
-    assert {one.requirement for one in told} == broken
+    reported = compare(expected_idl(model_of(CALLS)), {"m.idl": text}, {"idl-parameter-names": reading}).differences
+    assert {one.requirement for one in reported} == broken
 
 
 @pytest.mark.parametrize(

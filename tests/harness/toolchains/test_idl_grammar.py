@@ -118,7 +118,7 @@ def test_what_is_no_idl_is_refused_in_its_place(text: str, line: int, column: in
     assert (problem.file, problem.line, problem.column) == ("a.idl", line, column), problem
 
 
-def test_declarations_say_what_is_written_and_where() -> None:
+def test_declarations_have_text_and_place() -> None:
     text = """module m {
   @int8
   typedef octet t, u[2];
@@ -271,7 +271,7 @@ def test_annotations_are_blanked_for_omniidl_in_place() -> None:
 
 
 @pytest.mark.native
-def test_omniidl_judges_what_it_knows_and_says_so_of_the_rest() -> None:
+def test_omniidl_checks_the_idl_that_it_knows() -> None:
     good = {"b.idl": '#include "a.idl"\nmodule m { typedef x::t u; };', "a.idl": "module x { @int8 typedef octet t; };"}
     assert opinion(good).verdict == "agreed"
     wrong = opinion({**good, "b.idl": '#include "a.idl"\nmodule m { typedef x::t u;\n typedef x::nothing v; };'})

@@ -48,9 +48,7 @@ def lines_after(*swaps: tuple[str, str]) -> frozenset[int]:
     ],
     ids=["declaration", "reference", "name", "emptied"],
 )
-def test_what_was_changed_and_what_shares_its_names(
-    swap: tuple[str, str], there: set[int], elsewhere: set[int]
-) -> None:
+def test_changed_lines_and_lines_with_shared_names(swap: tuple[str, str], there: set[int], elsewhere: set[int]) -> None:
     lines = lines_after(swap)
     assert there <= lines
     assert not elsewhere & lines
@@ -63,5 +61,5 @@ def test_an_element_that_was_emptied_counts_although_only_its_end_moved() -> Non
     assert 15 not in lines
 
 
-def test_all_lines_of_what_is_no_xml() -> None:
+def test_all_lines_of_text_that_is_no_xml() -> None:
     assert related_lines("<a>\n<b>\n", frozenset({1})) == {1, 2, 3}

@@ -25,10 +25,10 @@ if os.fork() == 0:
     if os.fork() == 0:
         for stream in (0, 1, 2):
             os.close(stream)
-        open({told!r}, "w").write(str(os.getpid()))
+        open({reported!r}, "w").write(str(os.getpid()))
         time.sleep(600)
     os._exit(0)
-while not os.path.exists({told!r}) or not open({told!r}).read():
+while not os.path.exists({reported!r}) or not open({reported!r}).read():
     time.sleep(0.01)
 """
 
@@ -49,12 +49,12 @@ def made_by(script: str, then: str = "") -> Response:
     return CommandLine(ToolChain("p", "1", idl=command)).process("idl", "question", "<Model/>")
 
 
-@pytest.mark.parametrize(("number", "told"), [("signal.SIGRTMIN + 3", "SIGRTMIN+3"), ("signal.SIGKILL", "SIGKILL")])
-def test_any_signal_has_a_name(number: str, told: str) -> None:
+@pytest.mark.parametrize(("number", "reported"), [("signal.SIGRTMIN + 3", "SIGRTMIN+3"), ("signal.SIGKILL", "SIGKILL")])
+def test_any_signal_has_a_name(number: str, reported: str) -> None:
     made = made_by(f"os.kill(os.getpid(), {number})")
     assert made.processed.incident is not None
     assert made.processed.incident.kind == "crash"
-    assert made.processed.incident.detail == f"killed by {told}"
+    assert made.processed.incident.detail == f"killed by {reported}"
 
 
 def test_folders_without_end_are_neither_read_nor_left(temporary: Path) -> None:
@@ -72,9 +72,9 @@ def test_links_are_not_followed(tmp_path: Path) -> None:
 
 
 def test_a_daemon_of_a_session_of_its_own_is_ended(tmp_path: Path) -> None:
-    told = tmp_path / "daemon"
-    assert made_by(LEAVES_A_DAEMON.format(told=str(told))).accepted
-    number = int(told.read_text())
+    reported = tmp_path / "daemon"
+    assert made_by(LEAVES_A_DAEMON.format(reported=str(reported))).accepted
+    number = int(reported.read_text())
     while _lives(number):  # the system takes a moment to end it
         time.sleep(0.01)
 

@@ -57,7 +57,7 @@ def verdicts(report: dict[str, Any], rule: str = "") -> set[str]:
     }
 
 
-def test_a_tool_chain_that_accepts_everything_fails_what_it_should_refuse(here: Path) -> None:
+def test_a_tool_chain_that_accepts_everything_fails_broken_models(here: Path) -> None:
     outcome, report = run_fake(here, "accepts_everything")
     assert outcome.status == 1
     assert verdicts(report, "broken_models_refused") == {"fail"}
@@ -86,21 +86,21 @@ def test_refusing_for_another_reason_is_no_pass() -> None:
     assert judgement.outcome == "kept", "a tool that names no lines is taken at its word"
 
 
-@pytest.mark.parametrize(("behaviour", "told"), [("dies", "SIGABRT"), ("hangs", "no end after")])
-def test_what_dies_or_hangs_fails_and_the_run_goes_on(here: Path, behaviour: str, told: str) -> None:
+@pytest.mark.parametrize(("behaviour", "reported"), [("dies", "SIGABRT"), ("hangs", "no end after")])
+def test_what_dies_or_hangs_fails_and_the_run_goes_on(here: Path, behaviour: str, reported: str) -> None:
     outcome, report = run_fake(here, behaviour, seconds=0.4 if behaviour == "hangs" else 20)
     assert outcome.status == 1
     findings = [f for r in report["requirements"] for f in r["findings"]]
     assert findings
-    assert all(told in f["observed"] for f in findings)
+    assert all(reported in f["observed"] for f in findings)
 
 
-@pytest.mark.parametrize(("behaviour", "told"), [("floods", "MiB of output"), ("ends_oddly", "exit status 70")])
-def test_what_gives_no_answer_decides_nothing(here: Path, behaviour: str, told: str) -> None:
+@pytest.mark.parametrize(("behaviour", "reported"), [("floods", "MiB of output"), ("ends_oddly", "exit status 70")])
+def test_what_gives_no_answer_decides_nothing(here: Path, behaviour: str, reported: str) -> None:
     outcome, report = run_fake(here, behaviour)
     assert outcome.status == 1
     assert verdicts(report) == {"inconclusive"}
-    assert any(told in r["reason"] for r in report["requirements"])
+    assert any(reported in r["reason"] for r in report["requirements"])
 
 
 @pytest.mark.parametrize("behaviour", ["leaves_a_child", "prints_rubbish", "tells_the_time", "points_to_ends"])
@@ -161,9 +161,9 @@ def test_the_command_of_a_failure_runs_in_the_folder_of_the_report(here: Path, t
     selected = CASE if task == "check" else "constants"
     assert ucm_cts("run", "--toolchain", "t.toml", "--profile", profile, "-k", selected, "--out", "out").status == 1
     junit = html.unescape((here / "out" / "junit.xml").read_text())
-    told = re.findall(r"again, in the folder of this report: +(.+)", junit)
-    assert told
-    for command in told[:3]:
+    reported = re.findall(r"again, in the folder of this report: +(.+)", junit)
+    assert reported
+    for command in reported[:3]:
         done = subprocess.run(["sh", "-c", command], cwd=here / "out", capture_output=True, text=True, check=False)
         assert (done.returncode, done.stderr) == (0, ""), command
         assert re.fullmatch(r"failures/R-\S+\.xml:1: note\n", done.stdout)
@@ -176,7 +176,7 @@ def test_a_model_is_no_scenario_to_replay(here: Path) -> None:
     assert "is a model and no scenario" in outcome.err
 
 
-def test_a_statement_claims_what_the_tool_chain_can_do(here: Path) -> None:
+def test_a_statement_claims_the_tasks_of_the_tool_chain(here: Path) -> None:
     toolchain = describe(here / "t.toml", ["true", "{model}"])
     assert ucm_cts("ics", "--toolchain", toolchain, "--out", "ics.toml").status == 0
     stated = tomllib.loads((here / "ics.toml").read_text())
@@ -189,7 +189,7 @@ def test_a_statement_claims_what_the_tool_chain_can_do(here: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reported"),
     [
         ('version = "1"\n[check]\ncommand = ["true", "{model}"]', "missing required field `product`"),
         ('product = "p"\nversion = "1"\n[check]\ncommand = "true {model}"', "a command is a list"),
@@ -256,12 +256,12 @@ def test_a_statement_claims_what_the_tool_chain_can_do(here: Path) -> None:
         ("product = ", "not TOML"),
     ],
 )
-def test_wrong_descriptions_are_wrong_use(here: Path, text: str, told: str) -> None:
+def test_wrong_descriptions_are_wrong_use(here: Path, text: str, reported: str) -> None:
     (here / "wrong.toml").write_text(text)
     profile = "cpp11" if "[cpp11]" in text else "pim"
     outcome = ucm_cts("run", "--toolchain", "wrong.toml", "--profile", profile)
     assert outcome.status == 2
-    assert told in outcome.err
+    assert reported in outcome.err
     assert "wrong.toml" in outcome.err
     assert outcome.err.count("\n") == 1
 
