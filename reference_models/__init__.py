@@ -1,1 +1,1 @@
-"""What is right: executable reference models. Pure: no I/O, no thread, no clock; imports the event vocabulary only."""
+"""Executable reference models. Pure: no I/O, no thread, no clock; imports the event vocabulary only."""

@@ -1,4 +1,4 @@
-"""What a property concludes from a part of a trace: values that the monitor adds to the verdicts, and applies to the model."""
+"""Conclusions of properties: values that the monitor adds to the verdicts, and applies to the model."""
 
 from __future__ import annotations
 

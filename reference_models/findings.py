@@ -1,4 +1,4 @@
-"""What the monitor finds in one trace."""
+"""Findings: the violations that the monitor finds in a trace."""
 
 from __future__ import annotations
 

@@ -233,7 +233,7 @@ class _TraceReader:
             ongoing.add(event)
 
     def changes(self, member: Member, hook: s.Hook) -> None:
-        """What is so from now on, although the operation has not ended."""
+        """The state of ``member`` changes at this callback, not at the end of the operation."""
         if hook == "on_startup":
             member.closing = False
             known = self.ongoing is None or self.ongoing.operation != "connect"

@@ -1,4 +1,4 @@
-"""What bodies read off their clocks, and what the host's own clocks showed meanwhile (10.1.4.1).
+"""Readings of the clocks of bodies, compared with the host's own clocks (10.1.4.1).
 
 The instant at which a clock was read is not known. It lies between the body's question and the answer. Conclusions hold
 for each instant between them, so that a slow machine makes conclusions weaker and never wrong.

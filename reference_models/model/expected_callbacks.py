@@ -1,4 +1,4 @@
-"""What an instance must receive: the callback patterns of the life-cycle table, and which requirement a deviation breaks."""
+"""The callbacks an instance must receive: patterns of the life-cycle table, and the requirement a deviation breaks."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Token = tuple[str, bool]
 
 
 class Listener(NamedTuple):
-    """What of an instance decides which callbacks it gets: its interfaces and how many connections are undone."""
+    """The properties of an instance that decide its callbacks: its interfaces and how many connections are undone."""
 
     connectable: bool
     fragment: bool
@@ -40,7 +40,7 @@ class Fit:
 
 @dataclass(frozen=True)
 class Deviation:
-    """What was received instead: the callback at fault (none if only the order is), and the pattern that comes nearest."""
+    """A deviation: the callback at fault (none if only the order is wrong), and the pattern that comes nearest."""
 
     requirement: str
     hook: str

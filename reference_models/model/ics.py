@@ -1,4 +1,4 @@
-"""What the vendor states of the framework, as far as properties need it: readings of unclear places, times and tolerances."""
+"""The vendor's statement, as far as properties need it: readings of unclear places, times and tolerances."""
 
 from __future__ import annotations
 

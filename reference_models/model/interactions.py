@@ -287,14 +287,14 @@ class Interactions:
         return method is not None and all(isinstance(p.of, Boolean | Enumeration) for p in method.arguments)
 
     def _doubt(self, call: MethodCall, receiver: Member | None) -> tuple[bool, bool, bool]:
-        """What speaks against a message's delivery: a phase that is over, a broken link, another code than ok."""
+        """Reasons against a message's delivery: a phase that is over, a broken link, another code than ok."""
         body = receiver.body if receiver is not None else ("", 0)
         since = self._runtime.startups.get(body, (0, 0))[0]
         refused = call.reply is not None and call.code != "ok"
         return call.request.n < since, bool(call.broken), refused
 
     def _give_back(self, mistaken: Delivery, candidates: list[MethodCall]) -> MethodCall | None:
-        """What seemed to be this call's message was another one: find another call for it, and give the call back."""
+        """The message ``mistaken`` belongs to another call: find that call, and return the one it was assigned to."""
         call = mistaken.call
         if call is not None:
             call.deliveries.remove(mistaken)

@@ -1,4 +1,4 @@
-"""What was read of the trace, compared with what was to be written into it (10.1.4.2).
+"""The records read back from the trace, compared with the records that it must have (10.1.4.2).
 
 Records are distinguished by their texts. One that is not the text of a message is of a traced call if it contains the name of
 its method, and it is a message that was altered if it contains the name that this message begins with.
@@ -57,7 +57,7 @@ class LogReading:
 
     @property
     def records(self) -> tuple[LogRecord, ...]:
-        """What was found."""
+        """The records that it has."""
         return self.end.records or ()
 
 
@@ -162,13 +162,13 @@ def log_readings(runtime: ObservedRuntime) -> list[LogReading]:
 
 
 def contents_read(runtime: ObservedRuntime, event: Return) -> Contents | None:
-    """What was read of the log by the step that ``event`` ends; None if that step does not read it."""
+    """The contents of the log as the step that ``event`` ends has read it; None if that step does not read it."""
     reading = next((reading for reading in log_readings(runtime) if reading.end is event), None)
     return contents_of(reading, runtime) if reading is not None else None
 
 
 def contents_of(reading: LogReading, runtime: ObservedRuntime) -> Contents:
-    """What ``reading`` found, and what it was to find."""
+    """The records that ``reading`` found, with the messages and calls they belong to."""
     contents = Contents(reading, list(_messages(reading, runtime)), _tracings(reading, runtime))
     for record in _without_messages(contents):
         named = [method for method in contents.tracings if method in record.message]

@@ -1,4 +1,4 @@
-"""What a pushed message may rely on: receivers that are well, a connection that is whole, and time enough (10.1.2, 10.1.6)."""
+"""Conditions for the delivery of a message: working receivers, an unbroken connection and enough time (10.1.2, 10.1.6)."""
 
 from __future__ import annotations
 

@@ -61,7 +61,7 @@ class RowSelection:
         return ongoing
 
     def _other_phases(self, runtime: ObservedRuntime, ongoing: OperationInProgress) -> None:
-        """Where phases are the whole application's, what another container is in may be a reason to refuse."""
+        """If phases belong to the whole application, the phase of another container may be a reason to refuse."""
         others = [c for c in runtime.containers.values() if c is not ongoing.container and not c.removed]
         if ongoing.operation in _CONFIGURING:
             ongoing.forgiving = ongoing.forgiving or any(c.started is not False for c in others)
@@ -340,7 +340,7 @@ def undone_by(ongoing: OperationInProgress, member: Member) -> list[Connection]:
 
 
 def listener_of(ongoing: OperationInProgress, member: Member | None) -> Listener:
-    """What decides which callbacks ``member`` gets from the operation; of no instance if it is None."""
+    """The listener that stands for ``member`` in the operation; without interfaces if it is None."""
     if member is None:
         return Listener(False, False, 0)
     undone = len(undone_by(ongoing, member)) if member.connections else 0

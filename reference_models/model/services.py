@@ -1,4 +1,4 @@
-"""What a call through a service connector may rely on, and what became of it (10.1.5.1)."""
+"""Calls through a service connector: the conditions under which they succeed, and their results (10.1.5.1)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What became of a value on its way: where it differs from what was sent, and which type is the reason (10.1.1).
+"""Differences between a value as sent and as arrived, and the type that is the reason (10.1.1).
 
 The innermost type that differs is the reason, unless the same value of it was carried well elsewhere with no more around it:
 then what is around it is. Pure comparison of data; clause_10_1_1.py says what is compared.

@@ -1,4 +1,4 @@
-"""What connectors carried in one trace: every value that was sent and arrived, and where the two differ (10.1.1).
+"""Values that connectors carried in one trace, as sent and as arrived, and their differences (10.1.1).
 
 Values can also go wrong for reasons that are not in them: another client's, or a direction that does not work at all. Those
 belong to the connectors' own clauses, and are separated here.
@@ -184,7 +184,7 @@ def _is_overwritten(interactions: Interactions, delivery: Delivery) -> bool:
 
 
 def overwritten(values: Sequence[Datum]) -> list[list[Datum]]:
-    """What a buffer may hold after its owners have overwritten it, as bodies do."""
+    """The contents that a buffer may have after its owners have overwritten it."""
     found: list[list[Datum]] = []
     now = list(values)
     for _ in range(_OVERWRITTEN_BY):

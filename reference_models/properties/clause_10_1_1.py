@@ -28,7 +28,7 @@ _LONGEST = 70
 
 @property_at("closed", *transport.REQUIREMENTS)
 def exact_values(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """What a connector carries arrives as it was sent, bit by bit, and back again."""
+    """A connector carries values unchanged, bit by bit, in both directions."""
     wrong: list[tuple[Carried, transport.Difference]] = []
     well: list[Carried] = []
     for carried in values_carried(runtime):

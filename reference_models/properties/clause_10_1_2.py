@@ -21,7 +21,7 @@ _DUE = {"transport": _TRANSMISSION, "inside": _INTERNAL}
 
 @property_at("completed", _CODES)
 def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
-    """Whatever push gives back is one of the three codes."""
+    """The result of push is one of the three codes."""
     if not call.is_message or call.reply is None or call.caller is None or not call.caller.serving:
         return ()
     results = list(call.reply.results or ())
@@ -96,7 +96,7 @@ def ok_when_healthy(check: Property, runtime: ObservedRuntime, call: MethodCall)
 
 @property_at("completed", _OK_IF_WELL)
 def receivers_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
-    """What a receiver answers is dropped, and the code is ok, or passed on, and the code is that of one that was not ok."""
+    """A receiver's code is dropped, and push gives ok, or it is passed on, and push gives a code that was not ok."""
     if not _is_undisturbed(runtime, call) or not msg.is_quiet(runtime, call):
         return
     answers = {msg.answer_to_push(end.member) for end, _ in call.targets}
@@ -133,7 +133,7 @@ def ok_true(check: Property, runtime: ObservedRuntime) -> Conclusions:
 
 @property_at("waited", _OK_IS_TRUE, timed=True)
 def ok_kept(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
-    """What got ok arrives, if nothing is broken and the receivers are well."""
+    """A message answered ok arrives, if nothing is broken and the receivers are well."""
     for call, missing in msg.overdue(runtime, timeout):
         if call.code == msg.OK and not call.deliveries and not msg.is_disturbed(runtime, call):
             names = ", ".join(sorted(end.member.lane for end in missing))

@@ -45,7 +45,7 @@ def burst_answered(check: Property, runtime: ObservedRuntime, event: Pushed) -> 
 
 @property_at("counted", _OK_IS_TRUE, _EMITTERS, _ONCE, _ORIGIN, _ORDER, timed=True)
 def burst_counted(check: Property, runtime: ObservedRuntime, event: Counted) -> Conclusions:
-    """What was pushed in bursts and got ok is counted, each message once, and nothing else is."""
+    """Receivers count each message of a burst that was answered ok once, and no others."""
     receiver = runtime.bodies.get((event.component, event.instance))
     link = runtime.interactions.link_to(receiver) if receiver is not None else None
     bursts = [burst for burst in runtime.interactions.bursts if burst.link is link]

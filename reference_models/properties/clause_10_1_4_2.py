@@ -186,7 +186,7 @@ def _number_problem(
 
 
 def _readings_of_number(found: int, calls: int, in_vain: bool) -> list[str]:
-    """What so many records of so many traced calls say: one port may have one a call, and another one two."""
+    """The readings that explain ``found`` records of ``calls``: one port may have one record a call, and another one two."""
     if found <= calls:
         return ["call"]
     return ["call-and-return", "call"] if in_vain and found < 2 * calls else ["call-and-return"]
@@ -269,7 +269,7 @@ def _unexplained(runtime: ObservedRuntime, contents: logs.Contents) -> int:
 
 @property_at("read", "R-10.1.4.2-35")
 def port_trace_severity(check: Property, runtime: ObservedRuntime, contents: logs.Contents) -> Conclusions:
-    """What a port trace records has the severity of its log_severity."""
+    """Records of a port trace have the severity of its log_severity."""
     for tracing in contents.tracings.values():
         if not tracing.is_traced or not tracing.records:
             continue

@@ -100,7 +100,7 @@ def _what_failed(runtime: ObservedRuntime, one: ServiceCall, trouble: Trouble) -
 
 
 def _concerned(runtime: ObservedRuntime, one: ServiceCall, good: list[ServiceCall]) -> str:
-    """What a call that is not carried out is about before all: what sets it apart from those that are."""
+    """The requirement that a call that is not carried out breaks: that of its difference from calls that are."""
     links = runtime.interactions.links.values()
     services = {link.interface for link in links if link.connector == s.SERVICE_CONNECTOR}
     apart = what_sets_apart(runtime, one, good)
@@ -115,7 +115,7 @@ def _may_be_expected(one: ServiceCall) -> bool:
 
 @property_at("closed", _OWN, _DIRECTIONS, _CALLS)
 def service_values(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """What the client sends reaches the server, and what the server gives reaches the client that asked."""
+    """The client's values reach the server, and the server's results reach the client that called."""
     judged = _undisturbed(runtime)
     for one, trouble in judged:
         method, given = one.method, one.exit

@@ -42,7 +42,7 @@ def messages_arrived(check: Property, runtime: ObservedRuntime) -> Conclusions:
 
 @property_at("waited", _RECEIVERS, _INDEPENDENCE, timed=True)
 def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conclusions:
-    """What entered one receiver enters all that are well; one that is slow or fails costs the others nothing."""
+    """A message that enters one receiver enters all that are well; a slow or failing one does not affect the others."""
     for call, missing in msg.overdue(runtime, timeout):
         refused, disturbed = call.code != msg.OK, msg.is_disturbed(runtime, call)
         if not call.deliveries and (refused or not disturbed):
@@ -112,7 +112,7 @@ def at_most_once(check: Property, runtime: ObservedRuntime, delivery: Delivery) 
 
 @property_at("closed", "R-10.1.6.1-06")
 def message_origin(check: Property, runtime: ObservedRuntime) -> Conclusions:
-    """Whatever enters a receiver was pushed before by an emitter of its connection."""
+    """Each message that enters a receiver was pushed before by an emitter of its connection."""
     for delivery in runtime.interactions.deliveries:
         receiver, link, enter = delivery.receiver, delivery.link, delivery.enter
         if receiver is None or link is None or link.connector != s.MESSAGE_CONNECTOR or enter.method != s.PUSH:

@@ -104,7 +104,7 @@ def delivered_at_stop(check: Property, runtime: ObservedRuntime, ongoing: Operat
 
 @property_at("completed", _IN_PHASE)
 def unready_receivers(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Conclusions:
-    """What is pushed to a receiver that is not operational is answered as the vendor has declared."""
+    """A push to a receiver that is not operational is answered as the vendor has declared."""
     if not call.is_message or not call.idle or not msg.is_whole(runtime, call) or not msg.is_quiet(runtime, call):
         return
     others = [end for end, ready in call.targets if ready and end not in call.idle]

@@ -162,7 +162,7 @@ def container_interface(check: Property, runtime: ObservedRuntime, callback: Cal
 
 @property_at("noted", "R-11.2.1.4-03")
 def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Siblings) -> Concluded:
-    """What a fragment learns of its container's members is what they are, unless an operation is changing that."""
+    """A fragment gets the true list of its container's members, unless an operation is changing it."""
     member = runtime.bodies.get(event.body)
     if ongoing is not None or member is None or not member.declaration.fragment:
         return ()

@@ -43,7 +43,7 @@ Moment = Literal[_Always, _WithInteractions]
 """
 
 Feature = Literal["", "policies", "interactions", "fragments", "attributes"]
-"""What a scenario has to use for a property to apply: nothing; where components have policies; where interactions are
+"""The feature that a scenario must use for a property to apply: none; where components have policies; where interactions are
 followed, because port elements have interfaces or components policies; where components are fragments, or have attributes.
 """
 
