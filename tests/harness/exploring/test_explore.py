@@ -227,7 +227,7 @@ def test_nonsense_answers_are_one_cause_however_many(here: Path) -> None:
     assert len(remembered_files(here / "out" / "examples")) == 1
 
 
-def test_what_incidents_hide_is_not_forgotten() -> None:
+def test_failures_hidden_by_incidents_stay_remembered() -> None:
     database = InMemoryExampleDatabase()
     failure = remember(database, "product")
     memory = Memory(database, "product", "container")
@@ -324,7 +324,7 @@ def test_an_interrupt_keeps_the_failures_found(here: Path) -> None:
 # what it remembers
 
 
-def test_what_is_remembered_is_tried_first(found: Path, here: Path) -> None:
+def test_remembered_failures_are_tried_first(found: Path, here: Path) -> None:
     shutil.copytree(found / "examples", "examples")
     arguments = "--budget", "1scenarios", "--seed", "1", "--database", "examples", "--out"
     again = ucm_cts("explore", SUBJECT, *arguments, "again")
@@ -440,7 +440,7 @@ def drawn(seed: int, number: int) -> list[Scenario]:
     return scenarios
 
 
-def test_what_is_drawn_can_be_saved_read_back_and_foreseen() -> None:
+def test_drawn_scenarios_can_be_saved_read_and_predicted() -> None:
     scenarios = drawn(1, 300)
     table = load_life_cycle()
     for scenario in scenarios:
@@ -462,7 +462,7 @@ def test_transitions_follow_the_model() -> None:
     assert transitions(load_life_cycle(), msgspec.structs.replace(scenario, steps=one[:2])) < found
 
 
-def test_what_is_rare_is_preferred() -> None:
+def test_rare_transitions_are_preferred() -> None:
     usual = Scenario({"one": s.Declaration()}, (s.AddComponent("one"), s.Start(), s.Stop()))
     rare = Scenario({"one": s.Declaration()}, (s.AddComponent("one"), s.Start(), s.RemoveComponent("one")))
     guide = Guide(load_life_cycle())

@@ -159,7 +159,7 @@ def test_a_spelling_that_is_never_printed_is_unclear(tmp_path: Path) -> None:
     assert not having("broken", path)
 
 
-def test_what_stands_beside_excuses_nothing_that_is_missing(tmp_path: Path) -> None:
+def test_unrelated_declarations_do_not_excuse_missing_ones(tmp_path: Path) -> None:
     path = rewritten(tmp_path, ('<Method name="run"/>', '<SimpleComment text="run"/>'))
     (path / "more.xml").write_text('<PlatformModule name="more"/>')
     (path / "return_codes.xml").unlink()

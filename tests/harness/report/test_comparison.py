@@ -201,7 +201,7 @@ def refused(outcome: Outcome) -> str:
 
 
 @pytest.mark.parametrize("kind", BROKEN)
-def test_what_is_no_report_is_refused_in_one_line(kind: str, tmp_path: Path) -> None:
+def test_other_files_than_reports_are_refused_in_one_line(kind: str, tmp_path: Path) -> None:
     content, problem = BROKEN[kind]
     good, bad = save(tmp_path, RIGHT, LEFT)
     bad.write_bytes(content)

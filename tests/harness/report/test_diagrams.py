@@ -93,7 +93,7 @@ def test_long_traces_are_elided_visibly_and_both_diagrams_share_their_beginning(
     assert {line.style for line in both.expected.lines[first:]} == {"expected"}
 
 
-def test_what_is_missing_is_marked_where_it_should_have_been() -> None:
+def test_missing_event_is_marked_at_its_place() -> None:
     failed = missing()
     both = compare(failed.finding, failed.execution)
     at = next(i for i, line in enumerate(both.observed.lines) if line.style == "offending")

@@ -78,7 +78,7 @@ def tool(monkeypatch: pytest.MonkeyPatch) -> Tool:
     return found
 
 
-def test_what_the_tool_makes_is_sorted_out(tool: Tool, capsys: pytest.CaptureFixture[str]) -> None:
+def test_generated_candidates_are_sorted(tool: Tool, capsys: pytest.CaptureFixture[str]) -> None:
     candidates, census = python_programs.candidates()
     assert [(m.file, m.becomes, m.rule) for m in candidates] == [
         ("framework.py", "self.numbers = itertools.count(2)", "itertools.count(1) ==> itertools.count(2)")
@@ -108,7 +108,7 @@ def test_equal_lines_differ_by_their_number(tool: Tool, tmp_path: Path) -> None:
         SOURCE.replace("    if", '    "said"\n    if'),
     ],
 )
-def test_what_no_run_can_tell_is_the_same_program(alike: str) -> None:
+def test_indistinguishable_changes_are_the_same_program(alike: str) -> None:
     assert python_programs.meaning(alike) == python_programs.meaning(SOURCE)
 
 
@@ -196,7 +196,7 @@ def test_figures_of_a_page() -> None:
     ],
     ids=["python", "cpp"],
 )
-def test_what_is_said_to_be_equivalent_is_still_there(listed: Path, sources: Path) -> None:
+def test_listed_equivalents_are_lines_of_the_sources(listed: Path, sources: Path) -> None:
     reasons = read_equivalents(listed)
     assert reasons
     for key in reasons:

@@ -67,7 +67,7 @@ def test_ids_times_and_threads_are_no_divergence() -> None:
     assert not parted.explains(finding(1, 2, step=START))
 
 
-def test_what_is_missing_is_explained_by_its_step_only() -> None:
+def test_missing_event_is_explained_by_its_step_only() -> None:
     right = trace_of()
     shutdown = next(e for e in right if isinstance(e, Enter) and e.hook == "on_shutdown")
     lost = {shutdown.n, shutdown.n + 1}
@@ -82,7 +82,7 @@ def test_what_is_missing_is_explained_by_its_step_only() -> None:
     assert not parted.explains(finding(1, 2))
 
 
-def test_what_is_there_besides_is_explained_by_itself() -> None:
+def test_additional_event_is_explained_by_itself() -> None:
     right = trace_of()
     wrong = trace_of("initialises_at_stop")
     parted = divergence(ASKED, right, wrong)

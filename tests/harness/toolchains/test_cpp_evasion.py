@@ -114,7 +114,7 @@ def test_macros_that_are_no_keywords_are_spared() -> None:
     assert (found.differences, dict(found.unjudged)) == ((), {})
 
 
-def test_what_headers_print_is_no_result() -> None:
+def test_output_of_headers_is_no_result() -> None:
     found = ended_with(LIES)
     for requirement in mutants()[BROKEN].breaks:
         assert requirement not in found.exercised
@@ -144,7 +144,7 @@ def test_headers_do_not_excuse_their_declarations(
     assert requirement in {d.requirement for d in found.differences}
 
 
-def test_what_an_object_writes_before_main_is_no_result() -> None:
+def test_output_before_main_is_no_result() -> None:
     found = ended_with(FORGED)
     assert set(mutants()[BROKEN].breaks) <= {d.requirement for d in found.differences}
 

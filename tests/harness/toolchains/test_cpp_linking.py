@@ -37,7 +37,7 @@ def compared(files: dict[str, str], layout: Layout = LAYOUT) -> Comparison:
     return compare(model("constants"), files, "cpp03", {}, Compiler(), layout)
 
 
-def test_what_is_not_needed_is_not_held_against_the_headers() -> None:
+def test_unneeded_sources_are_remarks_only() -> None:
     found = compared({**generated(), "main.cpp": DEMONSTRATION, "body.cc": UNFINISHED, "skeleton/body.cxx": NOT_CODE})
     assert found.differences == ()
     (remark,) = found.remarks

@@ -66,14 +66,14 @@ def look(folder: Path, name: str, *edits: tuple[str, str], seconds: float = 60.0
 
 
 @pytest.mark.parametrize("way", LEGAL)
-def test_what_is_declared_in_other_ways_is_found(tmp_path: Path, way: str) -> None:
+def test_other_forms_of_declarations_are_found(tmp_path: Path, way: str) -> None:
     name, edits = LEGAL[way]
     differences, counted, unjudged = look(tmp_path, name, *edits)
     assert ([str(d) for d in differences], unjudged) == ([], {})
     assert counted == Counter(e.requirement for e in expectations(name).expected if isinstance(e.claim, LISTED))
 
 
-def test_what_is_hidden_from_clang_is_found(tmp_path: Path) -> None:
+def test_code_hidden_from_clang_is_found(tmp_path: Path) -> None:
     hidden = "namespace CORBA { class Object {}; }\n#ifdef __clang__\n#define BASE\n#else\n#define BASE : ::CORBA::Object\n#endif\n"
     edits = (
         (r"(#define UCM_SUPPORT_HPP\n)", rf"\1{hidden}"),
@@ -84,13 +84,13 @@ def test_what_is_hidden_from_clang_is_found(tmp_path: Path) -> None:
     assert {d.observed for d in differences} == {"it derives from ::CORBA::Object"}
 
 
-def test_what_is_not_declared_is_not_judged(tmp_path: Path) -> None:
+def test_undeclared_classes_are_not_judged(tmp_path: Path) -> None:
     differences, _, unjudged = look(tmp_path, "interfaces", (r"Abstract_root\b", "Abstract_stem"))
     assert differences == []
     assert "Abstract_root" in unjudged["R-13.6-04"]
 
 
-def test_what_libclang_does_not_get_through_is_not_judged(tmp_path: Path) -> None:
+def test_headers_that_libclang_cannot_parse_are_not_judged(tmp_path: Path) -> None:
     look(tmp_path, "modules")  # after which it is known where the system's headers are
     differences, counted, unjudged = look(tmp_path, "modules", (r"#endif\n$", f"{EXPONENTIAL}#endif\n"), seconds=0.5)
     assert (differences, counted) == ([], {})

@@ -111,7 +111,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("text", "line", "column"), REFUSED)
-def test_what_is_no_idl_is_refused_in_its_place(text: str, line: int, column: int) -> None:
+def test_wrong_idl_is_refused_at_its_place(text: str, line: int, column: int) -> None:
     with pytest.raises(NotIdl) as refused:
         read_idl(text, "a.idl")
     problem = refused.value.problem

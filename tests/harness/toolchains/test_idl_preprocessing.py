@@ -100,7 +100,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("text", "line"), REFUSED)
-def test_what_cannot_be_preprocessed_is_refused_in_its_line(text: str, line: int) -> None:
+def test_wrong_directives_are_refused_with_their_line(text: str, line: int) -> None:
     with pytest.raises(NotIdl) as refused:
         read_idl(text, "a.idl")
     assert (refused.value.problem.file, refused.value.problem.line) == ("a.idl", line)

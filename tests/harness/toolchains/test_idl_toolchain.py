@@ -54,7 +54,7 @@ def test_omniidl_takes_all_that_has_no_templates(subject: Subject) -> None:
 
 @settings(max_examples=8, deadline=None, derandomize=True, database=None, suppress_health_check=list(HealthCheck))
 @given(legal_models())
-def test_what_is_expected_of_models_by_chance_is_generated(model: Model) -> None:
+def test_generated_idl_of_random_models_is_as_expected(model: Model) -> None:
     """Both are written independently of each other, from the clause."""
     assert not compare(expected_idl(model), reference().generators["idl"](model)).differences
 

@@ -87,5 +87,5 @@ def test_strings_and_delegations_are_written_in_either_printed_way() -> None:
     )
 
 
-def test_what_is_no_xml_is_left_alone() -> None:
+def test_text_that_is_no_xml_is_unchanged() -> None:
     assert Renaming(5).apply("<a><b></a>") == "<a><b></a>"

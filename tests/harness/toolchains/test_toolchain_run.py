@@ -87,7 +87,7 @@ def test_refusing_for_another_reason_is_no_pass() -> None:
 
 
 @pytest.mark.parametrize(("behaviour", "reported"), [("dies", "SIGABRT"), ("hangs", "no end after")])
-def test_what_dies_or_hangs_fails_and_the_run_goes_on(here: Path, behaviour: str, reported: str) -> None:
+def test_crash_or_hang_fails_and_the_run_continues(here: Path, behaviour: str, reported: str) -> None:
     outcome, report = run_fake(here, behaviour, seconds=0.4 if behaviour == "hangs" else 20)
     assert outcome.status == 1
     findings = [f for r in report["requirements"] for f in r["findings"]]
@@ -96,7 +96,7 @@ def test_what_dies_or_hangs_fails_and_the_run_goes_on(here: Path, behaviour: str
 
 
 @pytest.mark.parametrize(("behaviour", "reported"), [("floods", "MiB of output"), ("ends_oddly", "exit status 70")])
-def test_what_gives_no_answer_decides_nothing(here: Path, behaviour: str, reported: str) -> None:
+def test_tool_without_an_answer_is_inconclusive(here: Path, behaviour: str, reported: str) -> None:
     outcome, report = run_fake(here, behaviour)
     assert outcome.status == 1
     assert verdicts(report) == {"inconclusive"}
@@ -273,7 +273,7 @@ def test_a_description_is_a_plain_file(here: Path) -> None:
     assert "pipe.toml: is no plain file" in outcome.err
 
 
-def test_what_belongs_to_adapters_is_wrong_use(here: Path) -> None:
+def test_options_for_adapters_are_wrong_use(here: Path) -> None:
     toolchain = describe(here / "t.toml", ["true", "{model}"])
     assert "ADAPTER is for frameworks" in ucm_cts("run", "reference-py", "--toolchain", toolchain).err
     assert "--repeat is for frameworks" in ucm_cts("run", "--toolchain", toolchain, "--repeat", "2").err
