@@ -105,7 +105,7 @@ def test_no_conformant_variant_is_ever_failed(scenario: Scenario) -> None:
 
 @pytest.mark.parametrize("name", CORE_VARIANTS)
 def test_variants_of_core_do_not_fail_for_connectors(name: str) -> None:
-    """What depends on time is left out here: who runs a scenario looks at that twice."""
+    """Findings that depend on time are left out here; a run confirms them."""
     variant = CORE_VARIANTS[name]
     usual = default_statement()
     stated = msgspec.structs.replace(usual, readings=usual.readings | variant.readings)

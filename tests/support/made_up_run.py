@@ -122,7 +122,7 @@ def refused_stop() -> ReportedFinding:
         rule="callbacks",
         cause="on_shutdown missing at stop",
         expected="stop calls on_shutdown of every started component before it returns.",
-        observed="stop returned, and provider had not heard on_shutdown.",
+        observed="stop returned, and provider had not received on_shutdown.",
         events=(last,),
         step=5,
         expected_events=(Arrow("manager", "provider", "on_shutdown()"), Arrow("manager", "test", "returns")),
@@ -265,7 +265,7 @@ CATALOGUE = (
     Requirement("R-11.1.3-01", "11.1.3", "The container lets components communicate", "shall", "They talk.", "Values."),
     Requirement("R-11.2.1.2-06", "11.2.1.2", "on_remove comes last", "shall", "No callback after it.", "Order."),
     Requirement(
-        "R-11.2.2.1-12", "11.2.2.1", "stop shuts every component down", "shall", "Each hears it once.", "Callbacks.",
+        "R-11.2.2.1-12", "11.2.2.1", "stop shuts every component down", "shall", "Each receives it once.", "Callbacks.",
         ("callbacks",), "", ("stop-inflight",),
     ),
     Requirement("R-11.2.2.1-01", "11.2.2.1", "add_component makes an instance", "shall", "It does.", "Create."),

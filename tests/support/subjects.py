@@ -25,25 +25,25 @@ def __getattr__(name: str) -> type[ReferenceAdapter]:
 
 
 class Listening(ReferenceAdapter):
-    """Conformant; writes every name it hears, and the process it runs in, to the file ``$HEARD``."""
+    """Conformant; writes every name that it receives, and its process id, to the file ``$CALL_RECORD``."""
 
     def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
-        with Path(os.environ["HEARD"]).open("a") as heard:
+        with Path(os.environ["CALL_RECORD"]).open("a") as calls:
             for one in implementations:
-                print(os.getpid(), one.name, *one.provides, *one.requires, file=heard)
+                print(os.getpid(), one.name, *one.provides, *one.requires, file=calls)
         return super().create_runtime(implementations)
 
 
 class Waiting(ReferenceAdapter):
-    """Tells the named pipe ``$HEARD`` that it has been called, and never comes back."""
+    """Writes to the named pipe ``$CALL_RECORD`` when it is called, and never returns."""
 
     def start(self, container: object) -> None:
-        Path(os.environ["HEARD"]).write_text("started")
+        Path(os.environ["CALL_RECORD"]).write_text("started")
         threading.Event().wait()
 
 
 class Vandal(ReferenceAdapter):
-    """Puts a file where the report shall go."""
+    """Writes a file at the place of the report."""
 
     def create_runtime(self, implementations: Sequence[Implementation]) -> ContainerManager:
         out = Path(os.environ["REPORT"])
@@ -54,7 +54,7 @@ class Vandal(ReferenceAdapter):
 
 
 class Misspelled(ReferenceAdapter):
-    """Says nonsense about the names of port elements."""
+    """Declares a wrong pattern for the names of port elements."""
 
     port_element_name = "{gate}"
 
@@ -75,7 +75,7 @@ Crashing = bind("Crashing", _Crashing, _Crashing.__doc__)
 
 
 class _Parrot(Base):
-    """Has learnt the suite's scripts by heart: tells bodies the port element that scripts have, not their own."""
+    """Has memorised the suite's scripts: gives bodies the port element of the scripts, not their own."""
 
     def _dependencies_of(self, member: Member) -> list[PortConnection]:
         return [PortConnection("out_api", d.to_port) for d in super()._dependencies_of(member)]

@@ -177,10 +177,10 @@ def test_harness_that_fails_is_status_3_in_one_line(here: Path, monkeypatch: pyt
 def test_interrupted_run_reports_its_results_and_is_no_success(
     here: Path, monkeypatch: pytest.MonkeyPatch, number: signal.Signals
 ) -> None:
-    heard = here / "heard"
-    os.mkfifo(heard)
-    pipe = os.open(heard, os.O_RDWR)
-    monkeypatch.setenv("HEARD", str(heard))
+    calls = here / "calls"
+    os.mkfifo(calls)
+    pipe = os.open(calls, os.O_RDWR)
+    monkeypatch.setenv("CALL_RECORD", str(calls))
     command = [sys.executable, "-m", "ucm_cts", "run", "subjects:Waiting", "--timeout", "60", "--out", "out"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         assert select.select([pipe], [], [], 30)[0], "the subject was never called"
@@ -200,7 +200,7 @@ def verdicts(report: dict[str, Any]) -> dict[str, str]:
 
 def test_a_seed_repeats_a_run(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def run(name: str, seed: int) -> tuple[dict[str, Any], set[str]]:
-        monkeypatch.setenv("HEARD", str(here / name))
+        monkeypatch.setenv("CALL_RECORD", str(here / name))
         outcome = ucm_cts("run", "subjects:Listening", "-k", "11.2.1", "--seed", str(seed), "--out", f"{name}-out")
         assert f"seed {seed}\n" in outcome.out
         report = report_of(here / f"{name}-out")
@@ -278,11 +278,11 @@ def test_selection_checks_only_matching_purposes(here: Path) -> None:
 
 
 def test_in_process_starts_no_host(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("HEARD", str(here / "heard"))
+    monkeypatch.setenv("CALL_RECORD", str(here / "calls"))
     for options, own in (["--in-process"], True), ([], False):
-        (here / "heard").write_text("")
+        (here / "calls").write_text("")
         ucm_cts("run", "subjects:Listening", "-k", REQUIREMENT, "--out", "out", *options)
-        assert {line.split()[0] == str(os.getpid()) for line in (here / "heard").read_text().splitlines()} == {own}
+        assert {line.split()[0] == str(os.getpid()) for line in (here / "calls").read_text().splitlines()} == {own}
 
 
 # known failures

@@ -328,9 +328,9 @@ def test_unknown_profile_is_one_clear_line_too() -> None:
 
 
 def test_seed_and_process(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def heard(*options: str) -> tuple[list[list[str]], set[str]]:
-        record = here / f"heard{len(options)}"
-        monkeypatch.setenv("HEARD", str(record))
+    def calls(*options: str) -> tuple[list[list[str]], set[str]]:
+        record = here / f"calls{len(options)}"
+        monkeypatch.setenv("CALL_RECORD", str(record))
         assert suite("--iut", "subjects:Listening", "-k", "attributes", "--iut-seed", "11", *options).status == 0
         lines = [line.split() for line in record.read_text().splitlines()]
         return [words for _, *words in lines], {pid for pid, *_ in lines}
@@ -338,10 +338,10 @@ def test_seed_and_process(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (here / "conftest.py").write_text(
         "import os\n\n\ndef pytest_configure():\n    open('pid', 'w').write(str(os.getpid()))\n"
     )
-    names, hosts = heard("-p", "conftest")
+    names, hosts = calls("-p", "conftest")
     assert names
     assert (here / "pid").read_text() not in hosts
-    again, own = heard("-p", "conftest", "--iut-in-process")
+    again, own = calls("-p", "conftest", "--iut-in-process")
     assert again == names
     assert own == {(here / "pid").read_text()}
 

@@ -305,17 +305,17 @@ def test_calls_that_may_wait_are_another_cause() -> None:
 
 
 def test_an_interrupt_keeps_the_failures_found(here: Path) -> None:
-    os.mkfifo(here / "heard")
-    heard = os.open(here / "heard", os.O_RDWR)
-    environment = {**os.environ, "HEARD": str(here / "heard")}
+    os.mkfifo(here / "calls")
+    calls = os.open(here / "calls", os.O_RDWR)
+    environment = {**os.environ, "CALL_RECORD": str(here / "calls")}
     command = [sys.executable, "-m", "ucm_cts", "explore", "subjects:Waiting", "--budget", "2h", "--timeout", "600"]
     with subprocess.Popen(
         [*command, "--out", "out"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment
     ) as process:
-        assert select.select([heard], [], [], 60)[0], "it never started"
+        assert select.select([calls], [], [], 60)[0], "it never started"
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=60)
-    os.close(heard)
+    os.close(calls)
     assert (process.returncode, err) == (1, "")
     assert "interrupted: what was found so far is kept" in out
     assert exploration(here / "out")["scenarios"] >= 0

@@ -114,7 +114,7 @@ def test_every_link_leads_somewhere(page: Any) -> None:
 
 def test_requirements_say_meaning_decision_waiver_and_reason(page: Any) -> None:
     text = page.xpath("//tbody[@id='R-11.2.2.1-12']")[0].text_content()
-    assert "Each hears it once." in text
+    assert "Each receives it once." in text
     assert "What was begun may end." in text
     assert "known, ticket 12" in page.xpath("//tbody[@id='R-11.2.1.2-06']")[0].text_content()
     assert "No scenario started a container twice." in page.xpath("//tbody[@id='R-11.2.3-15']")[0].text_content()
@@ -260,7 +260,7 @@ def test_junit_failures_read_well_in_a_log(out: Path) -> None:
     for words in (
         "R-11.2.1.2-06 on_remove comes last (clause 11.2.1.2)",
         "expected: stop calls on_shutdown of every started component before it returns.",
-        "observed: stop returned, and provider had not heard on_shutdown.",
+        "observed: stop returned, and provider had not received on_shutdown.",
         "ucm-cts replay failures/R-11.2.1.2-06.json",
         "missing: on_shutdown()",
         "✓",

@@ -129,9 +129,9 @@ def test_wrong_framework_is_no_conformant_variant() -> None:
 def test_subject_that_cannot_be_had_is_not_killed_and_no_others_suffer() -> None:
     there, gone = all_mutants()["initialises_at_stop"], replace(all_mutants()["delivers_twice"], adapter="no.such:One")
     conduct = SelfTest([gone, replace(there, clauses=("11.2.1.2",))], [], QUICK, jobs=2)
-    heard: list[str] = []
-    conduct.run(lambda result: heard.append(result.name))
-    assert sorted(heard) == ["delivers_twice", "initialises_at_stop"]
+    received: list[str] = []
+    conduct.run(lambda result: received.append(result.name))
+    assert sorted(received) == ["delivers_twice", "initialises_at_stop"]
     assert [mutant.name for mutant in conduct.matrix.survivors] == ["delivers_twice"]
     assert "no.such:One" in conduct.matrix.survivors[0].trouble
     assert not conduct.matrix.is_proved
