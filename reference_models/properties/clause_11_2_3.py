@@ -49,7 +49,7 @@ def _peculiarities(check: Property, ongoing: op.OperationInProgress, outcome: op
     if outcome.reached_own:
         yield check.kept(_OF_THE_MANAGER)
     elif outcome.not_reached:
-        yield _reaches_nobody(check, ongoing, outcome.not_reached)
+        yield _reaches_no_member(check, ongoing, outcome.not_reached)
         yield from map(Suspended, outcome.not_reached)
     for role in outcome.deviating:
         yield Broken(role.row)
@@ -100,7 +100,7 @@ def _intrudes(check: Property, ongoing: op.OperationInProgress, intrusion: op.In
     )
 
 
-def _reaches_nobody(check: Property, ongoing: op.OperationInProgress, members: Sequence[Member]) -> Finding:
+def _reaches_no_member(check: Property, ongoing: op.OperationInProgress, members: Sequence[Member]) -> Finding:
     """A successful start or stop of the manager reaches none of its own members (11.2.2.2)."""
     hook = OF_ALL_MEMBERS[ongoing.operation]
     return check.fail(
@@ -182,7 +182,7 @@ def nothing_outside_life(check: Property, runtime: ObservedRuntime, callback: Ca
 
 @property_at("unclear", _READY_BY_START, _ENDED_BY_SHUTDOWN, at=("on_startup", "on_shutdown"))
 def alternation(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
-    """No second on_startup without on_shutdown between, no on_shutdown without on_startup before: whatever else is unclear."""
+    """No second on_startup without on_shutdown between, no on_shutdown without on_startup before, even in an unclear state."""
     event, member, ongoing, history = callback
     if ongoing is None or member is None or not member.suspended:
         return ()  # the table's matter, or whole_life's
