@@ -9,202 +9,23 @@ identifier that the framework never gave out, ``NIL`` a null reference. ``MANAGE
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Annotated, ClassVar, Literal, get_args
+from typing import Annotated, Literal, get_args
 
+from ucm_cts.adapters.contract.container_calls import *  # their names are names of this module, too
+from ucm_cts.adapters.contract.container_calls import (
+    ContainerCall,
+    KnownAs,
+    StepBase,
+    UsedComponent,
+    UsedContainer,
+    UsedLink,
+    UsedReference,
+)
 from ucm_cts.adapters.contract.data_types import Interface
-from ucm_cts.adapters.contract.declarations import *  # their names are names of this module, too
+from ucm_cts.adapters.contract.declarations import *
 from ucm_cts.adapters.contract.declarations import Declaration, Payload, PortElementName
-from ucm_cts.adapters.contract.traits import Binds, Kind, Lasts, Names, Uses, fields
+from ucm_cts.adapters.contract.traits import Binds, Lasts, Names, Uses
 from ucm_cts.adapters.contract.value import Int32, Int64, Value
-
-MANAGER = "manager"
-UNKNOWN = "unknown"
-NIL = "nil"
-
-UsedComponent = Annotated[str, Uses("component", (UNKNOWN,))]
-UsedConnection = Annotated[str, Uses("connection", (UNKNOWN,))]
-UsedReference = Annotated[str, Uses("reference", (NIL,))]
-UsedContainer = Annotated[str, Uses("container")]
-UsedLink = Annotated[str, Uses("link")]
-"""Variables that a step reads (see ``traits``)."""
-
-KnownAs = Callable[[str, Kind], str]
-
-Ending = Literal["return", "opened", "settled", "counted", "paused", "stressed", ""]
-Returns = Literal["id", "ids", "reference", "value", "records"]
-
-
-class StepBase(Value, frozen=True, kw_only=True):
-    """Common to all steps.
-
-    ``thread``: the worker that runs the step while the scenario continues; none for the scenario's own thread."""
-
-    ends_with: ClassVar[Ending] = "return"
-    """The kind of event that ends the step. A step that ends with ``return`` is a call: ``call`` begins it, and it may end
-    with ``raise`` instead. Empty: no event reports success."""
-
-    returns: ClassVar[Returns | None] = None
-    """What the call gives back."""
-
-    optional: ClassVar[bool] = False
-    """The adapter may not offer the call. Then the step is skipped: ``skip`` follows ``call``."""
-
-    waits: ClassVar[int] = 0
-    """How many times the host may let patience pass before the step ends."""
-
-    reads_only: ClassVar[bool] = False
-    """The call changes nothing about containers, components and connections."""
-
-    wording: ClassVar[str] = ""
-    """The arguments as people read them, a format of the fields. Variables are replaced by what they hold."""
-
-    thread: str | None = None
-
-    @property
-    def claim(self) -> str:
-        """What a vendor must claim for the step to be sent: a capability, or a reading as ``option=value``. Empty: nothing."""
-        return ""
-
-    def words(self, known_as: KnownAs = lambda variable, kind: variable) -> str:
-        """The arguments as people read them; ``known_as`` names, for readers, what a variable holds."""
-        read = {field: getattr(self, field) for field in self.__struct_fields__}
-        for field, trait in fields(type(self)):
-            if isinstance(trait, Uses):
-                variables = (read[field],) if isinstance(read[field], str) else read[field]
-                read[field] = ", ".join(known_as(variable, trait.kind) for variable in variables)
-        return self.wording.format(**read)
-
-
-class AddComponent(StepBase, frozen=True, tag_field="op", tag="add_component"):
-    """``add_component``.
-
-    ``component``: the declaration to instantiate; one that the scenario does not declare asks for an unknown implementation.
-    ``container``: where.
-    ``bind``: variable for the id; by default the name of the component.
-    """
-
-    returns = "id"
-
-    component: Annotated[str, Names("implementation")]
-    container: UsedContainer = MANAGER
-    bind: Annotated[str, Binds("component", "component")] = ""
-
-    def words(self, known_as: KnownAs = lambda variable, kind: variable) -> str:
-        """``as`` only where the variable has a name of its own."""
-        return self.component + (f" as {self.bind}" if self.bind not in ("", self.component) else "")
-
-
-class RemoveComponent(StepBase, frozen=True, tag_field="op", tag="remove_component"):
-    """``remove_component``.
-
-    ``id``: the component.
-    ``container``: where.
-    """
-
-    wording = "{id}"
-
-    id: UsedComponent
-    container: UsedContainer = MANAGER
-
-
-class GetPortElement(StepBase, frozen=True, tag_field="op", tag="get_port_element"):
-    """``get_port_element``.
-
-    ``id``: the component.
-    ``port``: the port element.
-    ``bind``: variable for the reference.
-    ``container``: where.
-    """
-
-    returns = "reference"
-    reads_only = True
-    wording = "{id}.{port}"
-
-    id: UsedComponent
-    port: PortElementName
-    bind: Annotated[str, Binds("reference")]
-    container: UsedContainer = MANAGER
-
-
-class Connect(StepBase, frozen=True, tag_field="op", tag="connect"):
-    """``connect``.
-
-    ``id``: the component that requires.
-    ``port``: its required port element.
-    ``to``: the reference.
-    ``bind``: variable for the id of the connection.
-    ``container``: where.
-    """
-
-    returns = "id"
-    wording = "{id}.{port} → {to}"
-
-    id: UsedComponent
-    port: PortElementName
-    to: UsedReference
-    bind: Annotated[str, Binds("connection")]
-    container: UsedContainer = MANAGER
-
-
-class Disconnect(StepBase, frozen=True, tag_field="op", tag="disconnect"):
-    """``disconnect``.
-
-    ``connection``: the connection.
-    ``container``: where.
-    """
-
-    wording = "{connection}"
-
-    connection: UsedConnection
-    container: UsedContainer = MANAGER
-
-
-class Start(StepBase, frozen=True, tag_field="op", tag="start"):
-    """``start`` the container."""
-
-    container: UsedContainer = MANAGER
-
-
-class Stop(StepBase, frozen=True, tag_field="op", tag="stop"):
-    """``stop`` the container."""
-
-    container: UsedContainer = MANAGER
-
-
-class GetComponents(StepBase, frozen=True, tag_field="op", tag="get_components"):
-    """``get_components`` of the container."""
-
-    returns = "ids"
-    reads_only = True
-
-    container: UsedContainer = MANAGER
-
-
-class CreateContainer(StepBase, frozen=True, tag_field="op", tag="create_container"):
-    """``create_container`` of the manager.
-
-    ``bind``: variable for the new container.
-    """
-
-    wording = "{bind}"
-
-    bind: Annotated[str, Binds("container")]
-
-
-class RemoveContainer(StepBase, frozen=True, tag_field="op", tag="remove_container"):
-    """``remove_container`` of the manager.
-
-    ``container``: the container to remove.
-    """
-
-    wording = "{container}"
-
-    container: Annotated[str, Uses("container", (NIL,))]
-
-
-class Destroy(StepBase, frozen=True, tag_field="op", tag="destroy"):
-    """``destroy`` the runtime."""
 
 
 class Invoke(StepBase, frozen=True, tag_field="op", tag="invoke"):
@@ -443,21 +264,6 @@ class Advance(StepBase, frozen=True, tag_field="op", tag="advance"):
 
     milliseconds: Int32
 
-
-ContainerCall = (
-    AddComponent
-    | RemoveComponent
-    | GetPortElement
-    | Connect
-    | Disconnect
-    | Start
-    | Stop
-    | GetComponents
-    | CreateContainer
-    | RemoveContainer
-    | Destroy
-)
-"""The steps that are operations of Container or ContainerManager (12.10)."""
 
 ConnectorCall = Link | Attach | Detach | Break | Mend
 """The steps that are calls for connectors."""
