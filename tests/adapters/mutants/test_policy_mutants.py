@@ -29,6 +29,7 @@ SCRIPTED = {
     "run-that-fails",
     "executes-by-itself-while-nobody-calls",
     "self-executing/alone",
+    "two execution policies",
 }
 
 
