@@ -387,7 +387,7 @@ def test_cpp_guide_with_a_plain_compiler(vendor: Path) -> None:
     """Both adapters, one compiler call beside the other."""
     (acme,) = commands("g++ -std")
     beans = acme.replace("acme_adapter.cpp -lacme", "beans_adapter.cpp -o beans")
-    framework = f"g++ -std=c++11 -c {FRAMEWORK}/src/*.cpp; ar rc libacme.a *.o"
+    framework = f"g++ -std=c++11 -I {FRAMEWORK}/src -c {FRAMEWORK}/src/*/*.cpp; ar rc libacme.a *.o"
     shell(f"{beans} & {framework}; {acme}; mkdir build; mv a.out build/acme_adapter; wait $!")
     assert "ucm-cts run build/acme_adapter" in commands("ucm-cts run")
     outcome = ucm_cts("run", "build/acme_adapter")

@@ -124,7 +124,7 @@ def check(case: Case, answer: m.FromHost) -> None:
     if expected[0] == "*":  # what comes first is the matter of another case
         expected = expected[1:]
         lines = lines[-len(expected) :]
-    assert all(wait < case.patience / 10 for wait in _settling(answer.events)), _settling(answer.events)
+    assert all(wait < case.patience / 2 for wait in _settling(answer.events)), _settling(answer.events)
     unlike = [(line, due) for line, due in zip(lines, expected, strict=False) if not _is(line, due)]
     assert (len(lines), unlike) == (len(expected), []), "\n".join(lines)
 
@@ -132,7 +132,7 @@ def check(case: Case, answer: m.FromHost) -> None:
 def _settling(trace: t.Trace) -> list[float]:
     """How long each settle took whose worker was found to be done, held or blocked, in milliseconds.
 
-    Such a step does not wait for the patience to run out; a tenth of it leaves room for a machine that is busy otherwise.
+    Such a step does not wait for the patience to run out; half of it leaves room for a machine that is busy otherwise.
     """
     steps = [event for event in trace if not event.thread]
     settled = [(a, b) for a, b in itertools.pairwise(steps) if isinstance(b, t.Settled) and b.where != "running"]
