@@ -1,1 +1,1 @@
-"""How it is checked: driver, host processes, judge, evidence, reports, command line, pytest plugin."""
+"""The harness: driver, host processes, monitor, evidence, reports, command line, pytest plugin."""

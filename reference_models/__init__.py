@@ -1,1 +1,1 @@
-"""Executable reference models. Pure: no I/O, no thread, no clock; imports the event vocabulary only."""
+"""Executable reference models. Pure: no I/O, no thread, no clock; imports only the adapter contract."""

@@ -50,7 +50,7 @@ class Names:
 
 @dataclass(frozen=True)
 class Lasts:
-    """The field is how many milliseconds the step takes: at most so many ``times``, and ``at_least`` so many."""
+    """The field is a number of milliseconds; the step takes at least ``at_least`` times and at most ``times`` times as long."""
 
     times: int = 1
     at_least: int = 1

@@ -1,5 +1,6 @@
-"""Other ways to test a framework: hypothesis' state machine, and a parametrised pytest test, both calling the C++
-reference framework directly.
+"""Other ways to test a framework: hypothesis' state machine, and a parametrised pytest test.
+
+Both call the C++ reference framework directly.
 """
 
 from __future__ import annotations

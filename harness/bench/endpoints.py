@@ -42,7 +42,7 @@ BATCH = 400
 DIRECT = "pybind11, in process"
 TRACED = "pybind11, in process, with trace"
 PIPELINED = "wire, pipelined"
-JUDGED = "wire, pipelined, with judge"
+JUDGED = "wire, pipelined, with monitor"
 STATE_MACHINE = "hypothesis' RuleBasedStateMachine, in process"
 PARAMETRISED = "one parametrised pytest test a case, in process"
 
@@ -89,13 +89,13 @@ def tables() -> Iterator[Table]:
         cases["direct C++ loop"] = lambda: float(module.life_cycles(BATCH * 10)) / 1000
         cases[DIRECT] = lambda: timed(lambda: _direct(module), BATCH)
         cases[TRACED] = lambda: timed(lambda: _traced(module.answer), BATCH)
-        cases["pybind11, in process, with trace and judge"] = lambda: timed(lambda: _judged(module.answer), BATCH)
+        cases["pybind11, in process, with trace and monitor"] = lambda: timed(lambda: _judged(module.answer), BATCH)
         cases["raw pipe, as many bytes as the trace has"] = lambda: timed(pipe, BATCH)
         cases["wire, one at a time"] = lambda: timed(lambda: _wire(hosts, 1, False), 1, BATCH)
-        cases["wire, one at a time, with judge"] = lambda: timed(lambda: _wire(hosts, 1, True), 1, BATCH)
+        cases["wire, one at a time, with monitor"] = lambda: timed(lambda: _wire(hosts, 1, True), 1, BATCH)
         cases[PIPELINED] = lambda: timed(lambda: _wire(hosts, 32, False), 1, BATCH)
         cases[JUDGED] = lambda: timed(lambda: _wire(hosts, 32, True), 1, BATCH)
-        cases["wire, pipelined, with judge, Python framework"] = lambda: timed(
+        cases["wire, pipelined, with monitor, Python framework"] = lambda: timed(
             lambda: _wire(python, 32, True), 1, BATCH
         )
         costs = medians(cases)

@@ -134,8 +134,8 @@ def of_the_suite(profile: str) -> Costs:
 
 def table(rows: Iterable[Costs]) -> Table:
     """The costs side by side; the aim is for the long life."""
-    heads = "|reading bytes|json|msgspec|possible?|judge|× msgspec|limit|events/s|MB"
-    shown = empty_table("Judging, ns an event", heads)
+    heads = "|reading bytes|json|msgspec|integrity check|properties|× msgspec|limit|events/s|MB"
+    shown = empty_table("Checking, ns an event", heads)
     for row in rows:
         ratio = row.judging / row.decoding
         shown.add_row(

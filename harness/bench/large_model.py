@@ -1,5 +1,6 @@
-"""A legal model of any size, with a mix of elements as in real architectures: contracts, component types and implementations with
-policies, composites with connections, over the core models.
+"""A legal model of any size, with a mix of elements as in real architectures.
+
+It has contracts, component types and implementations with policies, composites with connections, over the core models.
 """
 
 from __future__ import annotations

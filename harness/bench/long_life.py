@@ -1,5 +1,6 @@
-"""One scenario with a life of any length: two components are connected, started, called, stopped and disconnected, again
-and again. The events are those of the Python reference framework, repeated for each round.
+"""One scenario with a life of any length.
+
+Two components are connected, started, called, stopped and disconnected, again and again. The events are those of the Python reference framework, repeated for each round.
 """
 
 from __future__ import annotations

@@ -1,5 +1,6 @@
-"""Measures reading and checking a large model, beside parsing it with lxml: ``python -m
-ucm_cts.harness.bench.models``. Each way runs in a process of its own, which has its own memory.
+"""Measures reading and checking a large model, beside parsing it with lxml.
+
+The command is ``python -m ucm_cts.harness.bench.models``. Each way runs in a process of its own, which has its own memory.
 """
 
 from __future__ import annotations

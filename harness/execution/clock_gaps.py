@@ -1,5 +1,6 @@
-"""Clock gaps: moments at which this machine, or this process, stood still. A finding that depends on time gives no verdict
-if a gap may have caused it.
+"""Clock gaps: moments at which this machine, or this process, stood still.
+
+A finding that depends on time gives no verdict if a gap may have caused it.
 
 A thread beside the run sleeps for a short while, again and again, and measures how long that took. Events of traces have
 times of the same monotonic clock as long as the host runs on this machine; gaps of another machine are not known.

@@ -1,5 +1,6 @@
-"""Runs a scenario again to confirm what it showed. A failure, or a pass that depends on time, that another run does not show
-again is unstable and gives no verdict.
+"""Runs a scenario again to confirm what it showed.
+
+A failure, or a pass that depends on time, that another run does not show again is unstable and gives no verdict.
 
 A finding of a timed property is confirmed if the same scenario shows it again with more patience while the machine did not
 stand still. Any other finding is confirmed if one of a few further runs, in other circumstances, shows it again.

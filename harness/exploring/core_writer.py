@@ -1,5 +1,4 @@
-"""Random scenarios of 10.1: components with policies, joined by both connectors, started, called, stopped, taken apart; with
-clocks and traces, and with transports that break.
+"""Random scenarios of 10.1: components with policies and both connectors, clocks, traces and broken transports.
 
 One thread operates containers and calls components. Scenarios wait for messages that are certain to come; where a component is
 stopped or detached meanwhile, messages may be lost, and scenarios wait for no further ones.
@@ -68,7 +67,7 @@ class CoreWriter:
         for kind in self.choose((("service",), ("numbers",), ("service", "numbers"), ("numbers", "numbers"))):
             line = f"line {len(self.lines) + 1}"
             self.lines[line] = kind
-            for name in self.cast(kind):
+            for name in self.configure(kind):
                 self.ends[name] = line
         self.set_up()
         for _ in range(self.choose((3, 5, 8, 12))):
@@ -81,8 +80,8 @@ class CoreWriter:
         used = {name: _INTERFACES[name] for name in dict.fromkeys(self.lines.values())}
         return Scenario(self.components, tuple(self.steps), interfaces=used)
 
-    def cast(self, kind: str) -> list[str]:
-        """Components that serve or receive, then components that call or push."""
+    def configure(self, kind: str) -> list[str]:
+        """Declare components that serve or receive, then components that call or push; return their names."""
         names = []
         serving, calling = c.PROVIDER[_CONNECTORS[kind]], c.REQUIRER[_CONNECTORS[kind]]
         for role, most in ((serving, 1 if kind == "service" else 2), (calling, 3)):

@@ -1,4 +1,4 @@
-"""Counts how often native mutants are killed: ``python -m ucm_cts.harness.selftest.native --runs 20``
+"""Counts how often native mutants are killed: ``python -m ucm_cts.harness.selftest.native --runs 20``.
 
 Their defects depend on chance, so each is run several times, with another seed each time.
 """

@@ -27,9 +27,6 @@ from ucm_cts.reference_models.properties.table import PROPERTIES
 
 Result = MutantResult | VariantResult | CheatResult
 
-ALL_CHECKS = PROPERTIES.keys() | CHECKS.keys()
-"""Rules, which watch traces, and checks of core models."""
-
 
 @dataclass
 class SelfTest:
@@ -107,8 +104,9 @@ def _by_name(result: Result) -> str:
 
 
 def testable() -> tuple[str, ...]:
-    """The requirements that rules stand for and that can be broken: nothing breaks a permission."""
-    return tuple(r.id for r in load_requirements() if r.level != "may" and any(rule in ALL_CHECKS for rule in r.rules))
+    """The requirements that a property or a check of core models verifies, without permissions: nothing breaks those."""
+    checks = PROPERTIES.keys() | CHECKS.keys()
+    return tuple(r.id for r in load_requirements() if r.level != "may" and any(rule in checks for rule in r.rules))
 
 
 def _examine(subject: Subject | ToolChainSubject | str, how: Thoroughness) -> Result:

@@ -49,7 +49,7 @@ def all_subjects() -> Mapping[str, ToolChainSubject]:
 
 
 def testable_of_toolchains() -> tuple[str, ...]:
-    """The requirements of tool chains that rules stand for and that can be broken."""
+    """The requirements of tool chains that have a check, without permissions: nothing breaks those."""
     parts = {part for profile in TOOLCHAIN_PROFILES for part in PARTS[profile]}
     return tuple(r.id for r in load_requirements() if r.profile in parts and r.rules and r.level != "may")
 

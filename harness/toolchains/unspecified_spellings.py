@@ -1,5 +1,7 @@
-"""Constructs of clause 9 whose XML spelling the specification does not print. A tool chain that accepts no model with such a
-construct is not failed for the spelling of the suite, which uses the name of the class or field.
+"""Constructs of clause 9 whose XML spelling the specification does not print.
+
+A tool chain that accepts no model with such a construct is not failed for the spelling of the suite, which uses the name of the
+class or field.
 
 A vendor whose dialect says how the construct is spelled is held to that; so is a vendor who declares support for native types or
 simple comments, because models with those go to no other vendor.

@@ -39,7 +39,7 @@ EXCLUSIONS = (_RUNS_APART, *CALL_EXCLUSIONS)
 
 _ACTIVE_CALLS = ("R-10.1.3.2-07", "R-10.1.3.2-08")
 
-_PROMISES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
+_GUARANTEES: dict[str, tuple[str, ...]] = {"passive": ("R-10.1.3.2-15",), "unprotected": ("R-10.1.3.2-21",)}
 
 
 Caller = Literal["test", "body", "framework"]
@@ -300,15 +300,15 @@ def is_contradictory(declaration: Declaration) -> bool:
     return len({p.definition for p in applied}) > 1 or sum(p.port is None for p in applied) > 1
 
 
-def calls_promised(declaration: Declaration, port: str) -> tuple[str, ...]:
-    """The requirements by which an execution policy promises that calls of ``port`` are carried out."""
+def call_guarantees(declaration: Declaration, port: str) -> tuple[str, ...]:
+    """The requirements by which an execution policy guarantees that calls of ``port`` are carried out."""
     if not declaration.policies:
         return ()
     protection = protection_of(declaration)
     managed = managed_ports(declaration)
     if protection == "active" and port in managed:
         return _ACTIVE_CALLS[::-1] if len(managed) == 1 else _ACTIVE_CALLS
-    return _PROMISES.get(protection, ())
+    return _GUARANTEES.get(protection, ())
 
 
 def goals_of(runtime: Runtime, call: BusinessCall) -> list[tuple[Member, str]]:

@@ -266,7 +266,7 @@ class Interactions:
         same = [c for c in candidates if c.request.arguments == event.arguments]
         undelivered = [c for c in same if not c.delivered_to(receiver, event.port)]
         if undelivered:
-            return min(undelivered, key=lambda call: self._doubt(call, receiver)), "same"
+            return min(undelivered, key=lambda call: self._reasons_against(call, receiver)), "same"
         mistaken = [d for c in same for d in c.delivered_to(receiver, event.port) if d.fit == "altered"]
         if mistaken and is_message:
             return self._give_back(mistaken[0], candidates), "same"
@@ -286,7 +286,7 @@ class Interactions:
         method = interface.methods.get(event.method or "") if interface is not None else None
         return method is not None and all(isinstance(p.of, Boolean | Enumeration) for p in method.arguments)
 
-    def _doubt(self, call: MethodCall, receiver: Member | None) -> tuple[bool, bool, bool]:
+    def _reasons_against(self, call: MethodCall, receiver: Member | None) -> tuple[bool, bool, bool]:
         """Reasons against a message's delivery: a phase that is over, a broken link, another code than ok."""
         body = receiver.body if receiver is not None else ("", 0)
         since = self._runtime.startups.get(body, (0, 0))[0]

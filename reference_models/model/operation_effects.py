@@ -23,7 +23,7 @@ def apply(runtime: Runtime, ongoing: OperationInProgress, end: Result) -> None:
             member = runtime.bodies.get((component, instance or 0))
             if member is None:
                 continue
-            if ongoing.operation in ("remove_component", "remove_container") and _in_doubt(member):
+            if ongoing.operation in ("remove_component", "remove_container") and _has_uncertain_connection(member):
                 member.suspended = True
             if member.suspended:
                 _follow(ongoing, member)
@@ -76,7 +76,7 @@ def _added(runtime: Runtime, ongoing: OperationInProgress, step: s.AddComponent,
     twins = [m for m in twins if not m.gone]
     for unsure in (member, *twins) if twins or declaration is None else ():
         unsure.suspended = True
-        unsure.doubt()
+        unsure.mark_doubtful()
     runtime.enrol(member)
     if ongoing.received(member, "on_startup"):
         member.operational = True
@@ -220,7 +220,7 @@ def _perhaps_removed(runtime: Runtime, members: Sequence[Member]) -> None:
             connection.live = None
     for member in members:
         member.suspended = member.leaving = True
-        member.doubt()
+        member.mark_doubtful()
         for connection in member.live_connections():
             connection.live = None
 
@@ -342,7 +342,7 @@ def _reached_unseen(runtime: Runtime, container: Container) -> None:
                 other.started = None
 
 
-def _in_doubt(member: Member) -> bool:
+def _has_uncertain_connection(member: Member) -> bool:
     """May its callbacks be of a connection of which it is open whether it stood?"""
     return not member.gone and any(c.live is None for c in member.connections)
 

@@ -104,7 +104,7 @@ class Member:
         self.gone = True
         self.container.changed()
 
-    def doubt(self) -> None:
+    def mark_doubtful(self) -> None:
         """It is open whether it still is a member."""
         self.doubtful = self.container.of_doubt = True
 

@@ -59,7 +59,7 @@ def refused_without_receivers(check: Property, runtime: ObservedRuntime, ongoing
         declared = runtime.ics.reading("push-without-receiver")
         yield check.fail(
             "refused",
-            expected=f"push-without-receiver was declared as {declared}: who has nobody to push to is started",
+            expected=f"start succeeds without a receiver, because push-without-receiver was declared as {declared}",
             observed=f"start raised {ongoing.end.error}",
             ended=ongoing,
         )
@@ -138,7 +138,7 @@ def ok_kept(check: Property, runtime: ObservedRuntime, timeout: Timeout) -> Conc
         if call.code == msg.OK and not call.deliveries and not msg.is_disturbed(runtime, call):
             names = ", ".join(sorted(end.member.lane for end in missing))
             expected = f"was answered ok and comes to {names}"
-            yield _violate(check, call, expected, "lost", "it came to nobody", timeout.n)
+            yield _violate(check, call, expected, "lost", "it came to no receiver", timeout.n)
 
 
 @property_at("completed", _OK_IS_TRUE)

@@ -153,13 +153,13 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
     member, port = call.callee, call.port
     if member is None or port is None or not call.possible or not member.serving or member.raises("exchange"):
         return
-    promised = ex.calls_promised(member.declaration, port)
+    guaranteed = ex.call_guarantees(member.declaration, port)
     own = [(e, x) for e, x in call.entries if e.body == member.body]
-    if not promised or (call.waited and not own):  # a call that waits in vain is the matter of waiting_calls_served
+    if not guaranteed or (call.waited and not own):  # a call that waits in vain is the matter of waiting_calls_served
         return
     right = [x for e, x in own if e.port == port and e.value == call.value and x is not None]
     if len(own) == len(right) == 1 and isinstance(end, Return) and end.value == right[0].value:
-        for requirement in promised:
+        for requirement in guaranteed:
             yield check.kept(requirement)
         return
     entered = ", ".join(f"{e.port} with {e.value}" for e, _ in own) or "nothing"
@@ -169,7 +169,7 @@ def calls_carried_out(check: Property, runtime: ObservedRuntime, call: ex.Busine
         expected=f"exchange({call.value}) through {port} executes '{member.lane}' there, once, and brings back its result",
         observed=f"it executed {entered}, and brought back {came_back}",
         at=(call.n, end.n),
-        requirement=promised[0],
+        requirement=guaranteed[0],
     )
 
 
@@ -187,7 +187,7 @@ def no_self_execution(
     return check.fail(
         "no caller",
         expected=f"'{member.lane}' is executed because it is called",
-        observed=f"its {event.port} was entered with {event.value}, and nobody had called",
+        observed=f"its {event.port} was entered with {event.value} without a call",
         at=(event.n,),
         requirement=requirement,
     )

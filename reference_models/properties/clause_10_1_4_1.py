@@ -62,7 +62,7 @@ def time_range(check: Property, runtime: ObservedRuntime, call: MethodCall) -> C
     return check.fail(
         f"negative {part}" if value < 0 else f"too many {part}",
         expected=f"seconds from 0 to {_LARGEST_SECONDS}, microseconds from 0 to {_LARGEST_MICROSECONDS}",
-        observed=f"{call.request.method} told {seconds} s and {microseconds} µs",
+        observed=f"{call.request.method} gave {seconds} s and {microseconds} µs",
         at=(call.request.n, call.reply.n),
     )
 
@@ -178,7 +178,7 @@ def local_time_epoch(check: Property, runtime: ObservedRuntime) -> Conclusions:
         yield check.fail(
             "not unix",
             expected=f"local time is the calendar's, about {calendar[0] // clocks.SECOND} s, as declared",
-            observed=f"'{_who(reading)}' was told {reading.time // clocks.SECOND} s",
+            observed=f"'{_who(reading)}' read {reading.time // clocks.SECOND} s",
             at=(reading.begin, reading.end),
         )
         return
@@ -208,9 +208,9 @@ def _went_back(check: Property, earlier: clocks.ClockReading, later: clocks.Cloc
     back = _milliseconds(-clocks.passed(earlier.time, later.time))
     return check.fail(
         "one component" if earlier.body == later.body else "two components",
-        expected=f"'{_who(later)}' is told no earlier time than '{_who(earlier)}' before it"
+        expected=f"'{_who(later)}' reads no earlier time than '{_who(earlier)}' before it"
         + (f", give or take {tolerance:g} ms" if tolerance else ""),
-        observed=f"it was told one that is {back} ms earlier",
+        observed=f"it read one that is {back} ms earlier",
         at=(earlier.begin, earlier.end, later.begin, later.end),
     )
 

@@ -51,7 +51,7 @@ def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
             continue
         requirement = _INDEPENDENCE if disturbed and not refused else _RECEIVERS
         got = ", ".join(sorted({d.receiver.lane for d in call.deliveries if d.receiver is not None}))
-        yield _missing(check, requirement, call, missing, f"it came to {got or 'nobody'}", timeout)
+        yield _missing(check, requirement, call, missing, f"it came to {got or 'no receiver'}", timeout)
 
 
 @property_at("waited", _INDEPENDENCE, timed=True)
@@ -130,7 +130,7 @@ def message_origin(check: Property, runtime: ObservedRuntime) -> Conclusions:
             yield check.kept()
             continue
         elsewhere = [c for c in msg.messages(runtime) if c.request.arguments == enter.arguments and c.link is not link]
-        what = "which was pushed through another connection" if elsewhere else "which nobody had pushed"
+        what = "which was pushed through another connection" if elsewhere else "which no emitter had pushed"
         yield check.fail(
             "another connection" if elsewhere else "invented",
             expected=f"{receiver.lane} gets what emitters of its connection pushed, and nothing else",

@@ -173,7 +173,7 @@ def nothing_outside_life(check: Property, runtime: ObservedRuntime, callback: Ca
     who = lane(*event.body)
     finding = check.fail(
         f"{event.hook} {when}",
-        expected=f"{who} hears nothing {when}",
+        expected=f"{who} receives no callback {when}",
         observed=f"{who} received {event.hook}",
         during=(ongoing, event),
     )

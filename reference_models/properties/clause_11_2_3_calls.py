@@ -6,7 +6,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, calls_promised
+from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, call_guarantees
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
 from ucm_cts.reference_models.model.runtime import Member, lane
@@ -22,7 +22,7 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
     member, port = call.callee, call.port
     if member is None or not call.possible or not member.serving or member.raises("exchange"):
         return
-    if port is not None and calls_promised(member.declaration, port):
+    if port is not None and call_guarantees(member.declaration, port):
         return  # its execution policy's matter
     component, instance = member.body
     own = call.entries

@@ -1,5 +1,6 @@
-"""Properties about what the vendor states: what is claimed is there, and where the text leaves a choice, the framework does
-what its vendor declares.
+"""Properties about the vendor's statement.
+
+A part that the vendor claims exists. Where the text leaves a choice, the framework does what the vendor declares.
 """
 
 from __future__ import annotations
@@ -37,11 +38,11 @@ def declared_choices(check: Property, runtime: ObservedRuntime, ongoing: Operati
 
 def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Conclusions:
     fitted = ongoing.outcome.fitted
-    telling = _choices(ongoing, ongoing.end, fitted)
-    for _, _, fit in telling:
+    certain = _choices(ongoing, ongoing.end, fitted)
+    for _, _, fit in certain:
         if len(fit.readings) == 1:
             yield Taken(*fit.readings[0].split("=", 1))
-    undeclared = undeclared_choice(runtime.ics, ongoing, ongoing.end, telling)
+    undeclared = undeclared_choice(runtime.ics, ongoing, ongoing.end, certain)
     if undeclared is None:
         return
     member, row, fit = undeclared
@@ -58,20 +59,20 @@ def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgr
 
 def _choices(ongoing: OperationInProgress, end: Result, fitted: Sequence[Fitted]) -> list[Fitted]:
     """The instances of which it is certain that they went one of several ways; none if others may be the reason."""
-    telling = [one for one in fitted if one[2].readings and _is_choice(ongoing, end, *one)]
-    return telling if len(telling) == len(ongoing.roles) or not _is_common(end, telling) else []
+    certain = [one for one in fitted if one[2].readings and _is_choice(ongoing, end, *one)]
+    return certain if len(certain) == len(ongoing.roles) or not _is_common(end, certain) else []
 
 
-def _is_common(end: Result, telling: Sequence[Fitted]) -> bool:
+def _is_common(end: Result, certain: Sequence[Fitted]) -> bool:
     """Is it one choice for all instances of the operation?"""
-    return isinstance(end, Raise) or any(_options(fit)[0] in _OF_ALL_AT_ONCE for _, _, fit in telling)
+    return isinstance(end, Raise) or any(_options(fit)[0] in _OF_ALL_AT_ONCE for _, _, fit in certain)
 
 
 def undeclared_choice(ics: Ics, ongoing: OperationInProgress, end: Result, fitted: Sequence[Fitted]) -> Fitted | None:
     """The first instance that went a way which the vendor has ruled out; None if there is none."""
-    telling = _choices(ongoing, end, fitted)
-    undeclared = [one for one in telling if not any(ics.permits(*reading.split("=", 1)) for reading in one[2].readings)]
-    return undeclared[0] if undeclared and (len(undeclared) == len(telling) or not _is_common(end, telling)) else None
+    certain = _choices(ongoing, end, fitted)
+    undeclared = [one for one in certain if not any(ics.permits(*reading.split("=", 1)) for reading in one[2].readings)]
+    return undeclared[0] if undeclared and (len(undeclared) == len(certain) or not _is_common(end, certain)) else None
 
 
 def _is_choice(ongoing: OperationInProgress, end: Result, member: Member | None, row: Row, fit: Fit) -> bool:

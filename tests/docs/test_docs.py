@@ -144,7 +144,7 @@ def test_named_things_exist(page: Path) -> None:
 
 def test_every_module_has_a_purpose() -> None:
     lines = shell(f"{shlex.quote(sys.executable)} {ROOT}/docs/modules.py").splitlines()
-    assert [line for line in lines if len(line.split()) < 2] == []
+    assert [line for line in lines if len(line.split()) < 3 or not line.endswith(".")] == []
     assert any(line.startswith("harness/results/tally.py ") for line in lines)
 
 

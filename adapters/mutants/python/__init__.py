@@ -1,7 +1,6 @@
-"""Frameworks derived from the Python reference framework: ``MUTANTS`` are wrong, ``VARIANTS`` conformant,
-and ``CHEATS`` are adapters that hide what is wrong.
+"""Wrong and conformant frameworks that are derived from the Python reference framework.
 
-Each changes a few lines of the reference framework; the docstring names the defect, or the freedom that it uses.
+``MUTANTS`` are wrong, ``VARIANTS`` are conformant, and ``CHEATS`` are adapters that hide defects. Each changes a few lines of the reference framework; the docstring names the defect, or the freedom that it uses.
 Every module of this package registers its own. ``ucm_cts.adapters.mutants.python:NAME`` names the adapter of one.
 """
 

@@ -1,7 +1,6 @@
-"""Mutants and variants that differ from the reference framework in one method, each a function of the place where it belongs:
-the type of its first parameter is the class whose method it changes (the container, a ``Link`` or a ``Proxy``).
+"""Mutants and variants that differ from the reference framework in one method, each a function.
 
-With requirements the function becomes a mutant that breaks them, without any a conformant variant.
+The type of its first parameter is the class whose method it changes (the container, a ``Link`` or a ``Proxy``). With requirements the function becomes a mutant that breaks them, without any a conformant variant.
 """
 
 from __future__ import annotations

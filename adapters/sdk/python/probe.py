@@ -20,7 +20,7 @@ from ucm_cts.adapters.sdk.python.seal import Kept, KeptClass
 
 
 def is_integer(value: object) -> bool:
-    """Can the wire carry it? Whether it has 32 bits is the judge's matter."""
+    """Can the wire carry it? The monitor checks whether it has 32 bits."""
     return isinstance(value, int) and -(2**63) <= value < 2**63
 
 

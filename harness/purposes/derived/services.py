@@ -1,5 +1,6 @@
-"""Scenarios of services: parameters in all directions, clients in all small numbers and places, one by one and at once, and
-calls that are undone or stopped while they are carried out (10.1.5).
+"""Scenarios of services (10.1.5): all directions of parameters, small numbers of clients, and calls that are interrupted.
+
+Clients call from all places, one by one and at once; calls are undone or stopped while they are carried out.
 
 A client calls when the test calls it. Its server answers with the argument, so that every answer shows which call it belongs to.
 """

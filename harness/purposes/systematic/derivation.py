@@ -22,7 +22,7 @@ State = tuple[object, ...]
 def derive(table: LifeCycleTable, setting: Setting, readings: Mapping[str, str]) -> Machine:
     """The machine of ``setting`` for a vendor who declares ``readings``.
 
-    An input is defined in a state if the judge judges it there, and all ways in which it may go lead to one known state.
+    An input is defined in a state if the monitor gives a verdict on it there, and all its permitted ways lead to one known state.
     Where an operation may fail half-way and leave an unknown state, that is permitted, and the machine goes on
     as if it had not been so.
     """
@@ -71,7 +71,7 @@ class _Derivation:
             if not self.permission.permits(now.runtime, ongoing, way):
                 continue
             if ongoing.forgiving and way.answer == "UCM_ERROR":
-                return None  # perhaps for a reason that the table does not know: the judge loses track
+                return None  # perhaps for a reason that the table does not know: the monitor loses track
             if _changes_nothing(given.step, way):
                 reached.setdefault(state, (now, way))
                 continue

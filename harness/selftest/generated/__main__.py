@@ -49,14 +49,9 @@ def main() -> None:
 @limit_option
 @part_option
 @again_option
-@click.option(
-    "--quick-only",
-    "--glance-only",
-    "quick_only",
-    is_flag=True,
-    help="Leave out mutants that only the whole pipeline decides.",
-)
-def python(results: Path, limit: int | None, part: str, again: str, quick_only: bool) -> None:
+@click.option("--quick-only", is_flag=True, help="Leave out mutants that only the whole pipeline decides.")
+@click.option("--glance-only", is_flag=True, hidden=True)  # the former name of --quick-only
+def python(results: Path, limit: int | None, part: str, again: str, quick_only: bool, glance_only: bool) -> None:
     """Mutants of the Python reference framework."""
     candidates, census = python_programs.candidates()
     _print(f"{len(candidates)} mutants to run; {dict(census)}")
@@ -71,7 +66,7 @@ def python(results: Path, limit: int | None, part: str, again: str, quick_only: 
         known[mutant.digest] = trial.outcome or Outcome("open", trial.suspect)
         append(results, mutant, known[mutant.digest])
     reasons = read_equivalents(python_programs.EQUIVALENTS)
-    for mutant in [] if quick_only else drawn:
+    for mutant in [] if quick_only or glance_only else drawn:
         outcome = known[mutant.digest]
         if outcome.fate == "open" and mutant.key not in reasons:
             with python_programs.python_endpoint(mutant) as endpoint:

@@ -1,5 +1,6 @@
-"""Properties of reading any input, and a command that tests them for a given time:
-``python -m ucm_cts.harness.toolchains.fuzzing --seconds 3600``.
+"""Properties of reading any input, and a command that tests them for a given time.
+
+The command is ``python -m ucm_cts.harness.toolchains.corpus.fuzzing --seconds 3600``.
 """
 
 from __future__ import annotations

@@ -155,11 +155,11 @@ class _Tree:
         if missing:
             return Answer(one.number, missing)
         try:
-            return Answer(one.number, "", tuple(self._look(one, place)))
+            return Answer(one.number, "", tuple(self._examine(one, place)))
         except NotThere as error:
             return Answer(one.number, str(error))
 
-    def _look(self, one: Question, place: Any) -> Iterator[Found]:
+    def _examine(self, one: Question, place: Any) -> Iterator[Found]:
         """What is wrong. Raises ``NotThere``."""
         asked = next((c for c in place.get_children() if c.spelling == ASKED), None)
         if asked is None:

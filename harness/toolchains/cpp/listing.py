@@ -161,10 +161,10 @@ def _question(number: int, line: int, one: Expected, disguise: Disguise) -> Ques
 
 
 def _attempts(standard: str, headers: Headers, compiler: Compiler) -> tuple[tuple[str, ...], ...]:
-    """Options for libclang: first without its own name, if that is not the compiler's, so that headers tell both the same; with it
+    """Options for libclang: first without its own name, if that is not the compiler's, so that headers show both the same; with it
     only if it does not understand the system's headers otherwise.
     """
-    folders, macros = _told_by(standard, compiler)
+    folders, macros = _compiler_defaults(standard, compiler)
     options = (STANDARDS[standard], "-x", "c++", "-ferror-limit=0", "-w", *headers.options)
     options += tuple(word for folder in folders for word in ("-isystem", folder))
     if "__clang__" in macros:
@@ -175,8 +175,8 @@ def _attempts(standard: str, headers: Headers, compiler: Compiler) -> tuple[tupl
 _KNOWN: dict[tuple[tuple[str, ...], str], tuple[list[str], frozenset[str]]] = {}
 
 
-def _told_by(standard: str, compiler: Compiler) -> tuple[list[str], frozenset[str]]:
-    """Where the compiler looks for headers by itself, for libclang has no standard library of its own, and which macros are its own."""
+def _compiler_defaults(standard: str, compiler: Compiler) -> tuple[list[str], frozenset[str]]:
+    """The compiler's own header folders, because libclang has no standard library of its own, and the compiler's own macros."""
     key = (compiler.command, standard)
     if key not in _KNOWN:
         with tempfile.TemporaryDirectory(prefix="ucm-cts-cpp-") as folder:

@@ -34,7 +34,7 @@ def test_other_spellings_of_12_10(builds: Builds) -> None:
     trace = events(builds.program("spellings"), scenario)
     returned = {e.step: e.value for e in trace if isinstance(e, t.Return)}
     ids = (returned[0], returned[1])
-    assert ids == (2**40 + 1, 2**40 + 2), "ids come through as they are: that they are too wide is the judge's matter"
+    assert ids == (2**40 + 1, 2**40 + 2), "ids come through as they are: the monitor checks their width"
     assert [e.ids for e in trace if isinstance(e, t.Siblings)] == [ids]
     assert [e.value for e in trace if isinstance(e, t.Reply)] == [~4]
     assert [e.attributes for e in trace if isinstance(e, t.Enter) and e.hook == "on_init"] == [{}, {"a": "1"}]

@@ -123,7 +123,7 @@ def test_other_programs_and_none() -> None:
     assert python_programs.meaning(SOURCE.replace("if a:", "if a")) is None
 
 
-def test_a_glance_finds_out_a_mutant_and_spares_the_framework() -> None:
+def test_a_quick_trial_kills_a_mutant_and_passes_the_framework() -> None:
     statement = stated(python_programs.HOME / "ics.toml")
     purposes = select(tuple(ordered(statement, ("12.10",))), "R-11.2.2.1-07")[:5]
     quick_trials = QuickTrials(statement, purposes, 1)

@@ -1,5 +1,6 @@
-"""Sends traces of an earlier run again with new names, after as much time as they took. For unknown scenarios it runs a framework
-that stops in the wrong order.
+"""Sends traces of an earlier run again with new names, after as much time as they took.
+
+For unknown scenarios it runs a framework that stops in the wrong order.
 """
 
 from __future__ import annotations

@@ -20,7 +20,6 @@ from ucm_cts.adapters.reference.python.connectors import OK, Link, Taker
 from ucm_cts.adapters.reference.python.members import Member
 
 _MESSAGES = ("10.1.6",)
-_ALL = ("10.1.6", "10.1.2")
 
 # who gets messages
 

@@ -1,5 +1,6 @@
-"""The declarations that clause 12 prints, which all generated IDL includes: annotations (14), the container programming model
-(12.10) and the interfaces of standard policies (12.11).
+"""The declarations of clause 12 that all generated IDL includes.
+
+These are annotations (14), the container programming model (12.10) and the interfaces of standard policies (12.11).
 """
 
 from __future__ import annotations
@@ -86,53 +87,40 @@ def _operation(operation: Operation) -> str:
     return f"{head} {raises};" if len(head) + len(raises) < _WIDTH else f"{head}\n        {raises};"
 
 
-_BEFORE = """\
-#ifndef UCM_IDL
-#define UCM_IDL
-
-@annotation int8 {
-};
-@annotation uint8 {
-};
-@annotation MemoryFootprint {
-    unsigned long max;
-};
-@annotation IndexType {
-    string typeid;
-};
-@annotation DefaultValue {
-    string val;
-};
-
-struct Property {
-    string name;
-    string value;
-};
-typedef sequence<Property> Properties;
-typedef long componentId;
-typedef sequence<componentId> componentIds;
-typedef long connectionId;
-
-exception NOT_FOUND {
-};
-exception BAD_PARAMETER {
-};
-exception UCM_ERROR {
-};
-
-interface PortElementObject {
-};
-typedef sequence<PortElementObject> PortElementObjects;
-
-struct PortConnection {
-    string from_port;
-    PortElementObjects to_port;
-};
-typedef sequence<PortConnection> PortConnections;
-"""
-
 Declared = tuple[str, str, tuple[str, ...]]
 """A keyword, what follows it up to the body, and what stands in the body; a typedef has none."""
+
+
+def _sequence(element: str, name: str) -> Declared:
+    return "typedef", f"sequence<{element}> {name}", ()
+
+
+_STRING = "string {}".format
+_ANNOTATIONS = {
+    "int8": (),
+    "uint8": (),
+    "MemoryFootprint": ("unsigned long max",),
+    "IndexType": (_STRING("typeid"),),
+    "DefaultValue": (_STRING("val"),),
+}
+
+GROUPS: tuple[tuple[Declared, ...], ...] = (
+    tuple(("@annotation", name, members) for name, members in _ANNOTATIONS.items()),
+    (
+        ("struct", "Property", (_STRING("name"), _STRING("value"))),
+        _sequence("Property", "Properties"),
+        ("typedef", "long componentId", ()),
+        _sequence("componentId", "componentIds"),
+        ("typedef", "long connectionId", ()),
+    ),
+    tuple(("exception", name, ()) for name in (_NOT_FOUND, _BAD, _ERROR)),
+    (("interface", "PortElementObject", ()), _sequence("PortElementObject", "PortElementObjects")),
+    (
+        ("struct", "PortConnection", (_STRING("from_port"), "PortElementObjects to_port")),
+        _sequence("PortConnection", "PortConnections"),
+    ),
+)
+"""The annotations, and the types and exceptions of 12.10; an empty line stands between groups."""
 
 _PORT = " : ::PortElementObject"
 
@@ -197,10 +185,12 @@ def _policies() -> Iterator[str]:
 
 def _declaration(declared: Declared) -> str:
     keyword, head, body = declared
-    if not body:
+    if keyword == "typedef":
         return f"{keyword} {head};"
     members = ",\n".join(body) if keyword == "enum" else "\n".join(f"{member};" for member in body)
-    return f"{keyword} {head} {{\n{indent(members, ' ' * 4)}\n}};"
+    return "\n".join((f"{keyword} {head} {{", *indent(members, " " * 4).splitlines(), "};"))
 
 
-STANDARD = "\n".join((_BEFORE, *_interfaces(), *_policies(), "#endif\n"))
+_TYPES = ("\n".join(map(_declaration, group)) + "\n" for group in GROUPS)
+
+STANDARD = "\n".join(("#ifndef UCM_IDL\n#define UCM_IDL\n", *_TYPES, *_interfaces(), *_policies(), "#endif\n"))

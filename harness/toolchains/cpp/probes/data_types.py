@@ -62,13 +62,13 @@ def _bounded_sequence(claim: claims.BoundedSequence) -> Text:
     says = f"{name} is {words(shapes[form] for form in claim.forms)}"
     if claim.forms == ("array",):
         return Text(says, one_of(name, [array]))
-    vector = "template <class S> struct vector_like {{ static void look() {{ {} }} }};".format(
+    vector = "template <class S> struct vector_like {{ static void check() {{ {} }} }};".format(
         f'::ucts::require(!::ucts::same<S, ::std::vector< {element} > >::value, "it is a plain vector, which has no bound");'
         f" ::ucts::bounded<S, {element} >({claim.element.first}, {size});"
     )
     if "array" in claim.forms:
-        vector += f" template <> struct vector_like< {array} > {{ static void look() {{}} }};"
-    return Text(says, vector, f"vector_like<{name}>::look();")
+        vector += f" template <> struct vector_like< {array} > {{ static void check() {{}} }};"
+    return Text(says, vector, f"vector_like<{name}>::check();")
 
 
 def _same(sample: Sample, read: str, value: str, message: str) -> str:
@@ -76,12 +76,12 @@ def _same(sample: Sample, read: str, value: str, message: str) -> str:
 
 
 def _dispatch(
-    field: str, sample: Sample, forms: tuple[claims.StructForm, ...], look: dict[str, str]
+    field: str, sample: Sample, forms: tuple[claims.StructForm, ...], bodies: dict[str, str]
 ) -> tuple[str, str]:
-    """Declares ``look_at``, which does what ``look`` says for the form that the field has."""
+    """Declares ``use_field``; ``bodies`` has its statements for each form of a field."""
     if len(forms) == 1:
         return (
-            f"template <class T, class V> void look_at(T& object, const V& value) {{ {look[forms[0]]} }}",
+            f"template <class T, class V> void use_field(T& object, const V& value) {{ {bodies[forms[0]]} }}",
             "object, value",
         )
     return (
@@ -89,8 +89,8 @@ def _dispatch(
         f" template <class T> ::ucts::yes_type form(char (*)[sizeof((::ucts::make<T>().{field}("
         f"::ucts::make<const {sample.type}>()), 0))]);"
         " template <class T> ::ucts::no_type form(...);"
-        f" template <class T, class V> void look_at(T& object, const V& value, by_call) {{ {look['accessors']} }}"
-        f" template <class T, class V> void look_at(T& object, const V& value, by_name) {{ {look['plain']} }}"
+        f" template <class T, class V> void use_field(T& object, const V& value, by_call) {{ {bodies['accessors']} }}"
+        f" template <class T, class V> void use_field(T& object, const V& value, by_name) {{ {bodies['plain']} }}"
     ), "object, value, chosen()"
 
 
@@ -104,22 +104,22 @@ def _chosen(owner: str, forms: tuple[claims.StructForm, ...]) -> str:
 
 def _field(claim: claims.Field) -> Text:
     owner, field, sample = claim.owner, claim.field, claim.sample
-    look = {}
+    bodies = {}
     for form, write, read in (
         ("accessors", f"object.{field}(value);", f"object.{field}()"),
         ("plain", f"object.{field} = value;", f"object.{field}"),
     ):
         exact = f"typedef typename ::ucts::one_of<typename ::ucts::bare<UCTS_TYPE({read})>::type, V>::yes checked;"
         kept = _same(sample, read, "value", "it does not keep what is written to it")
-        look[form] = f"{write} {exact} {kept}"
-    declared, arguments = _dispatch(field, sample, claim.forms, look)
-    run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; look_at({arguments});"
+        bodies[form] = f"{write} {exact} {kept}"
+    declared, arguments = _dispatch(field, sample, claim.forms, bodies)
+    run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; use_field({arguments});"
     return Text(f"{owner} has a field {field} of type {sample.type} that is written and read", declared, run)
 
 
 def _copied(claim: claims.Copied) -> Text:
     owner, field, sample = claim.owner, claim.field, claim.sample
-    look = {}
+    bodies = {}
     for form, write, call in (
         ("accessors", f"object.{field}(value);", "()"),
         ("plain", f"object.{field} = value;", ""),
@@ -129,9 +129,9 @@ def _copied(claim: claims.Copied) -> Text:
         copies = "T copy(object); T assigned; assigned = object; "
         copies += _same(sample, f"copy.{read}", "value", "a copy has lost it")
         copies += _same(sample, f"assigned.{read}", "value", "what it is assigned to has lost it")
-        look[form] = f"{write} {f'try {{ throw object; }} catch ({caught} }}' if claim.thrown else copies}"
-    declared, arguments = _dispatch(field, sample, claim.forms, look)
-    run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; look_at({arguments});"
+        bodies[form] = f"{write} {f'try {{ throw object; }} catch ({caught} }}' if claim.thrown else copies}"
+    declared, arguments = _dispatch(field, sample, claim.forms, bodies)
+    run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; use_field({arguments});"
     kept = "thrown and caught" if claim.thrown else "copied and assigned"
     return Text(f"{owner} is {kept} with its field {field}", declared, run)
 
@@ -157,13 +157,13 @@ def _discriminator(claim: claims.Discriminator) -> Text:
     reading = '"the selector says something else once the case was read"'
     again = f"(void)object.{claim.case}(); {{ {selected}::ucts::require({chosen}, {reading}); }}"
     typed = f"enum {{ which = {index} }}; typedef reader<which> at;"
-    look = {
+    bodies = {
         "accessors": f"object.{claim.case}(value); {judged} {again}",
         "plain": f"(void)value; {selected}(void)selector;",
     }
-    declared, arguments = _dispatch(claim.case, sample, claim.forms, look)
+    declared, arguments = _dispatch(claim.case, sample, claim.forms, bodies)
     declared = f"{found} {typed} {declared}"
-    run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; look_at({arguments});"
+    run = f"{_chosen(owner, claim.forms)}{owner} object; const {sample.type} value = {sample.first}; use_field({arguments});"
     return Text(f"writing {claim.case} makes the selector of {owner} {words(claim.values)}", declared, run)
 
 

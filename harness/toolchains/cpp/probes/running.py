@@ -104,11 +104,11 @@ class _Comparing:
             of_headers = [found for one in alone for found in one]
             if self._seen.problem:
                 wanted = (e.requirement for e in self._expected.expected if isinstance(e.claim, LISTED))
-                return self._told(of_headers, ([], {}, dict.fromkeys(wanted, self._seen.problem)))
+                return self._comparison(of_headers, ([], {}, dict.fromkeys(wanted, self._seen.problem)))
             listing = threads.submit(listed, self._expected, self._headers, self._compiler)
             self._linked = linked(self._headers, self._expected.standard, self._compiler, Path(folder))
             self._probe(Path(folder))
-            return self._told(of_headers, listing.result())
+            return self._comparison(of_headers, listing.result())
 
     def _rendered(self) -> Iterator[Check]:
         for number, expected in enumerate(self._expected.expected):
@@ -140,7 +140,7 @@ class _Comparing:
         if compiled.problem:
             self._seen.problem = f"{name}: {compiled.problem}"
             return [self._of_header(name, compiled.problem, (name, 0))]
-        return [self._of_header(name, _told_by(e), self._place_in(name, e)) for e in compiled.errors[:1]]
+        return [self._of_header(name, _message_of(e), self._place_in(name, e)) for e in compiled.errors[:1]]
 
     def _of_header(self, name: str, observed: str, place: tuple[str, int]) -> Difference:
         standard = {"cpp11": "C++11", "cpp03": "C++03"}[self._expected.standard]
@@ -277,7 +277,7 @@ class _Comparing:
         every = {"shared_ptr": shared, "array": UCM_ARRAY, "safe_enum": SAFE_ENUM}
         return {name: text for name, text in every.items() if name in needed}
 
-    def _told(self, of_headers: list[Difference], listing: Listed) -> Comparison:
+    def _comparison(self, of_headers: list[Difference], listing: Listed) -> Comparison:
         differences = list(of_headers)
         exercised: Counter[str] = Counter()
         unjudged: dict[str, str] = {}
@@ -375,7 +375,7 @@ class _Comparing:
         return "", 0
 
 
-def _told_by(error: compiling.Error) -> str:
+def _message_of(error: compiling.Error) -> str:
     keyword = keyword_of(error.message)
     return f"it redefines the keyword {keyword}" if keyword else error.message
 

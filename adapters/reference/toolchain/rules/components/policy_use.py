@@ -1,4 +1,4 @@
-"""Which policies does an implementation have, by its own word and by theirs (9.5.4.1, 9.5.4.2)?"""
+"""The policies of an implementation, by its own declaration and by theirs (9.5.4.1, 9.5.4.2)."""
 
 from __future__ import annotations
 

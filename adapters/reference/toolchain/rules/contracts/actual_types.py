@@ -1,4 +1,4 @@
-"""Which type does a reference mean in the end, when aliases are followed?"""
+"""The type that a reference means once all aliases are followed."""
 
 from __future__ import annotations
 
