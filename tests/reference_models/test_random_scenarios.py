@@ -65,7 +65,7 @@ def examples(number: int) -> settings:
 
 
 @cache
-def judge() -> Monitor:
+def the_monitor() -> Monitor:
     return Monitor(load_life_cycle())
 
 
@@ -93,7 +93,7 @@ def assert_nobody_fails(scenario: Scenario) -> None:
             continue
         judged.add(timeless)
         assert contradiction(scenario, trace, stuck) is None, name
-        findings = judge().judge(scenario, trace).findings
+        findings = the_monitor().judge(scenario, trace).findings
         assert not findings, (name, findings, timeless)
 
 
@@ -128,7 +128,7 @@ def test_conformant_variants_once_failed_are_failed_no_more(name: str) -> None:
 @given(scenarios(), st.integers(0, SOME - 1))
 def test_findings_about_wrong_subjects_name_existing_events(scenario: Scenario, first: int) -> None:
     for trace, _ in traces_of_wrong_subjects(scenario, first):
-        for finding in judge().judge(scenario, trace).findings:
+        for finding in the_monitor().judge(scenario, trace).findings:
             assert finding.requirement in TESTABLE
             assert set(finding.events) <= {event.n for event in trace}
             assert finding.events
@@ -145,7 +145,7 @@ def test_a_changed_trace_is_refused_or_judged(
     for trace, _ in traces_of_wrong_subjects(scenario, first):
         changed = mutated(trace, mutations)
         if contradiction(scenario, changed, stuck) is None:
-            judge().judge(scenario, changed)
+            the_monitor().judge(scenario, changed)
 
 
 @examples(100)
@@ -154,11 +154,11 @@ def test_findings_depend_on_the_trace_alone_and_not_on_names(scenario: Scenario,
     disguise = Disguise(seed, "{port}_{element}")
     disguised = disguise.scenario(scenario)
     for trace, _ in traces_of_wrong_subjects(disguised, first):
-        findings = judge().judge(disguised, trace).findings
-        assert judge().judge(disguised, trace).findings == findings
+        findings = the_monitor().judge(disguised, trace).findings
+        assert the_monitor().judge(disguised, trace).findings == findings
         assert Monitor(load_life_cycle()).judge(disguised, trace).findings == findings
         revealed = tuple(disguise.reveal(event) for event in trace)
-        assert gist(judge().judge(scenario, revealed).findings) == gist(findings)
+        assert gist(the_monitor().judge(scenario, revealed).findings) == gist(findings)
 
 
 def gist(findings: Sequence[Finding]) -> list[object]:

@@ -106,11 +106,11 @@ def _judged(declared: Declared, name: str, scenario: Scenario, answer: bytes) ->
     assert isinstance(traced, Traced), (name, traced)
     problem = contradiction(scenario, traced.events, bool(traced.stuck))
     assert problem is None, (name, problem)
-    verdicts = _judge(declared).judge(scenario, traced.events)
+    verdicts = _monitor_of(declared).judge(scenario, traced.events)
     readings = {option: frozenset(values) for option, values in verdicts.readings.items()}
     return Judged(tuple(verdicts.findings), readings, frozenset(verdicts.exercises))
 
 
 @functools.cache
-def _judge(declared: Declared) -> Monitor:
+def _monitor_of(declared: Declared) -> Monitor:
     return Monitor(load_life_cycle(), Ics(dict(declared)))

@@ -205,12 +205,12 @@ def test_tours_take_every_transition_and_hardly_any_twice(count: int) -> None:
         tour(machine, longest=3)
 
 
-# the judge
+# the monitor
 
 
 @of_vendors
 @of_settings
-def test_the_judge_finds_nothing_wrong_with_the_right_machine(build: Build, readings: dict[str, str]) -> None:
+def test_the_monitor_finds_nothing_wrong_with_the_right_machine(build: Build, readings: dict[str, str]) -> None:
     setting, machine = build(), machine_of(build, readings)
     monitor, subject = Monitor(load_life_cycle(), Ics(readings)), Subject(machine)
     for word in (*hsi(machine, 0), *tour(machine)):
