@@ -62,7 +62,8 @@ class PublishedIncident(Value, frozen=True):
 class PublishedResult(Value, frozen=True):
     """The result of one product in one profile.
 
-    ``statement`` is None where the vendor stated nothing. ``readings`` are the observed readings of each option.
+    ``statement`` is None where the vendor stated nothing. ``readings`` are the observed readings of each option
+    that the vendor declares no value of; of others a run may show one value more or less.
     """
 
     product: str
@@ -96,6 +97,7 @@ def published(report: ReportEntry) -> PublishedResult:
         for f in r.findings
     }
     incidents = {PublishedIncident(i.kind, i.detail.partition("\n")[0], i.scenario) for i in report.incidents}
+    declared = {option for option, value in report.statement.readings.items() if value != "observed"}
     return PublishedResult(
         report.product,
         report.version,
@@ -108,7 +110,7 @@ def published(report: ReportEntry) -> PublishedResult:
         ),
         tuple(sorted(failures, key=lambda f: (clause_key(f.clause), msgspec.structs.astuple(f)))),
         tuple(sorted(incidents, key=msgspec.structs.astuple)),
-        {option: tuple(sorted(seen)) for option, seen in sorted(report.readings.items())},
+        {option: tuple(sorted(seen)) for option, seen in sorted(report.readings.items()) if option not in declared},
         report.statement if report.statement.source else None,
     )
 
