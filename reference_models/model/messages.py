@@ -52,6 +52,11 @@ def counts(member: Member) -> bool:
     return any(isinstance(a, s.CountMessages) for a in member.declaration.plan.get("method", ()))
 
 
+def may_miss_an_end(call: MethodCall) -> bool:
+    """Is comm_error true because an end of its connection has been removed without being detached?"""
+    return call.code == COMM_ERROR and call.link is not None and call.link.has_lost_an_end
+
+
 def settling_time(runtime: ObservedRuntime) -> float:
     """Nanoseconds that a connector may take to learn that it was broken or mended."""
     return runtime.ics.tolerance("error-known-within") * _NANOSECONDS

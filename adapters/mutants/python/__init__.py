@@ -42,6 +42,7 @@ __all__ = [
 MODULES = {
     "variants": (
         "answers",
+        "attachments",
         "clocks_and_traces",
         "execution",
         "messages",
