@@ -251,7 +251,7 @@ class _TraceReader:
         elif hook == "exchange":
             calls = thread.calls
             call = calls[-1] if calls else None
-            if call is None or call.value != event.value:
+            if call is None or (call.value != event.value and not event.wrong):
                 call = self.call_behind(event, call)
         else:
             call = None

@@ -80,6 +80,10 @@ class Interactions:
         """The links that provided port elements of ``member`` are attached to."""
         return [link for link in self.links.values() if any(end.member is member for end in link.live(*TAKERS))]
 
+    def is_mistyped(self, link: LinkState) -> bool:
+        """Did something of another type come to a body through it? Then it is open which message that was."""
+        return any(delivery.enter.wrong for delivery in self.deliveries if delivery.link is link)
+
     def is_used_elsewhere(self, member: Member) -> bool:
         """Does a link join a provided port element of ``member`` with an end in another container?"""
         return any(

@@ -125,7 +125,9 @@ def waited_for(runtime: ObservedRuntime, timeout: Timeout, since: int) -> bool:
 def overdue(runtime: ObservedRuntime, timeout: Timeout) -> Iterator[tuple[MethodCall, list[End]]]:
     """Answered messages, and the receivers that are well and operational all the while and were waited for in vain."""
     for call in messages(runtime):
-        if call.reply is None or not is_whole(runtime, call):
+        if call.reply is None or call.reply.wrong or not is_whole(runtime, call):
+            continue
+        if call.link is not None and runtime.interactions.is_mistyped(call.link):
             continue
         if not waited_for(runtime, timeout, call.reply.t):
             continue

@@ -22,7 +22,7 @@ _DUE = {"transport": _TRANSMISSION, "inside": _INTERNAL}
 @property_at("completed", _CODES)
 def known_codes(check: Property, runtime: ObservedRuntime, call: MethodCall) -> Concluded:
     """The result of push is one of the three codes."""
-    if not call.is_message or call.reply is None or call.caller is None or not call.caller.serving:
+    if not call.is_message or call.reply is None or call.caller is None or not call.caller.serving or call.reply.wrong:
         return ()
     results = list(call.reply.results or ())
     if not call.reply.failed and len(results) == 1 and results[0] in msg.CODES:
@@ -242,7 +242,9 @@ def ok_after_mending(check: Property, runtime: ObservedRuntime, call: MethodCall
 
 def _is_undisturbed(runtime: ObservedRuntime, call: MethodCall) -> bool:
     """Is it a message that has been answered, by a connector that was whole and had only receivers that are operational?"""
-    return call.is_message and call.reply is not None and msg.is_whole(runtime, call) and msg.is_healthy(runtime, call)
+    if call.reply is None or call.reply.wrong:
+        return False
+    return call.is_message and msg.is_whole(runtime, call) and msg.is_healthy(runtime, call)
 
 
 def _is_still_broken(call: MethodCall) -> bool:
@@ -252,6 +254,8 @@ def _is_still_broken(call: MethodCall) -> bool:
 
 
 def _has_receivers(call: MethodCall) -> bool:
+    if call.reply is not None and call.reply.wrong:
+        return False
     serving = call.caller is not None and call.caller.serving
     return bool(serving and any(ready for _, ready in call.targets))
 

@@ -53,6 +53,8 @@ def burst_counted(check: Property, runtime: ObservedRuntime, event: Counted) -> 
     bursts = [burst for burst in runtime.interactions.bursts if burst.link is link]
     if receiver is None or link is None or not bursts or _is_busy(runtime, link) or not _is_known(bursts):
         return
+    if runtime.interactions.is_mistyped(link):
+        return
     yield from _origin(check, receiver, bursts, event)
     yield from _once(check, receiver, event)
     yield from _order(check, runtime, receiver, event)

@@ -115,7 +115,13 @@ def message_origin(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Each message that enters a receiver was pushed before by an emitter of its connection."""
     for delivery in runtime.interactions.deliveries:
         receiver, link, enter = delivery.receiver, delivery.link, delivery.enter
-        if receiver is None or link is None or link.connector != s.MESSAGE_CONNECTOR or enter.method != s.PUSH:
+        if (
+            receiver is None
+            or link is None
+            or enter.wrong
+            or link.connector != s.MESSAGE_CONNECTOR
+            or enter.method != s.PUSH
+        ):
             continue
         call = delivery.call
         if call is not None and runtime.interactions.has_left(delivery):

@@ -87,7 +87,7 @@ def configuration_first(check: Property, runtime: ObservedRuntime, ongoing: Oper
 def connect_arguments(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_connect is given the port element's name and the reference that connect was given."""
     event, _, ongoing, _ = callback
-    if ongoing is None or not isinstance(ongoing.step, s.Connect):
+    if ongoing is None or not isinstance(ongoing.step, s.Connect) or event.wrong:
         return ()
     member = ongoing.subject
     if member is None or member.suspended or outside_life(runtime, callback) or member.body != event.body:
@@ -112,7 +112,7 @@ def connect_arguments(check: Property, runtime: ObservedRuntime, callback: Callb
 def disconnect_arguments(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_disconnect is given the name of the port element whose connection is undone."""
     event, member, ongoing, _ = callback
-    if ongoing is None or member is None or member.suspended or outside_life(runtime, callback):
+    if ongoing is None or member is None or member.suspended or event.wrong or outside_life(runtime, callback):
         return ()
     if ongoing.operation not in _UNDOING:  # that it came at all is then the fault
         return ()
@@ -164,7 +164,7 @@ def container_interface(check: Property, runtime: ObservedRuntime, callback: Cal
 def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Siblings) -> Concluded:
     """A fragment gets the true list of its container's members, unless an operation is changing it."""
     member = runtime.bodies.get(event.body)
-    if ongoing is not None or member is None or not member.declaration.fragment:
+    if ongoing is not None or member is None or not member.declaration.fragment or event.wrong:
         return ()
     if member.suspended or not member.operational:
         return ()

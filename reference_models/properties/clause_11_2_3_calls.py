@@ -16,10 +16,17 @@ _METHODS, _OPERATIONAL, _OWN_ELEMENT = "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2
 _DISABLED, _NOT_RUN = "R-11.2.3-02", "R-11.2.3-17"
 
 
+def is_mistyped(call: BusinessCall, end: Result | Reply) -> bool:
+    """Did it come to a body, or back, with something of another type?"""
+    return (not isinstance(end, Raise) and bool(end.wrong)) or any(enter.wrong for enter, _ in call.entries)
+
+
 @property_at("answered", _METHODS, _OPERATIONAL, _OWN_ELEMENT)
 def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end: Result) -> Conclusions:
     """A call through a reference enters an operational body once, with the value sent, and returns its result."""
     member, port = call.callee, call.port
+    if is_mistyped(call, end):
+        return
     if member is None or not call.possible or not member.serving or member.raises("exchange"):
         return
     if port is not None and call_guarantees(member.declaration, port):
@@ -57,7 +64,7 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
 def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Concluded:
     """A call through a connection enters a connected body with the value sent; its result comes back."""
     request = call.request
-    if request is None or reply.raised:
+    if request is None or reply.raised or is_mistyped(call, reply):
         return ()
     providers, fragments, targets = behind_call(runtime, call, request)
     if not providers:
@@ -91,7 +98,7 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
 def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Concluded:
     """In the operational phase a call between two components comes back."""
     request = call.request
-    if not call.possible or request is None:
+    if not call.possible or request is None or reply.wrong:
         return ()
     caller = runtime.bodies.get(reply.body)
     if caller is None or not caller.serving:

@@ -52,7 +52,7 @@ MODULES = {
         "services",
         "starting",
     ),
-    "life_cycle": ("business_calls", "components", "connections", "containers", "errors", "members", "states"),
+    "life_cycle": ("business_calls", "components", "connections", "containers", "errors", "members", "states", "types"),
     "execution": ("policies", "running"),
     "container_services": ("clocks", "logs", "port_traces"),
     "data": ("composite_types", "simple_types"),
