@@ -12,7 +12,6 @@ from ucm_cts.harness.models.core_models import Comparison
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import reading_length, shortest_first
 from ucm_cts.harness.results.incident_causes import DistinctIncidents
-from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure, waiver_for
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
@@ -120,8 +119,8 @@ class Tally:
         known = self.failures[cause]
         self.failures[cause] = msgspec.structs.replace(known, finding=finding, evidence=v.TraceEvidence(execution))
 
-    def add_incident(self, execution: v.Execution, requirements: Iterable[str]) -> None:
-        """An execution that ended in an incident; ``requirements`` are those it meant to exercise."""
+    def add_incident(self, execution: v.Execution, requirements: Iterable[str], finding: Finding | None = None) -> None:
+        """An execution that ended in an incident; ``requirements`` are those it meant to exercise, ``finding`` what it shows."""
         incident = execution.incident
         assert incident is not None
         if incident.kind == "untried":
@@ -141,7 +140,6 @@ class Tally:
             for requirement in requirements:
                 self.lost.setdefault(requirement, f"{incident.kind}: {incident.detail}")
             return
-        finding = finding_of_incident(execution)
         if finding is not None:
             self.exercised[finding.requirement] += 1
             self.add_failure(finding, v.TraceEvidence(execution))
