@@ -7,6 +7,7 @@ from ucm_cts.adapters.contract.trace import Raise, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import messages as msg
+from ucm_cts.reference_models.model.designation import error_name
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.method_calls import MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -60,7 +61,7 @@ def refused_without_receivers(check: Property, runtime: ObservedRuntime, ongoing
         yield check.fail(
             "refused",
             expected=f"start succeeds without a receiver, because push-without-receiver was declared as {declared}",
-            observed=f"start raised {ongoing.end.error}",
+            observed=f"start raised {error_name(ongoing.end.error)}",
             ended=ongoing,
         )
 
@@ -75,7 +76,7 @@ def refused_attachment(
     if isinstance(end, Raise) and not (yield from takes(runtime, "push-without-receiver", "refused")):
         declared = runtime.ics.reading("push-without-receiver")
         expected = f"push-without-receiver was declared as {declared}: an emitter can be attached before a receiver"
-        observed = f"it raised {end.error}"
+        observed = f"it raised {error_name(end.error)}"
         yield check.fail("refused", expected=expected, observed=observed, event=end)
 
 

@@ -7,6 +7,7 @@ from ucm_cts.adapters.contract.trace import Raise, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import messages as msg
+from ucm_cts.reference_models.model.designation import designation, error_name
 from ucm_cts.reference_models.model.links import End, LinkState
 from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -218,7 +219,7 @@ def message_connector(
         what = f"{step.port} of {member.lane} as {step.role} of {link.name}, which has {len(link.live(step.role))}"
     else:
         return ()
-    observed = f"it raised {end.error} {end.detail}"
+    observed = f"{designation(step)} raised {error_name(end.error)} {end.detail}".rstrip()
     return check.fail(s.operation(step), expected=what, observed=observed, event=end, requirement=requirement)
 
 
@@ -238,7 +239,7 @@ def joined_and_started(check: Property, runtime: ObservedRuntime, ongoing: Opera
         return check.fail(
             "start",
             expected=f"what is joined by {joined[0]} is started",
-            observed=f"start raised {ongoing.end.error} {ongoing.end.detail}",
+            observed=f"start raised {error_name(ongoing.end.error)} {ongoing.end.detail}",
             ended=ongoing,
         )
     return ()

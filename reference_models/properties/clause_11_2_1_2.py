@@ -32,8 +32,8 @@ def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) 
     requirement, cause, expected, observed = problem
     return check.fail(
         cause,
-        expected=expected,
-        observed=observed,
+        expected=f"on_startup of {member.lane} is given {expected}",
+        observed=f"it was given {observed}",
         during=(ongoing, event),
         instead=(Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
         requirement=_AGAIN if again else requirement,
@@ -120,4 +120,4 @@ def _expected(member: Member) -> str:
 def _show(reference: MaybeReference) -> str:
     if isinstance(reference, Reference):
         return f"{lane(reference.component, reference.instance)}.{reference.port}"
-    return "nil" if reference is None else "an unrecognised reference"
+    return "nil" if reference is None else "an object of the framework's own"

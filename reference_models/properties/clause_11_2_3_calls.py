@@ -6,6 +6,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.model.designation import error_name
 from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, call_guarantees
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
@@ -37,7 +38,11 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
         own = [(e, x) for e, x in own if e.instance == instance and e.component == component]
     if not own or isinstance(end, Raise):
         expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
-        observed = f"it raised {end.error} {end.detail}" if isinstance(end, Raise) else "the body was not entered"
+        observed = (
+            f"it raised {error_name(end.error)} {end.detail}".rstrip()
+            if isinstance(end, Raise)
+            else "the body was not entered"
+        )
         yield _violate(check, _OPERATIONAL, "not served", expected, observed, call.n, end.n, member)
         return
     enter, exit_ = own[0]
@@ -87,7 +92,9 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
         where = ", ".join(f"{lane(*e.body)} with {e.value}" for e, _ in call.entries) or "no body"
         observed = f"it reached {where}"
     elif not came_back:
-        observed = f"the body returned {reached[0][1].value if reached[0][1] else None}, the caller got {reply.value}"
+        left = reached[0][1]
+        gave = left.value if left is not None and left.value is not None else "nothing"
+        observed = f"the body returned {gave}, the caller got {'nothing' if reply.value is None else reply.value}"
     else:
         observed = f"it was carried out {len(reached)} times"
     cause = "target" if not reached else "result"
