@@ -10,6 +10,7 @@ from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
+from ucm_cts.reference_models.causes import Causes
 from ucm_cts.reference_models.model.callback_history import Callback, CallbackHistory
 from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks
@@ -63,6 +64,8 @@ class Monitor:
         findings = reader.verdicts.findings
         if findings:
             findings[:] = map(Namer(scenario, trace).named, findings)
+        if len(findings) > 1:
+            findings[:] = Causes(scenario, trace, reader.runtime.bodies).linked(findings)
         return reader.verdicts
 
 

@@ -8,7 +8,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from ucm_cts.harness.report.diagrams.sequence import last_call
-from ucm_cts.harness.report.order import SEALS, SYMBOLS, count, counted, to_fix
+from ucm_cts.harness.report.order import SEALS, SYMBOLS, count, counted, roots, to_fix
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
 from ucm_cts.harness.results.incidents import is_unexplained
@@ -42,9 +42,12 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
     incidents = incidents_of(report)
     unexplained = [item for item in incidents if is_unexplained(item.execution)]
     lines += map(_incident, unexplained[:SHOWN])
-    failed = to_fix(report.requirements)
-    for result in failed[:SHOWN]:
+    failed = roots(to_fix(report.requirements))
+    for result, followers in failed[:SHOWN]:
         lines += [Text(), *_failure(result)]
+        if followers:
+            names = ", ".join(other.id for other in followers)
+            lines.append(cut(Text.assemble(("  with it   ", "dim"), f"{names}, which may follow from it")))
     if len(failed) > SHOWN:
         lines += [Text(), Text(f"and {len(failed) - SHOWN} more failed requirements", "dim")]
     others = [item for item in incidents if item not in unexplained]
