@@ -33,7 +33,7 @@ class Causes:
         """``findings``, each with the requirement that was violated first about what it concerns, if that is another one."""
         roots: list[tuple[Finding, frozenset[Hashable]]] = []
         causes: dict[int, str] = {}
-        for index in sorted(range(len(findings)), key=lambda index: max(findings[index].events, default=0)):
+        for index in sorted(range(len(findings)), key=lambda index: self._moment(findings[index])):
             finding = findings[index]
             concerned = self._concerned(finding)
             root = next((earlier for earlier, of in roots if of & concerned), None)
@@ -45,6 +45,11 @@ class Causes:
             msgspec.structs.replace(finding, caused_by=causes[index]) if index in causes else finding
             for index, finding in enumerate(findings)
         ]
+
+    def _moment(self, finding: Finding) -> int:
+        """When it was violated: at its last event; by an operation of a container from the call on, before what happens within."""
+        called = (n for n in finding.events if isinstance(self._events.get(n), t.Call))
+        return min(called, default=max(finding.events, default=0))
 
     def _concerned(self, finding: Finding) -> frozenset[Hashable]:
         events = [self._events[n] for n in finding.events if n in self._events]
