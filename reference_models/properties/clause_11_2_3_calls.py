@@ -14,7 +14,7 @@ from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _METHODS, _OPERATIONAL, _OWN_ELEMENT = "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06"
-_DISABLED, _NOT_RUN = "R-11.2.3-02", "R-11.2.3-17"
+_DISABLED, _NOT_RUN, _DESTROYED = "R-11.2.3-02", "R-11.2.3-17", "R-11.2.2.2-06"
 
 
 def is_mistyped(call: BusinessCall, end: Result | Reply) -> bool:
@@ -182,21 +182,23 @@ def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: B
     )
 
 
-@property_at("called", _NOT_RUN, at=("framework",))
+@property_at("called", _NOT_RUN, _DESTROYED, at=("framework",))
 def nothing_after_stop(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
 ) -> Concluded:
-    """After stop returned, no business method begins but those that are called."""
+    """After stop or destroy returned, no business method begins but those that are called."""
     member = runtime.bodies.get(event.body)
     if member is None or member.suspended or member.operational or not member.startups:
         return ()
     if ongoing is not None and ongoing.operation in ("start", "stop", "add_component"):
         return ()
+    ended = "removed with its runtime" if runtime.destroyed else "stopped"
     return check.fail(
-        "called after stop",
-        expected=f"{member.lane} was stopped, so nothing is run on it",
+        "called after destroy" if runtime.destroyed else "called after stop",
+        expected=f"{member.lane} was {ended}, so nothing is run on it",
         observed=f"the framework called {member.lane}'s {event.port} with {event.value}",
         during=(ongoing, event),
+        requirement=_DESTROYED if runtime.destroyed else _NOT_RUN,
     )
 
 

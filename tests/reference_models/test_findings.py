@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import msgspec
 import pytest
+from made_up_run import Tape
 from performing import answer
 
 from ucm_cts.adapters.contract import scenario as s
@@ -130,3 +131,23 @@ def test_operations_of_a_destroyed_runtime_are_not_judged() -> None:
         t.Raise(4, 4, 0, 1, "UNDECLARED", "KeyError"),
     )
     assert Monitor(load_life_cycle()).judge(scenario, trace).findings == []
+
+
+def test_a_call_after_destroy_is_no_matter_of_stop() -> None:
+    scenario = Scenario(
+        {"a": s.Declaration(provides=("in",))}, (s.AddComponent("a"), s.Start(), s.Destroy(), s.Pause(1))
+    )
+    story = Tape()
+    story.put(t.Call, step=0)
+    story.put(t.Create, component="a", instance=1)
+    story.hook("a", "on_init", attributes={})
+    story.put(t.Return, step=0, value=1)
+    for step, hooks in ((1, ("on_startup",)), (2, ("on_shutdown", "on_remove"))):
+        story.put(t.Call, step=step)
+        for hook in hooks:
+            story.hook("a", hook, **({"dependencies": ()} if hook == "on_startup" else {}))
+        story.put(t.Return, step=step)
+    story.put(t.Enter, thread=1, component="a", instance=1, hook="exchange", port="in", value=1)
+    story.put(t.Exit, thread=1, component="a", instance=1, hook="exchange", value=~1)
+    (finding,) = Monitor(load_life_cycle()).judge(scenario, story.trace()).findings
+    assert (finding.requirement, finding.rule) == ("R-11.2.2.2-06", "nothing_after_stop")
