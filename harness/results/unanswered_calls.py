@@ -14,7 +14,7 @@ from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.harness.results.values import Execution, Incident
 from ucm_cts.reference_models.findings import Arrow, Finding
-from ucm_cts.reference_models.model.executions import calls_promised
+from ucm_cts.reference_models.model.executions import call_guarantees
 from ucm_cts.reference_models.model.links import SENDERS
 from ucm_cts.reference_models.model.runtime import lane
 
@@ -161,7 +161,7 @@ def _requirement(
             if (_component(scenario, step.id), step.port) == (call.component, port) and step.link in connectors:
                 return _BY_CONNECTOR[connectors[step.link]]
     declaration = scenario.components.get(callee[0]) if callee is not None else None
-    promised = calls_promised(declaration, callee[1]) if declaration is not None and callee is not None else ()
+    promised = call_guarantees(declaration, callee[1]) if declaration is not None and callee is not None else ()
     return (promised[0], "calls_carried_out") if promised else _BETWEEN_COMPONENTS
 
 
