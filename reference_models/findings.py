@@ -21,6 +21,7 @@ class Finding(Value, frozen=True):
     ``events``: the ``n`` of the offending events.
     ``step``: the scenario step they belong to, if any.
     ``expected_events``: what should have happened in their place.
+    ``caused_by``: another requirement that was violated before about what this finding concerns, and that may be its cause.
     """
 
     requirement: str
@@ -31,3 +32,4 @@ class Finding(Value, frozen=True):
     events: tuple[int, ...] = ()
     step: int | None = None
     expected_events: tuple[Arrow, ...] = ()
+    caused_by: str = ""

@@ -10,6 +10,7 @@ from typing import Any, get_args
 
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract import trace as t
+from ucm_cts.reference_models.causes import Causes
 from ucm_cts.reference_models.model.callback_history import Callback, CallbackHistory
 from ucm_cts.reference_models.model.executions import BusinessCall
 from ucm_cts.reference_models.model.expected_callbacks import ExpectedCallbacks
@@ -22,6 +23,7 @@ from ucm_cts.reference_models.model.operation_effects import apply
 from ucm_cts.reference_models.model.operation_end import conclude
 from ucm_cts.reference_models.model.row_selection import RowSelection
 from ucm_cts.reference_models.model.runtime import Member
+from ucm_cts.reference_models.naming import Namer
 from ucm_cts.reference_models.properties.declaration import Bound, Feature, Moment
 from ucm_cts.reference_models.properties.table import PropertyTable, features_of
 from ucm_cts.reference_models.verdicts import Verdicts
@@ -44,7 +46,7 @@ class Monitor:
         self._table_for = functools.cache(PropertyTable)
 
     def judge(self, scenario: s.Scenario, trace: Iterable[t.Event]) -> Verdicts:
-        """What the properties say about ``trace``, which may break off anywhere, and is read once, event by event.
+        """What the properties say about ``trace``, which may break off anywhere, and is read event by event.
 
         Where two operations overlap, because one of them took too long, reading ends: it is open which of them an event belongs to.
         """
@@ -52,12 +54,18 @@ class Monitor:
         reader = _TraceReader(self, self._table_for(features), scenario, features)
         interactions = reader.runtime.interactions
         interacting = "interactions" in features
+        trace = trace if isinstance(trace, tuple | list) else tuple(trace)
         for event in trace:
             if _TAKE[type(event)](reader, event):
                 break
             if interacting and type(event) not in _NOTHING_HAPPENS:
                 interactions.latest = event.t
         reader.close()
+        findings = reader.verdicts.findings
+        if findings:
+            findings[:] = map(Namer(scenario, trace).named, findings)
+        if len(findings) > 1:
+            findings[:] = Causes(scenario, trace, reader.runtime.bodies).linked(findings)
         return reader.verdicts
 
 
@@ -251,7 +259,7 @@ class _TraceReader:
         elif hook == "exchange":
             calls = thread.calls
             call = calls[-1] if calls else None
-            if call is None or call.value != event.value:
+            if call is None or (call.value != event.value and not event.wrong):
                 call = self.call_behind(event, call)
         else:
             call = None

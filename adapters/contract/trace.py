@@ -87,10 +87,12 @@ class Return(StepEvent, frozen=True, tag="return"):
 
     ``value``: an id, a list of ids, a reference or a business result.
     ``records``: the records that were read from the log.
+    ``wrong``: what a business call gave instead of an integer, for people.
     """
 
     value: Int64 | tuple[Int64, ...] | Reference | Opaque | None = None
     records: tuple[LogRecord, ...] | None = None
+    wrong: str = ""
 
 
 class Raise(StepEvent, frozen=True, tag="raise"):
@@ -148,6 +150,7 @@ class Enter(BodyEvent, frozen=True, tag="enter"):
     ``attributes``: the values that the body has at ``on_init``.
     ``method``: name of the method.
     ``arguments``: IN and INOUT values of the method.
+    ``wrong``: what the framework handed over that is not of the type of the interface, for people; its field is empty.
     """
 
     hook: Hook
@@ -158,6 +161,7 @@ class Enter(BodyEvent, frozen=True, tag="enter"):
     attributes: dict[str, str] | None = None
     method: str | None = None
     arguments: tuple[Datum, ...] | None = None
+    wrong: str = ""
 
 
 class Exit(BodyEvent, frozen=True, tag="exit"):
@@ -205,6 +209,7 @@ class Reply(BodyEvent, frozen=True, tag="reply"):
     ``raised``: it came back with an exception.
     ``results``: OUT, INOUT and RETURN values of a method, or fields of ``exception``.
     ``exception``: name of the declared exception.
+    ``wrong``: what came back that is not of the type of the interface, for people.
     """
 
     port: PortElementName
@@ -212,6 +217,7 @@ class Reply(BodyEvent, frozen=True, tag="reply"):
     raised: bool = False
     results: tuple[Datum, ...] | None = None
     exception: str | None = None
+    wrong: str = ""
 
     @property
     def failed(self) -> bool:
@@ -239,10 +245,12 @@ class Siblings(BodyEvent, frozen=True, tag="siblings"):
 
     ``ids``: the result.
     ``raised``: it ended with an exception.
+    ``wrong``: the result, if it is no list of integers, for people.
     """
 
     ids: tuple[Int64, ...] = ()
     raised: bool = False
+    wrong: str = ""
 
 
 class Held(BodyEvent, frozen=True, tag="held"):

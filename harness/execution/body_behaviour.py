@@ -190,7 +190,7 @@ def _entry_problem(declaration: Declaration, event: t.Enter) -> str | None:
     if (hook == "on_startup") != (event.dependencies is not None):
         return f"{hook} {'with' if event.dependencies is not None else 'without'} dependencies"
     if hook == "exchange":
-        right = event.value is not None and event.port in declaration.provides
+        right = (event.value is not None or bool(event.wrong)) and event.port in declaration.provides
         return None if right else f"exchange on {event.port!r} with {event.value!r}"
     if hook == "method":
         right = event.method is not None and event.arguments is not None and event.port in declaration.ports

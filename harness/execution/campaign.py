@@ -107,10 +107,13 @@ class Campaign:
     def _take(self, answer: Answer, purpose: TestPurpose) -> Iterator[tuple[Finding | None, Execution]]:
         if answer.incident is not None:
             execution = self._driver.revealed(answer)
-            self._tally.add_incident(execution, purpose.requirements)
-            yield finding_of_incident(execution), execution
-            if answer.is_whole:
-                yield from self._judge_hang(answer, execution)
+            judged = list(self._judge_hang(answer, execution)) if answer.is_whole else []
+            finding = finding_of_incident(execution)
+            if finding is not None and any(set(other.events) & set(finding.events) for other, _ in judged):
+                finding = None  # a property has found the same call, or operation, lacking
+            self._tally.add_incident(execution, purpose.requirements, finding)
+            yield finding, execution
+            yield from judged
             return
         verdicts = self._monitor.judge(answer.disguised, answer.trace)
         if self._watch is not None:

@@ -71,7 +71,10 @@ class FindingEntry(Entry, frozen=True):
 
 
 class RequirementEntry(Entry, frozen=True):
-    """One requirement of the catalogue with its verdict."""
+    """One requirement of the catalogue with its verdict.
+
+    ``caused_by`` is a requirement from whose violation all its failures may follow, empty if there is none.
+    """
 
     id: str
     clause: str
@@ -81,6 +84,7 @@ class RequirementEntry(Entry, frozen=True):
     exercised: int
     reason: str
     findings: tuple[FindingEntry, ...]
+    caused_by: str = ""
 
 
 class IncidentEntry(Entry, frozen=True):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from ucm_cts.harness.results.values import FrameworkReport, Overall, Report, RequirementResult, ToolChainReport, Verdict
@@ -42,6 +42,16 @@ def to_fix(results: Iterable[RequirementResult]) -> list[RequirementResult]:
         return -sum(failed.occurrences for failed in result.findings), clause_key(result.clause), result.id
 
     return sorted((result for result in results if result.verdict == "fail"), key=key)
+
+
+def roots(failed: Sequence[RequirementResult]) -> list[tuple[RequirementResult, list[RequirementResult]]]:
+    """``failed`` in their order, but for those that may follow from another one, which are listed with it."""
+    known = {result.id for result in failed if not result.caused_by}
+    return [
+        (result, [other for other in failed if other.caused_by == result.id and other.caused_by in known])
+        for result in failed
+        if result.caused_by not in known
+    ]
 
 
 class HasVerdict(Protocol):

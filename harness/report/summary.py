@@ -8,11 +8,12 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from ucm_cts.harness.report.diagrams.sequence import last_call
-from ucm_cts.harness.report.order import SEALS, SYMBOLS, count, counted, to_fix
+from ucm_cts.harness.report.order import SEALS, SYMBOLS, count, counted, roots, to_fix
 from ucm_cts.harness.results.failures import shortest_first
 from ucm_cts.harness.results.foreign import one_line
+from ucm_cts.harness.results.incidents import is_unexplained
 from ucm_cts.harness.results.known_failures import all_known
-from ucm_cts.harness.results.values import Overall, Report, RequirementResult, Verdict, incidents_of
+from ucm_cts.harness.results.values import IncidentReport, Overall, Report, RequirementResult, Verdict, incidents_of
 
 SHOWN = 12
 """The number of failed requirements, and of incidents, that are listed."""
@@ -38,23 +39,34 @@ def summary(report: Report, out: Path | None = None) -> RenderableType:
         ),
         _counts(report),
     ]
-    failed = to_fix(report.requirements)
-    for result in failed[:SHOWN]:
+    incidents = incidents_of(report)
+    unexplained = [item for item in incidents if is_unexplained(item.execution)]
+    lines += map(_incident, unexplained[:SHOWN])
+    failed = roots(to_fix(report.requirements))
+    for result, followers in failed[:SHOWN]:
         lines += [Text(), *_failure(result)]
+        if followers:
+            names = ", ".join(other.id for other in followers)
+            lines.append(cut(Text.assemble(("  with it   ", "dim"), f"{names}, which may follow from it")))
     if len(failed) > SHOWN:
         lines += [Text(), Text(f"and {len(failed) - SHOWN} more failed requirements", "dim")]
-    incidents = incidents_of(report)
-    if incidents:
+    others = [item for item in incidents if item not in unexplained]
+    if others:
         lines.append(Text())
-    for item in incidents[:SHOWN]:
-        during = last_call(item.execution)
-        detail = one_line(f"{item.incident.detail}{f', during {during}' if during else ''}", 160)
-        lines.append(cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), f"  {detail}")))
+    lines += map(_incident, others[: max(SHOWN - len(unexplained), 0)])
     if len(incidents) > SHOWN:
         lines.append(Text(f"and {len(incidents) - SHOWN} more incidents", "dim"))
     if out is not None:
         lines += [Text(), Text.assemble("report  ", (str(out / "report.html"), "bold"), overflow="fold")]
     return Group(*lines)
+
+
+def _incident(item: IncidentReport) -> Text:
+    during = last_call(item.execution)
+    when = f", during {during}" if during else ", between two calls"
+    what = "fails no requirement: " if is_unexplained(item.execution) else ""
+    detail = one_line(f"{what}{item.incident.detail}{when if during or what else ''}", 160)
+    return cut(Text.assemble(("⚡ ", "magenta"), (item.incident.kind, "bold magenta"), f"  {detail}"))
 
 
 def _counts(report: Report) -> Text:

@@ -10,6 +10,7 @@ from collections import Counter
 from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.scenario import Scenario
 from ucm_cts.adapters.contract.trace import Call, Create, Enter, Exit, Raise, Reply, Request, Return, Skip, Trace
+from ucm_cts.harness.results.unanswered_calls import finding_of_lost_call
 from ucm_cts.harness.results.values import FRAMEWORK_INCIDENTS, Execution, Incident, IncidentKind
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.operation import DECLARED_ERRORS
@@ -81,16 +82,21 @@ class IncidentTime:
 
 
 def finding_of_incident(execution: Execution) -> Finding | None:
-    """A crash, exit, hang or memory blow-up inside an operation: it did not end as declared (12.10)."""
+    """A business call that a hang shows to be lost; or a crash, exit, hang or memory blow-up inside an operation, which did not
+    end as declared (12.10), or else while a business call was open.
+    """
     incident = execution.incident
     call = last_open_call(execution.trace)
-    if call is None or incident is None or incident.kind not in FRAMEWORK_INCIDENTS:
+    if incident is None or incident.kind not in FRAMEWORK_INCIDENTS:
         return None
-    if is_waiting(execution):
-        return None
+    lost = finding_of_lost_call(execution)
+    if lost is not None and incident.kind == "hang":
+        return lost
+    if call is None or is_waiting(execution):
+        return lost
     operation = s.operation(execution.scenario.steps[call.step])
     if operation not in DECLARED:
-        return None
+        return lost
     requirement, declared = DECLARED[operation], DECLARED_ERRORS[operation]
     return Finding(
         requirement,
@@ -101,6 +107,13 @@ def finding_of_incident(execution: Execution) -> Finding | None:
         (call.n,),
         call.step,
     )
+
+
+def is_unexplained(execution: Execution) -> bool:
+    """Is it a crash, exit, hang or memory blow-up that fails no requirement, as on a thread of the framework's own?"""
+    incident = execution.incident
+    ours = incident is None or incident.kind not in FRAMEWORK_INCIDENTS
+    return not ours and not is_waiting(execution) and finding_of_incident(execution) is None
 
 
 def may_wait(scenario: Scenario, trace: Trace) -> bool:

@@ -12,7 +12,6 @@ from ucm_cts.harness.models.core_models import Comparison
 from ucm_cts.harness.results import values as v
 from ucm_cts.harness.results.failures import reading_length, shortest_first
 from ucm_cts.harness.results.incident_causes import DistinctIncidents
-from ucm_cts.harness.results.incidents import finding_of_incident
 from ucm_cts.harness.results.known_failures import KnownFailure, waiver_for
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable
@@ -105,23 +104,25 @@ class Tally:
             self.failures[cause_of(finding)] = v.ReportedFinding(finding, evidence, occurrences, unstable=reason)
 
     def add_failure(self, finding: Finding, evidence: v.Evidence | None) -> None:
-        """Count ``finding`` once more, and keep the shorter evidence."""
+        """Count ``finding`` once more, and keep the shorter evidence; before all, one that does not follow from another failure."""
         known = self.failures.get(cause_of(finding))
         new = v.ReportedFinding(finding, evidence)
         if known is None or known.unstable:
             occurrences = known.occurrences + 1 if known is not None else 1
             self.failures[cause_of(finding)] = msgspec.structs.replace(new, occurrences=occurrences)
             return
-        best = min(known, new, key=reading_length)
+        best = min(known, new, key=lambda one: (bool(one.finding.caused_by), reading_length(one)))
         self.failures[cause_of(finding)] = msgspec.structs.replace(best, occurrences=known.occurrences + 1)
 
     def replace(self, cause: Cause, finding: Finding, execution: v.Execution) -> None:
         """A shorter execution of the same cause has been found; it does not count as another occurrence."""
         known = self.failures[cause]
+        if not known.finding.caused_by:
+            finding = msgspec.structs.replace(finding, caused_by="")
         self.failures[cause] = msgspec.structs.replace(known, finding=finding, evidence=v.TraceEvidence(execution))
 
-    def add_incident(self, execution: v.Execution, requirements: Iterable[str]) -> None:
-        """An execution that ended in an incident; ``requirements`` are those it meant to exercise."""
+    def add_incident(self, execution: v.Execution, requirements: Iterable[str], finding: Finding | None = None) -> None:
+        """An execution that ended in an incident; ``requirements`` are those it meant to exercise, ``finding`` what it shows."""
         incident = execution.incident
         assert incident is not None
         if incident.kind == "untried":
@@ -141,7 +142,6 @@ class Tally:
             for requirement in requirements:
                 self.lost.setdefault(requirement, f"{incident.kind}: {incident.detail}")
             return
-        finding = finding_of_incident(execution)
         if finding is not None:
             self.exercised[finding.requirement] += 1
             self.add_failure(finding, v.TraceEvidence(execution))
@@ -178,8 +178,16 @@ class Tally:
         verdict, reason = self._verdict(requirement.id, by_length, bool(waived))
         findings = waived or tuple(by_length)
         exercised = self.exercised[requirement.id]
+        causes = [f.finding.caused_by for f in waived]
         return v.RequirementResult(
-            requirement.id, requirement.clause, requirement.title, verdict, exercised, findings, reason
+            requirement.id,
+            requirement.clause,
+            requirement.title,
+            verdict,
+            exercised,
+            findings,
+            reason,
+            causes[0] if causes and all(causes) else "",
         )
 
     def _verdict(self, requirement: str, failures: Sequence[v.ReportedFinding], fails: bool) -> tuple[v.Verdict, str]:

@@ -129,7 +129,10 @@ class ReportedFinding(Value, frozen=True):
 
 
 class RequirementResult(Value, frozen=True):
-    """Verdict and evidence for one requirement of the catalogue. ``reason`` says why it is not ``pass`` or ``fail``."""
+    """Verdict and evidence for one requirement of the catalogue. ``reason`` says why it is not ``pass`` or ``fail``.
+
+    ``caused_by``: a requirement whose violation comes before each of its failures, so that they may follow from it.
+    """
 
     id: str
     clause: str
@@ -138,6 +141,7 @@ class RequirementResult(Value, frozen=True):
     exercised: int
     findings: tuple[ReportedFinding, ...] = ()
     reason: str = ""
+    caused_by: str = ""
 
 
 class TransitionResult(Value, frozen=True):

@@ -76,6 +76,22 @@ class Interactions:
         if operation is not None:
             operation.end = end
 
+    def links_of(self, member: Member) -> list[LinkState]:
+        """The links that provided port elements of ``member`` are attached to."""
+        return [link for link in self.links.values() if any(end.member is member for end in link.live(*TAKERS))]
+
+    def is_mistyped(self, link: LinkState) -> bool:
+        """Did something of another type come to a body through it? Then it is open which message that was."""
+        return any(delivery.enter.wrong for delivery in self.deliveries if delivery.link is link)
+
+    def is_used_elsewhere(self, member: Member) -> bool:
+        """Does a link join a provided port element of ``member`` with an end in another container?"""
+        return any(
+            end.member.container is not member.container
+            for link in self.links_of(member)
+            for end in link.live(*SENDERS)
+        )
+
     @property
     def is_joining(self) -> bool:
         """Is a port element just being attached to a connector, or detached?"""
@@ -130,6 +146,7 @@ class Interactions:
                 known = bool(takers) or link.connector == s.MESSAGE_CONNECTOR
                 sender.connection.live = True if known else None
                 only = servers[0] if len(servers) == 1 else None
+                sender.connection.takers = tuple(end.member for end in takers)
                 sender.connection.provider = only.member if only is not None else None
                 sender.connection.provided = only.port if only is not None else ""
 

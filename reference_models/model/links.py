@@ -51,6 +51,11 @@ class LinkState:
         return [end for end in self.ends if end.until is None and end.role in roles and not end.member.gone]
 
     @property
+    def has_lost_an_end(self) -> bool:
+        """Was a component removed that was still attached?"""
+        return any(end.until is None and end.member.gone for end in self.ends)
+
+    @property
     def is_proper(self) -> bool:
         """Has it both sides, and no second server? Clients without server are not connected, and that is all."""
         whole = bool(self.live(*SENDERS) and self.live(*TAKERS))

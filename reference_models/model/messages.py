@@ -52,6 +52,11 @@ def counts(member: Member) -> bool:
     return any(isinstance(a, s.CountMessages) for a in member.declaration.plan.get("method", ()))
 
 
+def may_miss_an_end(call: MethodCall) -> bool:
+    """Is comm_error true because an end of its connection has been removed without being detached?"""
+    return call.code == COMM_ERROR and call.link is not None and call.link.has_lost_an_end
+
+
 def settling_time(runtime: ObservedRuntime) -> float:
     """Nanoseconds that a connector may take to learn that it was broken or mended."""
     return runtime.ics.tolerance("error-known-within") * _NANOSECONDS
@@ -120,7 +125,9 @@ def waited_for(runtime: ObservedRuntime, timeout: Timeout, since: int) -> bool:
 def overdue(runtime: ObservedRuntime, timeout: Timeout) -> Iterator[tuple[MethodCall, list[End]]]:
     """Answered messages, and the receivers that are well and operational all the while and were waited for in vain."""
     for call in messages(runtime):
-        if call.reply is None or not is_whole(runtime, call):
+        if call.reply is None or call.reply.wrong or not is_whole(runtime, call):
+            continue
+        if call.link is not None and runtime.interactions.is_mistyped(call.link):
             continue
         if not waited_for(runtime, timeout, call.reply.t):
             continue

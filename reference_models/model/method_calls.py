@@ -107,6 +107,12 @@ class MethodCall:
         return results[0] if results else None
 
     @property
+    def is_mistyped(self) -> bool:
+        """Did something of another type than that of the interface come to a body, or back?"""
+        back = self.reply is not None and bool(self.reply.wrong)
+        return back or any(delivery.enter.wrong for delivery in self.deliveries)
+
+    @property
     def goals(self) -> set[tuple[Member, str]]:
         """The port elements that it may come to, as far as they are known."""
         if self.link is not None:

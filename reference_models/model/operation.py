@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from ucm_cts.adapters.contract.scenario import Hook, Step
 from ucm_cts.adapters.contract.trace import Enter, Raise, Return
+from ucm_cts.reference_models.model.designation import designation
 from ucm_cts.reference_models.model.expected_callbacks import Deviation, Fit
 from ucm_cts.reference_models.model.life_cycle import Row
 from ucm_cts.reference_models.model.runtime import Connection, Container, Member
@@ -140,6 +141,11 @@ class OperationInProgress:
     connection: Connection | None = None
     end: Result = field(init=False)
     outcome: OperationEnd = _NOT_ENDED
+
+    @property
+    def what(self) -> str:
+        """The operation and what it is applied to, as findings name it."""
+        return designation(self.step)
 
     def unclear_if(self, condition: bool) -> None:
         """The model cannot predict it if ``condition`` holds."""

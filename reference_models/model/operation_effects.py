@@ -227,19 +227,30 @@ def _perhaps_removed(runtime: Runtime, members: Sequence[Member]) -> None:
 
 def _removed(runtime: Runtime, ongoing: OperationInProgress, removed: Sequence[Member]) -> None:
     for client, used in runtime.clients_of(removed):
-        undone = len(ongoing.received(client, "on_disconnect"))
+        undone = len(ongoing.received(client, "on_disconnect")) >= len(used)
         for connection in used:
-            connection.live = False if undone >= len(used) else None
+            connection.live = False if undone else _still_stands(connection)
         if ongoing.received(client, "on_shutdown"):
             client.operational = False
-        if undone < len(used) or not client.operational:
-            client.suspended = client.suspended or undone < len(used)
+        client.suspended = client.suspended or any(connection.live is None for connection in used)
     for member in removed:
         member.operational = False
         _forget_start(member)
         for connection in member.connections:
             connection.live = False
         runtime.let_go(member)
+
+
+def _still_stands(connection: Connection) -> bool | None:
+    """Does the connection of a client stand whose provider was removed without on_disconnect? None if that is open.
+
+    An emitter keeps its connection: other receivers have it, too, or its on_disconnect would have shown that it is undone.
+    """
+    client = connection.client
+    if connection.provider is not None or not connection.takers:
+        return None
+    others = any(not taker.gone for taker in connection.takers)
+    return True if others or client.declaration.connectable or client.operational else None
 
 
 def _started(runtime: Runtime, ongoing: OperationInProgress, step: s.Start, end: Result) -> None:

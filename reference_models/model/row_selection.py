@@ -114,20 +114,25 @@ class RowSelection:
             return
         clients = list(runtime.clients_of([member]))
         failing = member.raises(*_FAILING_END)
+        attached = bool(runtime.interactions.links_of(member))
         if member.state == "ready":
             ongoing.judged = not failing
             self._member_role(ongoing, member, "")
         elif failing:
-            ongoing.judged = not clients and not member.live_connections() and not member.raises("on_shutdown")
+            ongoing.judged = (
+                not (clients or attached) and not member.live_connections() and not member.raises("on_shutdown")
+            )
             self._member_role(ongoing, member, "on_remove fails" if ongoing.judged else "not connected")
+        elif attached:
+            self._member_role(ongoing, member, "attached")
         elif clients:
             self._member_role(ongoing, member, "provider in use")
         else:
             self._member_role(ongoing, member, "connected" if member.live_connections() else "not connected")
         doubtful = [c for c in runtime.all_connections() if c.live is None or c.ambiguous]
-        ongoing.unclear_if(any(member is c.provider or member is c.client for c in doubtful))
+        ongoing.unclear_if(any(member is c.client or c.leads_to({id(member)}) for c in doubtful))
         for client, _ in clients:
-            self._member_role(ongoing, client, "", "remove_provider")
+            self._member_role(ongoing, client, "attached" if attached else "", "remove_provider")
             ongoing.unclear_if(_raises_when_disconnected(client))
 
     def _get_port_element(self, runtime: ObservedRuntime, ongoing: OperationInProgress, step: s.GetPortElement) -> None:
@@ -304,18 +309,20 @@ class RowSelection:
             return
         ongoing.container = container
         members = container.live_members()
-        self._removal_of_all(ongoing, members)
-        ongoing.unclear_if(any(c.live is None and c.provider in members for c in runtime.all_connections()))
-        for client, _ in runtime.clients_of(members):
-            if client.container is not container:
-                self._member_role(ongoing, client, "", "remove_provider")
-                ongoing.unclear_if(_raises_when_disconnected(client))
+        clients = [client for client, _ in runtime.clients_of(members) if client.container is not container]
+        in_use = bool(clients) or any(map(runtime.interactions.is_used_elsewhere, members))
+        self._removal_of_all(ongoing, members, "in use elsewhere" if in_use else "")
+        gone = {id(member) for member in members}
+        ongoing.unclear_if(any(c.live is None and c.leads_to(gone) for c in runtime.all_connections()))
+        for client in clients:
+            self._member_role(ongoing, client, "with its container", "remove_provider")
+            ongoing.unclear_if(_raises_when_disconnected(client))
 
-    def _removal_of_all(self, ongoing: OperationInProgress, members: Sequence[Member]) -> None:
+    def _removal_of_all(self, ongoing: OperationInProgress, members: Sequence[Member], condition: str = "") -> None:
         if not members:
             self._role(ongoing, None, "absent", "no members")
         for member in members:
-            self._member_role(ongoing, member, "")
+            self._member_role(ongoing, member, condition)
             ongoing.unclear_if(member.raises(*_FAILING_END) or any(c.live is None for c in member.connections))
 
 
@@ -335,7 +342,8 @@ def undone_by(ongoing: OperationInProgress, member: Member) -> list[Connection]:
     if ongoing.operation in ("remove_component", "remove_container") and member is not ongoing.subject:
         removed = [ongoing.subject] if ongoing.operation == "remove_component" else ongoing.container.live_members()
         if member not in removed:
-            return [c for c in live if c.provider in removed]
+            gone = {id(m) for m in removed if m is not None}
+            return [c for c in live if c.leads_to(gone)]
     return live
 
 

@@ -7,6 +7,7 @@ properties stay silent about it until a start or stop that succeeds shows the st
 
 from __future__ import annotations
 
+from collections.abc import Container as Container_
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -27,6 +28,7 @@ class Connection:
     """A connection of ``port`` to ``provider``'s port element ``provided``.
 
     ``live`` is None where the text leaves open whether it still stands.
+    ``takers``: with a connector: the instances attached at its other side, live or removed.
 
     ``stale`` connections were made to a reference whose instance had been removed before; ``ambiguous`` ones share their
     id with another live one.
@@ -42,6 +44,13 @@ class Connection:
     live: bool | None = True
     stale: bool = False
     ambiguous: bool = False
+    takers: tuple[Member, ...] = ()
+
+    def leads_to(self, members: Container_[int]) -> bool:
+        """Is one of ``members``, given by ``id()``, behind it?"""
+        return (self.provider is not None and id(self.provider) in members) or any(
+            id(taker) in members for taker in self.takers
+        )
 
 
 @dataclass(slots=True, eq=False)
@@ -329,7 +338,7 @@ class Runtime:
         for member in self.present:
             if member.gone or id(member) in wanted:
                 continue
-            used = [c for c in member.connections if c.live and c.provider is not None and id(c.provider) in wanted]
+            used = [c for c in member.connections if c.live and c.leads_to(wanted)]
             if used:
                 yield member, used
 

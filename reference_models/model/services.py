@@ -32,10 +32,11 @@ _NANOSECONDS = 1_000_000
 
 
 def service_calls(runtime: ObservedRuntime) -> list[ServiceCall]:
-    """All calls through service connectors that may rely on a server."""
+    """All calls through service connectors that may rely on a server, and for which everything handed over has the right type."""
     if runtime.is_over and runtime.service_calls is not None:
         return runtime.service_calls
-    found = [c for call in runtime.interactions.calls if (c := _service_call(runtime, call))]
+    typed = [call for call in runtime.interactions.calls if not call.is_mistyped]
+    found = [c for call in typed if (c := _service_call(runtime, call))]
     runtime.service_calls = found
     return found
 
@@ -137,7 +138,7 @@ def strays(runtime: ObservedRuntime) -> Iterator[Delivery]:
     unknown = {call.request.method for call in interactions.calls if call.caller is None or call.link is None}
     for delivery in interactions.deliveries:
         link = delivery.link
-        if link is None or link.connector != s.SERVICE_CONNECTOR or delivery.call is not None:
+        if link is None or link.connector != s.SERVICE_CONNECTOR or delivery.call is not None or delivery.enter.wrong:
             continue
         if delivery.enter.method not in unknown and not _serves_several(
             runtime, delivery.receiver, delivery.enter.port

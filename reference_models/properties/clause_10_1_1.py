@@ -17,6 +17,7 @@ from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import services
 from ucm_cts.reference_models.model import value_transport as transport
+from ucm_cts.reference_models.model.designation import designation, error_name
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.service_call import ServiceCall
@@ -193,7 +194,7 @@ def types_accepted(
     return check.fail(
         f"{kind_name(types[0])} refused by {step.connector}",
         expected=f"{step.connector} can be bound to an interface with {kind_name(types[0])}, as it is to another one",
-        observed=f"it ended with {end.error} {end.detail}".rstrip(),
+        observed=f"{designation(step)} raised {error_name(end.error)} {end.detail}".rstrip(),
         event=end,
         requirement=transport.requirement_of(types[0]),
     )

@@ -9,7 +9,7 @@ from ucm_cts.adapters.contract.trace import Counted, Pushed
 from ucm_cts.reference_models.conclusions import Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model.links import LinkState
-from ucm_cts.reference_models.model.messages import CODES, OK, is_well
+from ucm_cts.reference_models.model.messages import CODES, COMM_ERROR, OK, is_well
 from ucm_cts.reference_models.model.method_calls import PushedBurst
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.runtime import Member
@@ -38,6 +38,8 @@ def burst_answered(check: Property, runtime: ObservedRuntime, event: Pushed) -> 
         return
     if set(event.answers) == {OK}:
         yield check.kept(_OK_IF_WELL)
+    elif burst.link.has_lost_an_end and set(event.answers) <= {OK, COMM_ERROR}:
+        return
     elif not (yield from takes(runtime, "message-overflow", "refuse")):
         expected = "message-overflow was declared as block: each message of a burst is answered ok"
         yield _violate(check, _OK_IF_WELL, expected, f"the answers were {event.answers}", event)
@@ -50,6 +52,8 @@ def burst_counted(check: Property, runtime: ObservedRuntime, event: Counted) -> 
     link = runtime.interactions.link_to(receiver) if receiver is not None else None
     bursts = [burst for burst in runtime.interactions.bursts if burst.link is link]
     if receiver is None or link is None or not bursts or _is_busy(runtime, link) or not _is_known(bursts):
+        return
+    if runtime.interactions.is_mistyped(link):
         return
     yield from _origin(check, receiver, bursts, event)
     yield from _once(check, receiver, event)

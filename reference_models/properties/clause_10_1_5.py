@@ -6,6 +6,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Raise, Reply
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, takes
 from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.model.designation import designation
 from ucm_cts.reference_models.model.links import LinkState
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import OperationInProgress, Result
@@ -308,7 +309,7 @@ def _fits(link: LinkState, step: s.Attach, has_server: bool) -> bool:
 def _refused(check: Property, requirement: str, step: s.Link | s.Attach, end: Raise, done: str) -> Finding:
     what = f"a connector for {step.interface}" if isinstance(step, s.Link) else f"{step.role} {step.id}"
     return check.refused(
-        s.operation(step), end, expected=f"{what} is {done}", cause=f"not {done}", requirement=requirement
+        designation(step), end, expected=f"{what} is {done}", cause=f"not {done}", requirement=requirement
     )
 
 

@@ -7,6 +7,7 @@ from ucm_cts.adapters.contract.trace import Raise, Timeout
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions, Taken, takes
 from ucm_cts.reference_models.findings import Finding
 from ucm_cts.reference_models.model import messages as msg
+from ucm_cts.reference_models.model.designation import designation, error_name
 from ucm_cts.reference_models.model.links import End, LinkState
 from ucm_cts.reference_models.model.method_calls import Delivery, MethodCall
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -47,7 +48,7 @@ def every_receiver(check: Property, runtime: ObservedRuntime, timeout: Timeout) 
         refused, disturbed = call.code != msg.OK, msg.is_disturbed(runtime, call)
         if not call.deliveries and (refused or not disturbed):
             continue  # ok_kept's matter
-        if refused and call.crowded:
+        if refused and (call.crowded or msg.may_miss_an_end(call)):
             continue
         requirement = _INDEPENDENCE if disturbed and not refused else _RECEIVERS
         got = ", ".join(sorted({d.receiver.lane for d in call.deliveries if d.receiver is not None}))
@@ -115,7 +116,13 @@ def message_origin(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """Each message that enters a receiver was pushed before by an emitter of its connection."""
     for delivery in runtime.interactions.deliveries:
         receiver, link, enter = delivery.receiver, delivery.link, delivery.enter
-        if receiver is None or link is None or link.connector != s.MESSAGE_CONNECTOR or enter.method != s.PUSH:
+        if (
+            receiver is None
+            or link is None
+            or enter.wrong
+            or link.connector != s.MESSAGE_CONNECTOR
+            or enter.method != s.PUSH
+        ):
             continue
         call = delivery.call
         if call is not None and runtime.interactions.has_left(delivery):
@@ -212,7 +219,7 @@ def message_connector(
         what = f"{step.port} of {member.lane} as {step.role} of {link.name}, which has {len(link.live(step.role))}"
     else:
         return ()
-    observed = f"it raised {end.error} {end.detail}"
+    observed = f"{designation(step)} raised {error_name(end.error)} {end.detail}".rstrip()
     return check.fail(s.operation(step), expected=what, observed=observed, event=end, requirement=requirement)
 
 
@@ -232,7 +239,7 @@ def joined_and_started(check: Property, runtime: ObservedRuntime, ongoing: Opera
         return check.fail(
             "start",
             expected=f"what is joined by {joined[0]} is started",
-            observed=f"start raised {ongoing.end.error} {ongoing.end.detail}",
+            observed=f"start raised {error_name(ongoing.end.error)} {ongoing.end.detail}",
             ended=ongoing,
         )
     return ()

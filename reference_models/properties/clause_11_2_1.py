@@ -87,22 +87,22 @@ def configuration_first(check: Property, runtime: ObservedRuntime, ongoing: Oper
 def connect_arguments(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_connect is given the port element's name and the reference that connect was given."""
     event, _, ongoing, _ = callback
-    if ongoing is None or not isinstance(ongoing.step, s.Connect):
+    if ongoing is None or not isinstance(ongoing.step, s.Connect) or event.wrong:
         return ()
     member = ongoing.subject
     if member is None or member.suspended or outside_life(runtime, callback) or member.body != event.body:
         return ()
     reference, _ = runtime.reference(ongoing.step.to)
     wrong = event.port != ongoing.step.port
-    wrong_reference = event.reference is None or (
+    wrong_reference = (event.reference is None and reference is not None) or (
         isinstance(event.reference, Reference) and isinstance(reference, Reference) and event.reference != reference
     )
     if not wrong and not wrong_reference:
         return check.kept()
     return check.fail(
         "name" if wrong else "reference",
-        expected=f"on_connect({ongoing.step.port}, {_show(reference)})",
-        observed=f"on_connect({event.port}, {_show(event.reference)})",
+        expected=f"{member.lane} is told on_connect({ongoing.step.port}, {_show(reference)})",
+        observed=f"it was told on_connect({event.port}, {_show(event.reference)})",
         during=(ongoing, event),
         instead=(Arrow(ongoing.container.name, member.lane, f"on_connect({ongoing.step.port}, {_show(reference)})"),),
     )
@@ -112,7 +112,7 @@ def connect_arguments(check: Property, runtime: ObservedRuntime, callback: Callb
 def disconnect_arguments(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_disconnect is given the name of the port element whose connection is undone."""
     event, member, ongoing, _ = callback
-    if ongoing is None or member is None or member.suspended or outside_life(runtime, callback):
+    if ongoing is None or member is None or member.suspended or event.wrong or outside_life(runtime, callback):
         return ()
     if ongoing.operation not in _UNDOING:  # that it came at all is then the fault
         return ()
@@ -125,8 +125,8 @@ def disconnect_arguments(check: Property, runtime: ObservedRuntime, callback: Ca
     wanted = " or ".join(sorted(ports))
     return check.fail(
         "name",
-        expected=f"on_disconnect({wanted})",
-        observed=f"on_disconnect({event.port})",
+        expected=f"{member.lane} is told on_disconnect({wanted})",
+        observed=f"it was told on_disconnect({event.port})",
         during=(ongoing, event),
         instead=(Arrow(ongoing.container.name, member.lane, f"on_disconnect({wanted})"),),
     )
@@ -147,7 +147,7 @@ def container_interface(check: Property, runtime: ObservedRuntime, callback: Cal
     if again or (first_start and given == 0):
         return check.fail(
             "twice" if again else "never",
-            expected="set_container_interface comes once, before on_startup",
+            expected=f"set_container_interface of {lane(*event.body)} comes once, before on_startup",
             observed="set_container_interface came again"
             if again
             else "on_startup came without set_container_interface",
@@ -164,7 +164,7 @@ def container_interface(check: Property, runtime: ObservedRuntime, callback: Cal
 def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Siblings) -> Concluded:
     """A fragment gets the true list of its container's members, unless an operation is changing it."""
     member = runtime.bodies.get(event.body)
-    if ongoing is not None or member is None or not member.declaration.fragment:
+    if ongoing is not None or member is None or not member.declaration.fragment or event.wrong:
         return ()
     if member.suspended or not member.operational:
         return ()
@@ -173,8 +173,8 @@ def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event:
         return check.kept()
     return check.fail(
         problem.split()[0],
-        expected=f"the fragment sees {[m.id for m in member.container.live_members()]}",
-        observed=f"the fragment sees {list(event.ids)}: {problem}",
+        expected=f"fragment {member.lane} sees {[m.id for m in member.container.live_members()]}",
+        observed=f"it sees {list(event.ids)}: {problem if event.raised else f'that {problem}'}",
         at=(event.n,),
     )
 
@@ -182,4 +182,4 @@ def siblings(check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event:
 def _show(reference: object) -> str:
     if isinstance(reference, Reference):
         return f"{lane(reference.component, reference.instance)}.{reference.port}"
-    return "nil" if reference is None else str(reference)
+    return "nil" if reference is None else "an object of the framework's own"

@@ -20,7 +20,7 @@ _ONE_REFERENCE, _DANGLING = "R-12.10-25", "R-11.2.3-14"
 def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
     """on_startup names each connected required port element and gives the reference it was connected to."""
     event, member, ongoing, _ = callback
-    if member is None or member.suspended or member.operational:
+    if member is None or member.suspended or member.operational or event.wrong:
         return ()
     given = handed_over(event)
     again = member.startups > 0
@@ -32,8 +32,8 @@ def dependencies(check: Property, runtime: ObservedRuntime, callback: Callback) 
     requirement, cause, expected, observed = problem
     return check.fail(
         cause,
-        expected=expected,
-        observed=observed,
+        expected=f"on_startup of {member.lane} is given {expected}",
+        observed=f"it was given {observed}",
         during=(ongoing, event),
         instead=(Arrow(member.container.name, member.lane, f"on_startup({_expected(member)})"),),
         requirement=_AGAIN if again else requirement,
@@ -82,7 +82,7 @@ def _problem(member: Member, given: dict[str, list[MaybeReference]]) -> tuple[st
 def no_dangling_reference(check: Property, runtime: ObservedRuntime, callback: Callback) -> Conclusions:
     """on_startup offers no removed instance, and nothing through a connection that was undone."""
     event, member, ongoing, _ = callback
-    if member is None or member.operational or (ongoing is not None and ongoing.operation == "connect"):
+    if member is None or member.operational or event.wrong or (ongoing is not None and ongoing.operation == "connect"):
         return
     given = handed_over(event)
     for port, references in given.items():
@@ -120,4 +120,4 @@ def _expected(member: Member) -> str:
 def _show(reference: MaybeReference) -> str:
     if isinstance(reference, Reference):
         return f"{lane(reference.component, reference.instance)}.{reference.port}"
-    return "nil" if reference is None else "an unrecognised reference"
+    return "nil" if reference is None else "an object of the framework's own"

@@ -47,14 +47,16 @@ _FROM_TABLE = (
 @property_at("ended", *DECLARED.values())
 def declared_errors(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgress) -> Concluded:
     """Nothing but the declared exceptions leaves an operation."""
+    if runtime.destroyed:  # there is no runtime any more that could answer
+        return ()
     requirement, declared, end = DECLARED[ongoing.operation], DECLARED_ERRORS[ongoing.operation], ongoing.end
     if isinstance(end, Return) or end.error in declared:
         return requirement
     name = end.error if end.error != "UNDECLARED" else f"an undeclared exception ({end.detail})"
     return check.fail(
         f"{ongoing.operation} {end.error}",
-        expected=f"{ongoing.operation} returns or raises {' or '.join(declared)}",
-        observed=f"{ongoing.operation} raised {name}",
+        expected=f"{ongoing.what} returns or raises {' or '.join(declared)}",
+        observed=f"{ongoing.what} raised {name}",
         ended=ongoing,
         instead=(Arrow(ongoing.container.name, "test", f"return or {' or '.join(declared)}"),),
         requirement=requirement,
@@ -82,8 +84,8 @@ def _forbidden(
     expected = " or ".join(a if a != "return" else "a normal return" for a in sorted(permitted))
     yield check.fail(
         f"{row.id} {answer}",
-        expected=f"{ongoing.operation} ends with {expected}{f' ({situation})' if situation else ''}",
-        observed=f"{ongoing.operation} {'returned' if answer == 'return' else f'raised {answer}'}",
+        expected=f"{ongoing.what} ends with {expected}{f' ({situation})' if situation else ''}",
+        observed=f"{ongoing.what} {'returned' if answer == 'return' else f'raised {answer}'}",
         ended=ongoing,
         instead=(Arrow(ongoing.container.name, "test", " or ".join(sorted(permitted))),),
         requirement=row.requirement,
@@ -115,11 +117,11 @@ def _identifier(check: Property, ongoing: OperationInProgress, end: Return, live
     unique, in_range = check.stands_for
     value = end.value
     if not isinstance(value, int) or not _SMALLEST <= value <= _LARGEST:
-        text = f"{ongoing.operation} returned {value!r}"
+        text = f"{ongoing.what} returned {value!r}"
         expected = f"a {kind} id that fits in 32 bits"
         return check.fail("range", expected=expected, observed=text, event=end, requirement=in_range)
     if value in live:
-        text = f"{ongoing.operation} returned {value}, the id of another live {kind}"
+        text = f"{ongoing.what} returned {value}, the id of another live {kind}"
         return check.kept(in_range), check.fail(
             "in use", expected=f"a {kind} id not in use", observed=text, ended=ongoing, requirement=unique
         )
@@ -164,8 +166,8 @@ def membership(check: Property, runtime: ObservedRuntime, ongoing: OperationInPr
     members = ", ".join(f"{m.id} ({m.lane})" for m in ongoing.container.live_members()) or "none"
     return check.fail(
         problem.split()[0],
-        expected=f"get_components lists the members: {members}",
-        observed=f"get_components returned {list(listed)}: {problem}",
+        expected=f"{ongoing.what} lists the members: {members}",
+        observed=f"{ongoing.what} returned {list(listed)}: it {problem}",
         ended=ongoing,
         requirement=requirement,
     )
@@ -184,7 +186,7 @@ def listing_problem(runtime: ObservedRuntime, container: Container, listed: tupl
         reachable += [m.id for c in runtime.containers.values() if c is not container for m in c.live_members()]
     surplus = [i for i in listed if i not in reachable]
     if surplus:
-        return f"holds {surplus}, not members"
+        return f"holds {surplus}, which are no members"
     if len(listed) > len(reachable) or (len(set(live)) == len(live) and len(set(listed)) < len(listed) == len(live)):
         return "repeats an id"
     return None

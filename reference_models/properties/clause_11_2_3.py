@@ -193,8 +193,8 @@ def alternation(check: Property, runtime: ObservedRuntime, callback: Callback) -
         return ()
     return check.fail(
         event.hook,
-        expected="on_startup and on_shutdown alternate",
-        observed=f"{event.hook} after {', '.join(history.phases) or 'neither'}",
+        expected=f"on_startup and on_shutdown of {member.lane} alternate",
+        observed=f"{event.hook} came after {', '.join(history.phases) or 'neither'}",
         during=(ongoing, event),
         requirement=_READY_BY_START if event.hook == "on_startup" else _ENDED_BY_SHUTDOWN,
     )
@@ -208,7 +208,7 @@ def discarded(check: Property, runtime: ObservedRuntime, callback: Callback) -> 
         return ()
     return check.fail(
         event.hook,
-        expected="a failed add_component leaves nothing behind",
+        expected=f"a failed add_component leaves nothing behind of {lane(*event.body)}",
         observed=f"its body received {event.hook} later",
         during=(callback.ongoing, event),
     )

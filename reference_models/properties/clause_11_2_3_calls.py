@@ -6,6 +6,7 @@ from ucm_cts.adapters.contract import scenario as s
 from ucm_cts.adapters.contract.trace import Enter, Raise, Reply
 from ucm_cts.reference_models.conclusions import Concluded, Conclusions
 from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.model.designation import error_name
 from ucm_cts.reference_models.model.executions import BusinessCall, behind_call, call_guarantees
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress, Result
@@ -13,13 +14,20 @@ from ucm_cts.reference_models.model.runtime import Member, lane
 from ucm_cts.reference_models.properties.declaration import Property, property_at
 
 _METHODS, _OPERATIONAL, _OWN_ELEMENT = "R-11.2.1.1-02", "R-11.2.1.2-07", "R-11.2.2.1-06"
-_DISABLED, _NOT_RUN = "R-11.2.3-02", "R-11.2.3-17"
+_DISABLED, _NOT_RUN, _DESTROYED = "R-11.2.3-02", "R-11.2.3-17", "R-11.2.2.2-06"
+
+
+def is_mistyped(call: BusinessCall, end: Result | Reply) -> bool:
+    """Did it come to a body, or back, with something of another type?"""
+    return (not isinstance(end, Raise) and bool(end.wrong)) or any(enter.wrong for enter, _ in call.entries)
 
 
 @property_at("answered", _METHODS, _OPERATIONAL, _OWN_ELEMENT)
 def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end: Result) -> Conclusions:
     """A call through a reference enters an operational body once, with the value sent, and returns its result."""
     member, port = call.callee, call.port
+    if is_mistyped(call, end):
+        return
     if member is None or not call.possible or not member.serving or member.raises("exchange"):
         return
     if port is not None and call_guarantees(member.declaration, port):
@@ -30,7 +38,11 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
         own = [(e, x) for e, x in own if e.instance == instance and e.component == component]
     if not own or isinstance(end, Raise):
         expected = f"exchange({call.value}) runs {member.lane}'s body and returns its result"
-        observed = f"it raised {end.error} {end.detail}" if isinstance(end, Raise) else "the body was not entered"
+        observed = (
+            f"it raised {error_name(end.error)} {end.detail}".rstrip()
+            if isinstance(end, Raise)
+            else "the body was not entered"
+        )
         yield _violate(check, _OPERATIONAL, "not served", expected, observed, call.n, end.n, member)
         return
     enter, exit_ = own[0]
@@ -57,7 +69,7 @@ def stimulus(check: Property, runtime: ObservedRuntime, call: BusinessCall, end:
 def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Concluded:
     """A call through a connection enters a connected body with the value sent; its result comes back."""
     request = call.request
-    if request is None or reply.raised:
+    if request is None or reply.raised or is_mistyped(call, reply):
         return ()
     providers, fragments, targets = behind_call(runtime, call, request)
     if not providers:
@@ -80,7 +92,9 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
         where = ", ".join(f"{lane(*e.body)} with {e.value}" for e, _ in call.entries) or "no body"
         observed = f"it reached {where}"
     elif not came_back:
-        observed = f"the body returned {reached[0][1].value if reached[0][1] else None}, the caller got {reply.value}"
+        left = reached[0][1]
+        gave = left.value if left is not None and left.value is not None else "nothing"
+        observed = f"the body returned {gave}, the caller got {'nothing' if reply.value is None else reply.value}"
     else:
         observed = f"it was carried out {len(reached)} times"
     cause = "target" if not reached else "result"
@@ -91,7 +105,7 @@ def peer_calls(check: Property, runtime: ObservedRuntime, call: BusinessCall, re
 def interactions(check: Property, runtime: ObservedRuntime, call: BusinessCall, reply: Reply) -> Concluded:
     """In the operational phase a call between two components comes back."""
     request = call.request
-    if not call.possible or request is None:
+    if not call.possible or request is None or reply.wrong:
         return ()
     caller = runtime.bodies.get(reply.body)
     if caller is None or not caller.serving:
@@ -168,21 +182,23 @@ def _called_while_added(check: Property, ongoing: Ongoing, event: Enter, call: B
     )
 
 
-@property_at("called", _NOT_RUN, at=("framework",))
+@property_at("called", _NOT_RUN, _DESTROYED, at=("framework",))
 def nothing_after_stop(
     check: Property, runtime: ObservedRuntime, ongoing: Ongoing, event: Enter, call: BusinessCall | None
 ) -> Concluded:
-    """After stop returned, no business method begins but those that are called."""
+    """After stop or destroy returned, no business method begins but those that are called."""
     member = runtime.bodies.get(event.body)
     if member is None or member.suspended or member.operational or not member.startups:
         return ()
     if ongoing is not None and ongoing.operation in ("start", "stop", "add_component"):
         return ()
+    ended = "removed with its runtime" if runtime.destroyed else "stopped"
     return check.fail(
-        "called after stop",
-        expected=f"{member.lane} was stopped, so nothing is run on it",
+        "called after destroy" if runtime.destroyed else "called after stop",
+        expected=f"{member.lane} was {ended}, so nothing is run on it",
         observed=f"the framework called {member.lane}'s {event.port} with {event.value}",
         during=(ongoing, event),
+        requirement=_DESTROYED if runtime.destroyed else _NOT_RUN,
     )
 
 

@@ -9,6 +9,7 @@ from typing import Literal, get_args
 from ucm_cts.adapters.contract.trace import Enter, Raise, StepEvent
 from ucm_cts.reference_models.conclusions import Concluded, Kept
 from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.model.designation import error_name
 from ucm_cts.reference_models.model.operation import Ongoing, OperationInProgress
 
 _Always = Literal["ended", "entered", "unclear", "called", "answered", "replied", "noted"]
@@ -106,7 +107,7 @@ class Property:
         self, operation: str, end: Raise, *, expected: str, cause: str = "refused", requirement: str = ""
     ) -> Finding:
         """The requirement was violated because ``operation`` ended with an exception."""
-        observed = f"{operation} raised {end.error} {end.detail}".rstrip()
+        observed = f"{operation} raised {error_name(end.error)} {end.detail}".rstrip()
         return self.fail(cause, expected=expected, observed=observed, event=end, requirement=requirement)
 
 

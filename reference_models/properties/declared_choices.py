@@ -22,7 +22,7 @@ from ucm_cts.reference_models.properties.declaration import Property, property_a
 _REVERSE_ORDER = "R-11.2.2.1-13"
 
 _WITH_CHOICES = requirements("""
-    R-11.2.2.1-08 R-11.2.2.2-02 R-11.2.3-06 R-11.2.3-07 R-11.2.3-10 R-11.2.3-11 R-11.2.3-13 R-11.2.3-15
+    R-11.2.2.1-08 R-11.2.2.2-02 R-11.2.2.2-03 R-11.2.3-06 R-11.2.3-07 R-11.2.3-10 R-11.2.3-11 R-11.2.3-13 R-11.2.3-15
     R-12.10-22 R-12.10-23 R-12.10-24
 """)
 
@@ -50,8 +50,8 @@ def _chosen(check: Property, runtime: ObservedRuntime, ongoing: OperationInProgr
     taken = " or ".join(reading.replace("=", " = ") for reading in fit.readings)
     yield check.fail(
         f"{row.id} {taken}",
-        expected=f"{ongoing.operation} goes as the vendor declares: {', '.join(declared)}",
-        observed=f"it went the way of {taken}" + (f" ({member.lane}, {row.state})" if member is not None else ""),
+        expected=f"{ongoing.what} goes as the vendor declares: {', '.join(declared)}",
+        observed=f"it went as with {taken}" + (f" ({member.lane}, {row.state})" if member is not None else ""),
         ended=ongoing,
         requirement=row.requirement,
     )
@@ -77,8 +77,8 @@ def undeclared_choice(ics: Ics, ongoing: OperationInProgress, end: Result, fitte
 
 def _is_choice(ongoing: OperationInProgress, end: Result, member: Member | None, row: Row, fit: Fit) -> bool:
     """Was the framework free to go another way, and is nothing but this choice the reason that it went this one?"""
-    if row.operation == "remove_provider":  # a container is removed with its members, in use or not
-        return ongoing.operation == "remove_component"
+    if row.operation == "remove_provider":  # it goes the way that the provider goes
+        return True
     for option in _options(fit):
         if option == "manager-start":  # what is no start or stop of the manager's own has nothing to reach
             return ongoing.container.started is (ongoing.operation == "stop")

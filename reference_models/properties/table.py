@@ -24,6 +24,7 @@ from ucm_cts.reference_models.properties import (  # noqa: F401 - importing thes
     clause_11_2_3,
     clause_11_2_3_calls,
     declared_choices,
+    handed_over,
 )
 from ucm_cts.reference_models.properties.declaration import PROPERTIES, Bound, Feature, Moment, checked_at
 

@@ -42,6 +42,7 @@ __all__ = [
 MODULES = {
     "variants": (
         "answers",
+        "attachments",
         "clocks_and_traces",
         "execution",
         "messages",
@@ -51,7 +52,7 @@ MODULES = {
         "services",
         "starting",
     ),
-    "life_cycle": ("business_calls", "components", "connections", "containers", "errors", "members", "states"),
+    "life_cycle": ("business_calls", "components", "connections", "containers", "errors", "members", "states", "types"),
     "execution": ("policies", "running"),
     "container_services": ("clocks", "logs", "port_traces"),
     "data": ("composite_types", "simple_types"),

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract.data_types import Datum
+
+_ADDRESS = re.compile(" at 0x[0-9a-f]+")
+_LONGEST = 200
+"""The most characters of a value that are shown."""
 
 
 def is_datum(value: object) -> bool:
@@ -13,6 +18,15 @@ def is_datum(value: object) -> bool:
     if isinstance(value, list | tuple):
         return all(map(is_datum, value))
     return isinstance(value, bool | int | str)
+
+
+def in_words(value: object) -> str:
+    """``value`` and its type, for people."""
+    try:
+        text = _ADDRESS.sub("", repr(value))[:_LONGEST].encode("utf-8", "replace").decode()
+    except Exception:  # noqa: BLE001 - the value is the framework's
+        text = "a value"
+    return f"{text} ({type(value).__name__})" if value is not None else "nothing"
 
 
 def snapshot(values: Sequence[Any]) -> tuple[Datum, ...]:

@@ -18,6 +18,7 @@ from ucm_cts.adapters.contract.adapter import Adapter, NotOffered
 from ucm_cts.adapters.contract.programming_model import BadParameter, NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import Scenario, Step
 from ucm_cts.adapters.sdk.python.counting import Occupancy, Storm, switching_often
+from ucm_cts.adapters.sdk.python.data import in_words
 from ucm_cts.adapters.sdk.python.probe import Stage, is_integer
 from ucm_cts.adapters.sdk.python.recorder import Recorder
 from ucm_cts.adapters.sdk.python.seal import KeptClass, Seal
@@ -205,6 +206,9 @@ class Performance(metaclass=KeptClass):
         else:
             if step.returns == "records":
                 record(t.Return, step=number, records=value)
+            elif isinstance(step, s.Invoke):
+                given: dict[str, Any] = {"value": int(value)} if is_integer(value) else {"wrong": in_words(value)}
+                record(t.Return, step=number, **given)
             else:
                 record(t.Return, step=number, value=value if step.returns else None)
 
@@ -294,7 +298,7 @@ class Performance(metaclass=KeptClass):
         reference = self._variables.reference(step.ref)
         if reference is None:  # nothing can be called through a null reference
             raise Unbound(step.ref)
-        return lambda: _integer(reference.exchange(step.value))
+        return partial(reference.exchange, step.value)
 
     # Those that an adapter need not offer.
 

@@ -13,7 +13,7 @@ from ucm_cts.adapters.contract import trace as t
 from ucm_cts.adapters.contract.data_types import Datum, Interface
 from ucm_cts.adapters.contract.scenario import Action, Declaration, Hook
 from ucm_cts.adapters.sdk.python.counting import MessageCounts, Occupancy
-from ucm_cts.adapters.sdk.python.data import is_datum, overwrite, snapshot
+from ucm_cts.adapters.sdk.python.data import in_words, is_datum, overwrite, snapshot
 from ucm_cts.adapters.sdk.python.gates import Gates
 from ucm_cts.adapters.sdk.python.recorder import Recorder
 from ucm_cts.adapters.sdk.python.seal import Kept, KeptClass
@@ -129,14 +129,14 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         return (self, *self._ports.values(), *filter(None, [self._execution]))
 
     def set_attribute(self, name: str, value: str) -> None:
-        if self._is_text("set_attribute", name, value):
-            self._attributes[name] = value
+        if isinstance(name, str):
+            self._attributes[name] = value if isinstance(value, str) else in_words(value)
 
     def on_init(self) -> None:
         self._visit("on_init", attributes=dict(self._attributes))
 
     def on_startup(self, dependencies: Sequence[pm.PortConnection]) -> None:
-        given = self._read(dependencies)
+        given, wrong = _read(dependencies)
         self._references = {}
         for port, references in given:
             self._references.setdefault(port, []).extend(r for r in references if r is not None)
@@ -144,6 +144,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         self._visit(
             "on_startup",
             dependencies=tuple(t.Dependency(port, tuple(map(recognise, references))) for port, references in given),
+            wrong=wrong,
         )
 
     def on_shutdown(self) -> None:
@@ -159,7 +160,7 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
             self._container = None
 
     def get_portElement(self, provided: str) -> pm.PortElementObject | None:
-        return self._ports.get(provided)
+        return self._ports.get(provided) if isinstance(provided, str) else None
 
     def get_policy_element(self, policy: str, element: str) -> pm.ComponentExecution | None:
         return self._execution if (policy, element) == (s.SELF_EXECUTING, s.SELF_EXECUTION_API) else None
@@ -181,10 +182,8 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         """The business method of provided port element ``port``."""
         if self._is_stressed():
             return ~value
-        if not is_integer(value):
-            self.stage.recorder.complain(f"exchange was called with {value!r}, which is no integer")
-            value = 0
-        result = self._visit("exchange", result=~value, port=port, value=value)
+        given: dict[str, Any] = {"value": int(value)} if is_integer(value) else {"wrong": in_words(value)}
+        result = self._visit("exchange", result=~value if is_integer(value) else -1, port=port, **given)
         assert result is not None
         return result
 
@@ -193,14 +192,17 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         plan = self._plan.get("method", ())
         if not self.stage.recorder.recording:
             return []
+        wrong = ""
         if not (isinstance(arguments, list | tuple) and is_datum(arguments)):
-            self.stage.recorder.complain(f"{method} was called with {arguments!r}, which are no values")
-            return []
-        if any(isinstance(action, s.CountMessages) for action in plan):
-            self.stage.messages.add(self.component, self.instance, int(arguments[0]))
+            wrong, arguments = in_words(arguments), []
+        counts = any(isinstance(action, s.CountMessages) for action in plan)
+        if counts and not wrong and not (arguments and is_integer(arguments[0])):
+            wrong = in_words(arguments)
+        if counts and not wrong:
+            self.stage.messages.add(self.component, self.instance, int(arguments[0]))  # type: ignore[arg-type]
             return ["ok"]
         given = snapshot(arguments)
-        self._record(t.Enter, hook="method", port=port, method=method, arguments=given)
+        self._record(t.Enter, hook="method", port=port, method=method, arguments=given, wrong=wrong)
         answer = s.Answer(method, ())
         for action in plan:
             if isinstance(action, s.RaiseError):
@@ -258,10 +260,8 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         except Exception:  # noqa: BLE001 - the callee may raise anything
             self._record(t.Reply, port=port, raised=True)
             return
-        if not is_integer(result):
-            self.stage.recorder.complain(f"exchange returned {result!r} to a probe; it returns an integer")
-            return
-        self._record(t.Reply, port=port, value=result)
+        given: dict[str, Any] = {"value": int(result)} if is_integer(result) else {"wrong": in_words(result)}
+        self._record(t.Reply, port=port, **given)
 
     def _call_method(self, action: s.CallMethod, reference: pm.PortElementObject) -> None:
         arguments = list(snapshot(action.arguments))
@@ -277,10 +277,12 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         overwrite(arguments)  # they are the caller's own
 
     def _reply(self, action: s.CallMethod, results: Any, exception: str | None = None) -> None:
+        wrong = ""
         if not (isinstance(results, list | tuple) and is_datum(results)):
-            self.stage.recorder.complain(f"{action.method} gave {results!r} to a probe, which are no values")
-            results = ()
-        self._record(t.Reply, port=action.port, results=snapshot(results), exception=exception)
+            wrong, results = in_words(results), ()
+        elif not isinstance(exception, str | None):
+            wrong, exception = f"an exception called {in_words(exception)}", None
+        self._record(t.Reply, port=action.port, results=snapshot(results), exception=exception, wrong=wrong)
 
     def _push(self, action: s.Burst, reference: pm.PortElementObject) -> None:
         answers: dict[str, int] = {}
@@ -297,33 +299,18 @@ class Probe(pm.ComponentObject, metaclass=KeptClass):
         try:
             if self._container is None:
                 raise LookupError("no container interface was given")
-            members = tuple(self._container.get_components())
+            members = self._container.get_components()
         except Exception:  # noqa: BLE001 - the framework may raise anything
             self._record(t.Siblings, raised=True)
             return
-        if not all(map(is_integer, members)):
-            self.stage.recorder.complain(
-                f"get_components of the container interface returned {members!r}, not integers"
-            )
-            return
-        self._record(t.Siblings, ids=members)
-
-    def _read(
-        self, dependencies: Sequence[pm.PortConnection]
-    ) -> list[tuple[str, tuple[pm.PortElementObject | None, ...]]]:
         try:
-            given = [(connection.from_port, tuple(connection.to_port)) for connection in dependencies]
-        except (TypeError, AttributeError) as error:
-            self.stage.recorder.complain(f"on_startup takes a sequence of PortConnection values ({error})")
-            return []
-        return given if self._is_text("on_startup", *(port for port, _ in given)) else []
-
-    def _is_text(self, where: str, *names: Any) -> bool:
-        for name in names:
-            if not isinstance(name, str):
-                self.stage.recorder.complain(f"{where} was given {name!r} where a string is due")
-                return False
-        return True
+            ids: tuple[Any, ...] = tuple(members)
+        except Exception:  # noqa: BLE001 - the object is the framework's
+            ids = (None,)
+        given: dict[str, Any] = (
+            {"ids": tuple(map(int, ids))} if all(map(is_integer, ids)) else {"wrong": in_words(members)}
+        )
+        self._record(t.Siblings, **given)
 
     def _record(self, kind: Any, **fields: Any) -> None:
         self.stage.recorder.record(kind, component=self.component, instance=self.instance, **fields)
@@ -333,12 +320,10 @@ class ConnectableProbe(Probe, pm.Connectable):
     """A probe that is informed of each connection."""
 
     def on_connect(self, port_name: str, required: pm.PortElementObject | None) -> None:
-        if self._is_text("on_connect", port_name):
-            self._visit("on_connect", port=port_name, reference=self.stage.recognise(required))
+        self._visit("on_connect", reference=self.stage.recognise(required), **_named(port_name))
 
     def on_disconnect(self, port_name: str) -> None:
-        if self._is_text("on_disconnect", port_name):
-            self._visit("on_disconnect", port=port_name)
+        self._visit("on_disconnect", **_named(port_name))
 
 
 class FragmentProbe(Probe, pm.FragmentObject):
@@ -351,6 +336,31 @@ class FragmentProbe(Probe, pm.FragmentObject):
 
 class ConnectableFragmentProbe(ConnectableProbe, FragmentProbe):
     """A fragment that is informed of each connection."""
+
+
+Given = list[tuple[str, tuple[pm.PortElementObject | None, ...]]]
+
+
+def _read(dependencies: Sequence[pm.PortConnection]) -> tuple[Given, str]:
+    """The names and references that on_startup was given, and what of it is of a wrong type."""
+    given: Given = []
+    try:
+        for connection in dependencies:
+            name = connection.from_port
+            if not isinstance(name, str):
+                return [], f"{in_words(name)} as the name of a port element"
+            try:
+                given.append((str.__str__(name), tuple(connection.to_port)))
+            except TypeError:
+                return [], f"{in_words(connection.to_port)} as the references of {name}"
+    except Exception:  # noqa: BLE001 - the object is the framework's
+        return [], f"{in_words(dependencies)} as its connections"
+    return given, ""
+
+
+def _named(port: object) -> dict[str, Any]:
+    """The name of a port element as ``enter`` records it."""
+    return {"port": str.__str__(port)} if isinstance(port, str) else {"wrong": in_words(port)}
 
 
 _KINDS: dict[tuple[bool, bool], type[Probe]] = {

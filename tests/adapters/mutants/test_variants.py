@@ -55,6 +55,7 @@ BELIED = {
     "manager-get-components": {"R-11.2.2.1-14"},
     "manager-start": {"R-11.2.3-06", "R-11.2.3-10"},
     "remove-while-ready": {"R-11.2.3-11"},
+    "remove-container-in-use": {"R-11.2.2.2-03"},
     "late-container": {"R-11.2.2.2-02"},
     "callback-failure": {"R-12.10-22", "R-12.10-23"},
     "stop-drain": {"R-11.2.3-17"},

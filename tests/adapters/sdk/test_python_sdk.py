@@ -27,9 +27,11 @@ from ucm_cts.adapters.contract.messages import (
 )
 from ucm_cts.adapters.contract.programming_model import Implementation, PortConnection, PortElementObject
 from ucm_cts.adapters.contract.scenario import SELF_EXECUTING, SELF_EXECUTION_API
+from ucm_cts.adapters.contract.trace import Enter
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 from ucm_cts.adapters.sdk.python import engine, workers
 from ucm_cts.adapters.sdk.python.engine import Engine
+from ucm_cts.harness.execution.integrity import contradiction
 from ucm_cts.harness.hosting.hosts import Hosts
 from ucm_cts.harness.hosting.locate import locate
 
@@ -271,7 +273,7 @@ def test_adapter_that_breaks_the_contract_is_refused(operation: str, value: obje
     assert reason in reply.reason
 
 
-def test_malformed_dependencies_are_refused() -> None:
+def test_malformed_dependencies_are_recorded() -> None:
     for given in (None, [("out", ())], [PortConnection(5, ())]):  # type: ignore[arg-type]
 
         class Careless(ReferenceAdapter):
@@ -281,9 +283,26 @@ def test_malformed_dependencies_are_refused() -> None:
                 for member in container.members.values():
                     member.body.on_startup(self.given_to_bodies)
 
-        reply = answer(scenario({"s": SINK}, ["add_component component=s", "start"]), Careless)
-        assert isinstance(reply, Refused)
-        assert "on_startup" in reply.reason
+        asked = scenario({"s": SINK}, ["add_component component=s", "start"])
+        reply = answer(asked, Careless)
+        assert isinstance(reply, Traced)
+        assert contradiction(asked, reply.events) is None
+        (started,) = [e for e in reply.events if isinstance(e, Enter) and e.hook == "on_startup"]
+        assert started.wrong
+        assert started.dependencies == ()
+
+
+def test_results_of_a_wrong_type_are_the_frameworks() -> None:
+    class Vague(PortElementObject):
+        def exchange(self, value: int) -> Any:
+            return None
+
+    class Careless(ReferenceAdapter):
+        def get_port_element(self, container: Any, comp_instance: int, port_name: str) -> PortElementObject | None:
+            return Vague()
+
+    steps = ["add_component component=s", "get_port_element id=s port=in bind=api", "invoke ref=api value=0"]
+    assert play({"s": SINK}, steps, Careless)[-1] == "return step=2 wrong=nothing"
 
 
 def test_streamed_events_come_before_the_answer() -> None:

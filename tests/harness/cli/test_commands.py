@@ -319,7 +319,10 @@ def test_entry_that_matches_nothing_is_an_error_and_named(entry: dict[str, str])
 
 
 def test_only_a_star_is_special_in_an_observed_text() -> None:
-    subject, observed = "subjects:lists_a_stranger", "get_components returned *: holds [987654], not members"
+    subject, observed = (
+        "subjects:lists_a_stranger",
+        "get_components(manager) returned *: it holds [987654], which are no members",
+    )
     Path("known.json").write_text(json.dumps([{**KNOWN[0], "requirement": "R-11.2.2.1-14", "observed": observed}]))
     outcome = ucm_cts("run", subject, "--known-failures", "known.json", "--out", "out")
     assert "no longer occurs" not in outcome.out

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ucm_cts.adapters.contract.adapter import ContainerHandle
+from ucm_cts.adapters.contract.programming_model import PortElementObject
 from ucm_cts.adapters.reference.python.adapter import ReferenceAdapter
 
 
@@ -38,6 +39,20 @@ class IsSlow(ReferenceAdapter):
         if sub_container is None:
             threading.Event().wait()
         super().remove_container(manager, sub_container)
+
+
+class _Silent(PortElementObject):
+    def exchange(self, value: int) -> int:
+        threading.Event().wait()
+        raise AssertionError
+
+
+class LosesCalls(ReferenceAdapter):
+    """Calls through references never come back."""
+
+    def get_port_element(self, container: ContainerHandle, comp_instance: int, port_name: str) -> PortElementObject:
+        super().get_port_element(container, comp_instance, port_name)
+        return _Silent()
 
 
 class DiesAtOnce(ReferenceAdapter):

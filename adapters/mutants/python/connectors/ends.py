@@ -9,11 +9,11 @@ from typing import ClassVar
 
 from ucm_cts.adapters.contract.adapter import NotOffered
 from ucm_cts.adapters.contract.data_types import Datum, Interface
-from ucm_cts.adapters.contract.programming_model import DeclaredException, UcmError
+from ucm_cts.adapters.contract.programming_model import DeclaredException, NotFound, UcmError
 from ucm_cts.adapters.contract.scenario import MESSAGE_CONNECTOR, SERVICE_CONNECTOR
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, breaks
-from ucm_cts.adapters.reference.python.connectors import OK, Link, Taker
+from ucm_cts.adapters.reference.python.connectors import COMM_ERROR, OK, Link, Taker
 from ucm_cts.adapters.reference.python.members import Member
 
 _CALLS, _EXCEPTIONS = "R-10.1.5.1-01", "R-10.1.5.1-10"
@@ -152,6 +152,20 @@ def is_served_by_those_who_are_gone(self: _KeepsDetached, method: str, arguments
         element = self.detached[-1].member.body.get_portElement(self.detached[-1].port)
         return self._copied(element.call(method, self._copied(arguments)))  # type: ignore[union-attr]
     return _KeepsDetached._request(self, method, arguments)
+
+
+@replaces("_check_removable", "R-11.2.3-11", clauses=("10.1.5", "10.1.6"))
+def does_not_know_attached_components(self: Base, member: Member) -> None:
+    """remove_component of what is attached to a connector ends with NOT_FOUND."""
+    if self._takers_of(member):
+        raise NotFound("attached")
+    Base._check_removable(self, member)
+
+
+@alters("_emit", "R-10.1.2-09", clauses=("10.1.2", "10.1.6"), also=("R-10.1.6.1-04",))
+def counts_detached_receivers(self: _KeepsDetached, code: str, _method: str, _arguments: Sequence[Datum]) -> str:
+    """When a receiver has been detached push gives comm_error."""
+    return COMM_ERROR if self.detached else code
 
 
 _CORE = "R-10.1-01"

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from ucm_cts.adapters.contract import programming_model as pm
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import Base, Proxy, breaks, is_below
+from ucm_cts.adapters.mutants.python.variants.attachments import is_used_elsewhere
 from ucm_cts.adapters.mutants.python.variants.phases import starts_all_at_a_time
 from ucm_cts.adapters.reference.python.framework import Container, ContainerManager
 from ucm_cts.adapters.reference.python.members import Connection, Failures, Member, State
@@ -69,6 +70,15 @@ def _of_fragment(container: Container, connection: Connection) -> bool:
 def one_kind_a_container(self: Base, implementation: pm.Implementation) -> bool:
     """A container refuses to hold components and fragments together."""
     return any(m.implementation.fragment != implementation.fragment for m in self.members.values())
+
+
+@replaces("_remove_container", "R-11.2.2.2-03")
+def does_not_know_containers_in_use(self: Base, container: Container, failures: Failures) -> None:
+    """remove_container ends with NOT_FOUND while components of other containers are connected to members."""
+    if is_used_elsewhere(container):
+        raise pm.NotFound("in use")
+    self.manager._take_down([container], failures)
+    self.manager.sub_containers.remove(container)
 
 
 @replaces("create_container", "R-11.1.3-03")

@@ -27,6 +27,7 @@ class Call : public Event {
 ///
 /// `value`: an id, a list of ids, a reference or a business result.
 /// `records`: the records that were read from the log.
+/// `wrong`: what a business call gave instead of an integer, for people.
 class Return : public Event {
   public:
     explicit Return(std::int64_t step)
@@ -47,6 +48,10 @@ class Return : public Event {
     }
     Return& records(const std::vector<LogRecord>& its_records) {
         field("records", its_records);
+        return *this;
+    }
+    Return& wrong(const std::string& its_wrong) {
+        field("wrong", its_wrong);
         return *this;
     }
 };
@@ -109,6 +114,7 @@ class Create : public Event {
 /// `attributes`: the values that the body has at `on_init`.
 /// `method`: name of the method.
 /// `arguments`: IN and INOUT values of the method.
+/// `wrong`: what the framework handed over that is not of the type of the interface, for people; its field is empty.
 class Enter : public Event {
   public:
     Enter(const std::string& component, std::int64_t instance, Hook hook)
@@ -143,6 +149,10 @@ class Enter : public Event {
     }
     Enter& arguments(const std::vector<Datum>& its_arguments) {
         field("arguments", its_arguments);
+        return *this;
+    }
+    Enter& wrong(const std::string& its_wrong) {
+        field("wrong", its_wrong);
         return *this;
     }
 };
@@ -215,6 +225,7 @@ class Request : public Event {
 /// `raised`: it came back with an exception.
 /// `results`: OUT, INOUT and RETURN values of a method, or fields of `exception`.
 /// `exception`: name of the declared exception.
+/// `wrong`: what came back that is not of the type of the interface, for people.
 class Reply : public Event {
   public:
     Reply(const std::string& component, std::int64_t instance, const std::string& port)
@@ -239,12 +250,17 @@ class Reply : public Event {
         field("exception", its_exception);
         return *this;
     }
+    Reply& wrong(const std::string& its_wrong) {
+        field("wrong", its_wrong);
+        return *this;
+    }
 };
 
 /// A fragment called `get_components` of its container interface.
 ///
 /// `ids`: the result.
 /// `raised`: it ended with an exception.
+/// `wrong`: the result, if it is no list of integers, for people.
 class Siblings : public Event {
   public:
     Siblings(const std::string& component, std::int64_t instance)
@@ -258,6 +274,10 @@ class Siblings : public Event {
     }
     Siblings& raised(bool its_raised) {
         field("raised", its_raised);
+        return *this;
+    }
+    Siblings& wrong(const std::string& its_wrong) {
+        field("wrong", its_wrong);
         return *this;
     }
 };

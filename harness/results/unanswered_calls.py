@@ -1,0 +1,191 @@
+"""Business calls that never came back: which call a framework has lost, and which requirement that breaks.
+
+A call counts if all bodies were operational when it was made, if it is the framework's turn (no body is still inside on
+account of it), and if nothing that may end it was called before patience had run out once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from ucm_cts.adapters.contract import scenario as s
+from ucm_cts.adapters.contract import trace as t
+from ucm_cts.adapters.contract.scenario import Scenario
+from ucm_cts.harness.results.values import Execution, Incident
+from ucm_cts.reference_models.findings import Arrow, Finding
+from ucm_cts.reference_models.model.executions import call_guarantees
+from ucm_cts.reference_models.model.links import SENDERS
+from ucm_cts.reference_models.model.runtime import lane
+
+_ENDING = (s.Stop, s.RemoveComponent, s.RemoveContainer, s.Destroy, s.Disconnect, s.Detach, s.Break)
+"""Operations that may be the reason why a call in progress does not come back."""
+
+_BETWEEN_COMPONENTS = ("R-11.2.3-03", "interactions")
+_BY_CONNECTOR = {
+    s.SERVICE_CONNECTOR: ("R-10.1.5.1-01", "service_call_ends"),
+    s.MESSAGE_CONNECTOR: ("R-10.1.6.1-10", "messages_arrived"),
+}
+"""The requirement that a call breaks which does not come back, and its property."""
+
+
+@dataclass
+class _OpenCall:
+    """A business call that has not come back; ``lost``: nothing but the framework can be the reason."""
+
+    event: t.Call | t.Request
+    possible: bool
+    ended: bool = False
+    overdue: bool = False
+
+    @property
+    def lost(self) -> bool:
+        return self.possible and (self.overdue or not self.ended)
+
+
+@dataclass
+class _Reading:
+    """A trace as far as it has been read: what each thread is doing, and which bodies are operational."""
+
+    scenario: Scenario
+    threads: dict[int, list[t.Event]] = field(default_factory=dict)
+    calls: dict[int, _OpenCall] = field(default_factory=dict)
+    ready: dict[tuple[str, int], bool] = field(default_factory=dict)
+
+    def take(self, event: t.Event) -> None:
+        """Read the next event."""
+        stack = self.threads.setdefault(event.thread, [])
+        match event:
+            case t.Call():
+                stack.append(event)
+                self._begin(event)
+            case t.Request():
+                stack.append(event)
+                self.calls[event.n] = _OpenCall(event, self._all_ready())
+            case t.Enter():
+                stack.append(event)
+                self._note_phase(event)
+            case t.Return() | t.Raise() | t.Reply() | t.Exit():
+                if stack:
+                    self.calls.pop(stack.pop().n, None)
+                if isinstance(event, t.Exit) and event.hook == "on_startup":
+                    self.ready[event.body] = not event.raised
+            case t.Skip() if stack and isinstance(stack[-1], t.Call) and stack[-1].step == event.step:
+                self.calls.pop(stack.pop().n, None)
+            case t.Create():
+                self.ready[event.body] = False
+            case t.Timeout():
+                self._run_out_of_patience()
+            case _:
+                pass
+
+    def _begin(self, event: t.Call) -> None:
+        step = self.scenario.steps[event.step]
+        if isinstance(step, s.Invoke):
+            self.calls[event.n] = _OpenCall(event, self._all_ready())
+        elif isinstance(step, _ENDING):
+            for call in self.calls.values():
+                call.ended = True
+
+    def _note_phase(self, event: t.Enter) -> None:
+        if event.hook == "on_shutdown":
+            self.ready[event.body] = False
+        elif event.hook == "on_remove":
+            self.ready.pop(event.body, None)
+
+    def _run_out_of_patience(self) -> None:
+        if not self.has_bodies_inside():
+            for call in self.calls.values():
+                call.overdue = call.overdue or not call.ended
+
+    def _all_ready(self) -> bool:
+        return all(self.ready.values())
+
+    def tops(self) -> Iterator[t.Event]:
+        """What each thread is doing last."""
+        return (stack[-1] for stack in self.threads.values() if stack)
+
+    def has_bodies_inside(self) -> bool:
+        """Is a thread inside a body that waits for no call of its own?"""
+        return any(isinstance(event, t.Enter) for event in self.tops())
+
+
+def lost_call(execution: Execution) -> t.Call | t.Request | None:
+    """The call, of the test or of a body, that the framework has lost; None if it has certainly lost none."""
+    incident = execution.incident
+    reading = _Reading(execution.scenario)
+    for event in execution.trace:
+        reading.take(event)
+    if incident is None or reading.has_bodies_inside():
+        return None
+    waiting = [reading.calls[event.n] for event in reading.tops() if event.n in reading.calls]
+    hangs = incident.kind == "hang"
+    lost = [call.event for call in waiting if call.lost or (call.possible and not hangs)]
+    return max(lost, key=lambda event: event.n, default=None)
+
+
+def finding_of_lost_call(execution: Execution) -> Finding | None:
+    """A business call that did not come back, although every component was operational: 10.1.3.2, 10.1.5, 10.1.6 or 11.2.3."""
+    call, incident = lost_call(execution), execution.incident
+    if call is None or incident is None:
+        return None
+    scenario = execution.scenario
+    caller, port, callee = _ends(scenario, call)
+    requirement, rule = _requirement(scenario, call, port, callee)
+    name = call.method or "exchange" if isinstance(call, t.Request) else "exchange"
+    goal = f" to {callee[0]}" if callee is not None else ""
+    return Finding(
+        requirement,
+        rule,
+        f"call lost in a {incident.kind}",
+        f"the call of {name} that {caller} makes through {port}{goal} comes back: every component is operational",
+        f"it did not come back: {_what_happened(incident)}",
+        (call.n,),
+        call.step if isinstance(call, t.Call) else None,
+        (Arrow(callee[0] if callee is not None else "manager", caller, "result"),),
+    )
+
+
+def _what_happened(incident: Incident) -> str:
+    return "no answer within the time limit" if incident.kind == "hang" else f"{incident.kind}, {incident.detail}"
+
+
+def _requirement(
+    scenario: Scenario, call: t.Call | t.Request, port: str, callee: tuple[str, str] | None
+) -> tuple[str, str]:
+    """The requirement of the connector or execution policy that the call goes through, with its property."""
+    if isinstance(call, t.Request):
+        connectors = {step.bind: step.connector for step in scenario.steps if isinstance(step, s.Link)}
+        attached = [step for step in scenario.steps if isinstance(step, s.Attach) and step.role in SENDERS]
+        for step in attached:
+            if (_component(scenario, step.id), step.port) == (call.component, port) and step.link in connectors:
+                return _BY_CONNECTOR[connectors[step.link]]
+    declaration = scenario.components.get(callee[0]) if callee is not None else None
+    promised = call_guarantees(declaration, callee[1]) if declaration is not None and callee is not None else ()
+    return (promised[0], "calls_carried_out") if promised else _BETWEEN_COMPONENTS
+
+
+def _ends(scenario: Scenario, call: t.Call | t.Request) -> tuple[str, str, tuple[str, str] | None]:
+    """Who calls, through which port element or reference, and the component and port element called, if that is known."""
+    if isinstance(call, t.Request):
+        connected = (step for step in scenario.steps if isinstance(step, s.Connect) and step.port == call.port)
+        to = next((step.to for step in connected if _component(scenario, step.id) == call.component), "")
+        return lane(call.component, call.instance), call.port, _referred(scenario, to)
+    step = scenario.steps[call.step]
+    assert isinstance(step, s.Invoke)
+    return "the test", f"reference {step.ref}", _referred(scenario, step.ref)
+
+
+def _referred(scenario: Scenario, reference: str) -> tuple[str, str] | None:
+    """The component and the port element that the variable ``reference`` stands for."""
+    for step in scenario.steps:
+        if isinstance(step, s.GetPortElement) and step.bind == reference:
+            component = _component(scenario, step.id)
+            return (component, step.port) if component else None
+    return None
+
+
+def _component(scenario: Scenario, variable: str) -> str:
+    """The component of the instance that ``variable`` stands for; empty if it was never added."""
+    added = (step for step in scenario.steps if isinstance(step, s.AddComponent))
+    return next((step.component for step in added if (step.bind or step.component) == variable), "")
