@@ -12,6 +12,7 @@ from ucm_cts.harness.catalogue.profiles import FRAMEWORK_PROFILES
 from ucm_cts.harness.catalogue.requirements import (
     Need,
     Requirement,
+    decides,
     load_capabilities,
     load_interpretations,
     load_requirements,
@@ -30,11 +31,16 @@ def explanation(identifier: str) -> RenderableType:
     interpretations = {i.id: i for i in load_interpretations()}
     lines: list[RenderableType] = [
         Text(f"{requirement.id}  {requirement.title}", style="bold"),
-        Text(f"clause {requirement.clause}, {requirement.level}, profile {requirement.profile}"),
+        Text(f"clause {requirement.clause}, {requirement.force}, profile {requirement.profile}"),
         Text(),
         Text(requirement.meaning),
     ]
     for label, text in (
+        ("Derived", requirement.derived),
+        (
+            "Recommendation",
+            "" if decides(requirement.level) else "not following it does not make a product non-conformant",
+        ),
         ("Not tested", requirement.untestable),
         ("Not checked yet", requirement.pending),
         ("Observed", requirement.observed),
@@ -74,7 +80,7 @@ def overview() -> RenderableType:
         table.add_column(column)
     for r in load_requirements():
         remark = " (not testable)" if r.untestable else " (not checked yet)" if r.pending else ""
-        table.add_row(r.id, r.clause, r.level, r.title + remark)
+        table.add_row(r.id, r.clause, r.force, r.title + remark)
     return table
 
 

@@ -71,7 +71,11 @@ class FindingEntry(Entry, frozen=True):
 
 
 class RequirementEntry(Entry, frozen=True):
-    """One requirement of the catalogue with its verdict."""
+    """One requirement of the catalogue with its verdict.
+
+    ``decides``: whether it decides the verdict of the run; a recommendation (level ``should``) does not.
+    ``derived``: why it holds although the text does not say it; empty if the text says it.
+    """
 
     id: str
     clause: str
@@ -81,6 +85,8 @@ class RequirementEntry(Entry, frozen=True):
     exercised: int
     reason: str
     findings: tuple[FindingEntry, ...]
+    decides: bool = True
+    derived: str = ""
 
 
 class IncidentEntry(Entry, frozen=True):
@@ -182,7 +188,7 @@ def _requirement(result: v.RequirementResult, known: Mapping[str, Requirement]) 
     findings = enumerate(shortest_first(result.findings))
     return RequirementEntry.of(
         result,
-        level=known[result.id].level if result.id in known else "statement",
+        derived=known[result.id].derived if result.id in known else "",
         findings=tuple(_finding(failed, file_name(result.id, number)) for number, failed in findings),
     )
 

@@ -111,3 +111,12 @@ def test_purposes_name_testable_requirements_and_are_unique() -> None:
         assert purpose.requirements
         for requirement in purpose.requirements:
             assert REQUIREMENTS[requirement].rules, f"{purpose.id}: {requirement}"
+
+
+@pytest.mark.parametrize("clause", ["10", "11", "12.10"])
+def test_levels_of_the_platform_say_what_decides(clause: str) -> None:
+    """What a product can contradict is an obligation; what is derived gives its reason and is tested."""
+    of_clause = [r for r in REQUIREMENTS.values() if r.clause == clause or r.clause.startswith(f"{clause}.")]
+    assert not [r.id for r in of_clause if r.level == "statement" and r.rules]
+    assert {r.id for r in of_clause if r.level == "may" and r.rules} <= {"R-10.1.3.2-20", "R-10.1.6.1-07"}
+    assert not [r.id for r in of_clause if r.derived and not r.rules]
