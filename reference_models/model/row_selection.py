@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ucm_cts.adapters.contract import scenario as s
-from ucm_cts.reference_models.model.executions import is_contradictory
+from ucm_cts.reference_models.model.executions import has_unknown_policy, is_contradictory
 from ucm_cts.reference_models.model.expected_callbacks import Listener
 from ucm_cts.reference_models.model.life_cycle import LifeCycleTable, State
 from ucm_cts.reference_models.model.observed_runtime import ObservedRuntime
@@ -100,7 +100,8 @@ class RowSelection:
         )
         ongoing.unclear_if(container.started is None or (declaration is not None and raises(declaration, *unforeseen)))
         ongoing.unclear_if(
-            declaration is not None and (is_contradictory(declaration) or has_several_clocks(declaration))
+            declaration is not None
+            and (is_contradictory(declaration) or has_several_clocks(declaration) or has_unknown_policy(declaration))
         )
         if declaration is not None and declaration.policies:
             ongoing.forgiving = True  # whether the policy is supported is policy_supported's matter

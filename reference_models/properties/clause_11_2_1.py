@@ -44,6 +44,25 @@ def attributes_before_init(check: Property, runtime: ObservedRuntime, callback: 
         yield _holds_others(check, _ATTRIBUTES, declaration, [a for a in wrong if a in typed], callback)
 
 
+@property_at("entered", "R-11.2.3-19", at=("on_init",))
+def own_attributes_only(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
+    """On entry to on_init the body holds no attribute that its type does not have."""
+    event = callback.event
+    declaration = runtime.scenario.components.get(event.component)
+    if callback.history.initialised or declaration is None:
+        return ()
+    extra = [name for name in event.attributes or {} if name not in declaration.attributes]
+    if not extra:
+        return check.kept()
+    has = ", ".join(list(declaration.attributes)[:_SHOWN]) or "none"
+    return check.fail(
+        "extra",
+        expected=f"'{callback.event.component}' is given attributes of its type only: {has}",
+        observed=f"its attribute {extra[0]!r} was set, which it does not have",
+        during=(callback.ongoing, event),
+    )
+
+
 def _is_configured(held: str | None, configured: str) -> bool:
     """Is it what was configured? A value of a type may have been read, and spelled anew."""
     value, own = read_spelled(configured), read_spelled(held)

@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import dataclasses
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TypeVar
 
 from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
-from ucm_cts.adapters.contract.scenario import ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, Policy
+from ucm_cts.adapters.contract.scenario import (
+    ACTIVE,
+    CLOCK,
+    COMPONENT_TRACE,
+    PORT_TRACE,
+    PROTECTED_PASSIVE,
+    SELF_EXECUTING,
+    UNPROTECTED_PASSIVE,
+    Policy,
+)
 from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, variant_of
 from ucm_cts.adapters.reference.python.execution import Executor, Trigger
@@ -231,3 +241,27 @@ def runs_one_component_at_a_time(self: Base, member: Member, trigger: Trigger) -
     """Of all self-executing components of the runtime one runs at a time."""
     with self.manager.__dict__.setdefault("one_run", threading.Lock()):
         Base._run(self, member, trigger)
+
+
+@variant_of(*POLICIES, "9.4.3.2", readings={"unknown-policy": "refused"})
+class refuses_unknown_policies_at_start(Base):
+    """A component with a policy that the framework does not know is added; its container does not start."""
+
+    def _check_policies(self, implementation: Implementation) -> None:
+        known = [p for p in implementation.policies if p.definition in _KNOWN]
+        super()._check_policies(dataclasses.replace(implementation, policies=known))
+
+    def _check_startable(self) -> None:
+        for member in self.members.values():
+            super()._check_policies(member.implementation)
+        super()._check_startable()
+
+
+@replaces("_execute_on_own_thread", clauses=POLICIES)
+def executes_active_components_by_period(self: Base, member: Member, work: Callable[[], T]) -> T:
+    """A call of an active component is executed when the component's next period begins."""
+    time.sleep(0.002)
+    return Base._execute_on_own_thread(self, member, work)
+
+
+_KNOWN = {*_EXECUTION, CLOCK, COMPONENT_TRACE, PORT_TRACE}
