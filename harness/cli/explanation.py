@@ -17,6 +17,7 @@ from ucm_cts.harness.catalogue.requirements import (
     load_interpretations,
     load_requirements,
 )
+from ucm_cts.harness.execution.leftovers import HOST_CHECKS
 from ucm_cts.harness.hosting.locate import WrongUse
 from ucm_cts.harness.models.core_models import CHECKS
 from ucm_cts.harness.purposes.selection import load_purposes
@@ -52,7 +53,7 @@ def explanation(identifier: str) -> RenderableType:
         lines += _paragraph(f"Interpretation {name}: ", entry.reason, *entry.lines[1:], *options)
     for need in load_capabilities().of(requirement.id):
         lines += _paragraph("Applies where the vendor states: ", _needed(need))
-    checks = CHECKS | TOOLCHAIN_CHECKS
+    checks = CHECKS | TOOLCHAIN_CHECKS | HOST_CHECKS
     for rule in requirement.rules:
         doc = checks[rule] if rule in checks else (PROPERTIES[rule].evaluate.__doc__ or "").strip().splitlines()[0]
         lines += _paragraph(f"Checked by {rule}: ", doc)

@@ -14,6 +14,7 @@ from ucm_cts.harness.catalogue.requirements import (
     load_life_cycle,
     load_requirements,
 )
+from ucm_cts.harness.execution.leftovers import FREED, HOST_CHECKS
 from ucm_cts.harness.models.core_models import CHECKS, checked
 from ucm_cts.harness.purposes.derived.life_cycle import generated_purposes
 from ucm_cts.harness.purposes.selection import load_purposes
@@ -21,7 +22,12 @@ from ucm_cts.harness.toolchains.examinations import TOOLCHAIN_CHECKS, stand_for
 from ucm_cts.reference_models.properties.table import PROPERTIES
 
 REQUIREMENTS = {r.id: r for r in load_requirements()}
-STANDS_FOR = {rule.name: rule.stands_for for rule in PROPERTIES.values()} | checked() | stand_for()
+STANDS_FOR = (
+    {rule.name: rule.stands_for for rule in PROPERTIES.values()}
+    | checked()
+    | stand_for()
+    | dict.fromkeys(HOST_CHECKS, (FREED,))
+)
 INTERPRETATIONS = {i.id: i for i in load_interpretations()}
 
 ONLY_UNDER_OTHER_READINGS = {
@@ -80,7 +86,7 @@ def test_offered_profile_has_nothing_pending(profile: str) -> None:
 
 def test_rules_stand_for_known_requirements_that_name_them() -> None:
     assert not PROPERTIES.keys() & CHECKS.keys()
-    assert STANDS_FOR.keys() == PROPERTIES.keys() | CHECKS.keys() | TOOLCHAIN_CHECKS.keys()
+    assert STANDS_FOR.keys() == PROPERTIES.keys() | CHECKS.keys() | TOOLCHAIN_CHECKS.keys() | HOST_CHECKS.keys()
     for rule, requirements in STANDS_FOR.items():
         for requirement in requirements:
             assert rule in REQUIREMENTS[requirement].rules, f"{requirement} does not name {rule}"

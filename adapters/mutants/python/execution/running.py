@@ -120,3 +120,10 @@ class executes_active_components_once_more(Base):
             again = partial(super()._execute, member, port, lambda: element.exchange(0))
             threading.Timer(0.01, again).start()
         return result
+
+
+@replaces("_remove", "R-11.2.2.2-07", clauses=POLICIES)
+def leaves_threads_of_active_components(self: Base, member: Member, failures: Failures) -> None:
+    """The thread of an active component is not ended when its component is removed."""
+    member.execution.executor.close = lambda: None  # type: ignore[method-assign]
+    Base._remove(self, member, failures)
