@@ -49,7 +49,7 @@ def _undisturbed(runtime: ObservedRuntime) -> list[tuple[ServiceCall, Trouble]]:
     return [(one, trouble) for one, trouble in judged if one.call not in altered]
 
 
-@property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE)
+@property_at("closed", _CALLS, _CLIENTS, _OWN, _ONE_SERVER, _INHERITED, _TEMPLATE)
 def service_call(check: Property, runtime: ObservedRuntime) -> Conclusions:
     """A call enters the connected server once, at the method called, and comes back as the server was left."""
     judged = _undisturbed(runtime)
@@ -69,7 +69,11 @@ def service_call(check: Property, runtime: ObservedRuntime) -> Conclusions:
             yield _violate(check, _CALLS, trouble, one, expected, observed)
         elif trouble in ("not served", "elsewhere", "failed"):
             observed = _what_failed(runtime, one, trouble)
-            yield _violate(check, _concerned(runtime, one, good), trouble, one, expected, observed)
+            spoilt = trouble == "failed" and any(
+                one.meets(o) and o.exit is not None and o.exit.failed for o, _ in judged
+            )
+            requirement = _OWN if spoilt else _concerned(runtime, one, good)
+            yield _violate(check, requirement, trouble, one, expected, observed)
 
 
 @property_at("closed", _CALLS, _CLIENTS, _ONE_SERVER, _INHERITED, _TEMPLATE, timed=True)
