@@ -153,15 +153,16 @@ def disconnect_arguments(check: Property, runtime: ObservedRuntime, callback: Ca
 
 @property_at("entered", "R-11.2.1.4-02", at=("on_startup", "set_container_interface"), feature="fragments")
 def container_interface(check: Property, runtime: ObservedRuntime, callback: Callback) -> Concluded:
-    """A fragment gets its container's interface exactly once, before on_startup."""
+    """A fragment gets its container's interface before on_startup, and once unless declared otherwise."""
     event, _, ongoing, history = callback
     declaration = runtime.scenario.components.get(event.component)
     if declaration is None or not declaration.fragment:
         return ()
     given = history.interfaces
     first_start = event.hook == "on_startup" and not history.begun
-    again = event.hook == "set_container_interface" and given > 0
-    if first_start and given == 1:
+    may_come_again = runtime.ics.reading("container-interface") == "repeated"
+    again = event.hook == "set_container_interface" and given > 0 and not may_come_again
+    if first_start and (given == 1 or (given and may_come_again)):
         return check.kept()
     if again or (first_start and given == 0):
         return check.fail(
