@@ -310,3 +310,27 @@ class gives_the_container_at_each_start(Base):
         if isinstance(member.body, pm.FragmentObject):
             member.body.set_container_interface(self)
         return super()._start_up(member, failures)
+
+
+@variant_of(*CONTAINER, readings={"id-scope": "runtime"})
+class takes_ids_of_the_whole_runtime(Base):
+    """Every container takes the ids of components and connections of all containers."""
+
+    def _owner(self, comp_instance: int) -> Container:
+        all_containers: list[Container] = [self, self.manager, *self.manager.sub_containers]
+        return next((c for c in all_containers if comp_instance in c.members), self)
+
+    def remove_component(self, comp_instance: int) -> None:
+        Container.remove_component(self._owner(comp_instance), comp_instance)
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> pm.PortElementObject:
+        return Container.get_port_element(self._owner(comp_instance), comp_instance, port_name)
+
+    def connect(self, instance: int, port_name: str, to_port: pm.PortElementObject | None) -> int:
+        return Container.connect(self._owner(instance), instance, port_name, to_port)
+
+    def disconnect(self, connection: int) -> None:
+        found = self.manager.connections.get(connection)
+        owner = found.client.container if found is not None else self
+        assert isinstance(owner, Container)
+        Container.disconnect(owner, connection)
