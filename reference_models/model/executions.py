@@ -302,6 +302,11 @@ def is_contradictory(declaration: Declaration) -> bool:
     return len({p.definition for p in applied}) > 1 or sum(p.port is None for p in applied) > 1
 
 
+def is_guarded(ics: Ics, *executions: Execution) -> bool:
+    """Must the container keep these executions apart, or did the test enter through a reference that is declared unprotected?"""
+    return ics.reading("raw-references") != "unprotected" or not any(e.call and e.call.by == "test" for e in executions)
+
+
 def has_unknown_policy(declaration: Declaration) -> bool:
     """Has the component a policy that the core does not define?"""
     return any(p.definition not in _KNOWN for p in declaration.policies)

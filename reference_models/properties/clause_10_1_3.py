@@ -218,6 +218,8 @@ def no_overlap_under_stress(check: Property, runtime: ObservedRuntime, event: St
         return
     ports = [runtime.ports[ref] for ref in step.refs]
     requirement = ex.exclusion(member.declaration, runtime.ics, ports[0], ports[-1])
+    if runtime.ics.reading("raw-references") == "unprotected":
+        return
     if not requirement:
         if event.overlaps and ex.protection_of(member.declaration) == "unprotected":
             yield check.kept("R-10.1.3.2-20")

@@ -39,7 +39,7 @@ def no_reentry(check: Property, runtime: ObservedRuntime, execution: ex.Executio
     declaration = runtime.scenario.components[enter.component]
     for other in execution.met:
         requirement = ex.exclusion(declaration, runtime.ics, execution.way, other.way)
-        if requirement:
+        if requirement and ex.is_guarded(runtime.ics, execution, other):
             yield check.fail(
                 f"{other.way} {execution.way}",
                 expected=f"nothing else executes '{lane(*enter.body)}' while its {other.way} is executed",

@@ -29,6 +29,7 @@ from ucm_cts.adapters.mutants.python.registry import (
     container_of,
     family,
 )
+from ucm_cts.adapters.mutants.python.variants.execution import protects_what_components_call
 from ucm_cts.adapters.reference.python.connectors import Link, Taker
 from ucm_cts.adapters.reference.python.execution import Trigger
 from ucm_cts.adapters.reference.python.members import Member
@@ -397,3 +398,8 @@ def ignores_unknown_policies_of_ports(self: Base, implementation: Implementation
 
 
 _KNOWN = {ACTIVE, PROTECTED_PASSIVE, SELF_EXECUTING, UNPROTECTED_PASSIVE, CLOCK, COMPONENT_TRACE, PORT_TRACE}
+
+
+@breaks("R-10.1.3.2-06", "R-10.1.3.2-09", "R-10.1.3.2-10", "R-10.1.3.2-13", "R-10.1.3.2-16", clauses=POLICIES)
+class leaves_references_unprotected(protects_what_components_call):
+    """References of get_port_element are not protected, which the vendor does not declare."""

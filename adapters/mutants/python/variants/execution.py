@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TypeVar
 
-from ucm_cts.adapters.contract.programming_model import Implementation, UcmError
+from ucm_cts.adapters.contract.data_types import Interface
+from ucm_cts.adapters.contract.programming_model import Implementation, PortElementObject, UcmError
 from ucm_cts.adapters.contract.scenario import (
     ACTIVE,
     CLOCK,
@@ -24,6 +25,7 @@ from ucm_cts.adapters.mutants.python.methods import alters, refuses_if, replaces
 from ucm_cts.adapters.mutants.python.registry import POLICIES, Base, variant_of
 from ucm_cts.adapters.reference.python.execution import Executor, Trigger
 from ucm_cts.adapters.reference.python.members import Failures, Member
+from ucm_cts.adapters.reference.python.policies import ProtectedElement
 
 _EXECUTION = frozenset((SELF_EXECUTING, ACTIVE, PROTECTED_PASSIVE, UNPROTECTED_PASSIVE))
 
@@ -265,3 +267,25 @@ def executes_active_components_by_period(self: Base, member: Member, work: Calla
 
 
 _KNOWN = {*_EXECUTION, CLOCK, COMPONENT_TRACE, PORT_TRACE}
+
+
+@variant_of(*POLICIES, readings={"raw-references": "unprotected"})
+class protects_what_components_call(Base):
+    """get_port_element gives out the bodies' own objects; components and connectors get protected references."""
+
+    def get_port_element(self, comp_instance: int, port_name: str) -> PortElementObject:
+        element = super().get_port_element(comp_instance, port_name)
+        return element.element if isinstance(element, ProtectedElement) else element
+
+    def _connect_to(self, member: Member, port: str, target: PortElementObject) -> int:
+        protected = [
+            container._reference_to(provider, provided)
+            for container in (self.manager, *self.manager.sub_containers)
+            for provider in container.members.values()
+            for provided in provider.implementation.provides
+            if provider.body.get_portElement(provided) is target
+        ]
+        return super()._connect_to(member, port, next(filter(None, protected), target))
+
+    def _interfaces_of(self, target: PortElementObject) -> list[Interface | None]:
+        return []
