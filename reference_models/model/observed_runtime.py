@@ -20,6 +20,7 @@ class ObservedRuntime(Runtime):
         super().__init__(scenario)
         self.ics = ics or Ics()
         self.shares_ids = self.ics.reading("id-scope") == "runtime"
+        self.replaces_servers = self.ics.reading("second-server") == "replace"
         self.executions = Executions(self) if interacting else _NO_EXECUTIONS
         self.interactions = Interactions(self) if interacting else _NO_INTERACTIONS
         self.service_calls: list[ServiceCall] | None = None

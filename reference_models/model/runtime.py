@@ -250,6 +250,7 @@ class Runtime:
         self.ports: dict[str, str] = {}
         self.destroyed = False
         self.shares_ids = False
+        self.replaces_servers = False
         self.changes = 0
         self.behind: dict[tuple[tuple[str, int], str], Behind] = {}
 

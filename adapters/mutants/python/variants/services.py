@@ -228,3 +228,16 @@ class compares_interfaces_at_start(Base):
                 provided = self._interfaces_of(connection.target)
                 if provided and member.implementation.interfaces.get(connection.port) not in provided:
                     raise UcmError(f"{connection.port!r} is connected to another interface")
+
+
+class _Replacing(Link):
+    def _check_room(self) -> None:
+        if self.connector == SERVICE_CONNECTOR and self.takers:
+            self.remove(self.takers[0])
+
+
+@variant_of(*_CLAUSES, readings={"second-server": "replace"})
+class replaces_servers(Base):
+    """A second server takes the place of the first."""
+
+    link_class: type[Link] = _Replacing
